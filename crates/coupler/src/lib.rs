@@ -1,0 +1,5 @@
+//! The interface between two solvers: frames, transports, coupling schemes. No PDE.
+
+mod options;
+
+pub use options::{Kappa, Scheme, StarSolver};

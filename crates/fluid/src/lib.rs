@@ -1,0 +1,9 @@
+//! Compressible two-phase flow: equations of state, Riemann solvers, `FluidSolver`.
+
+mod eos;
+mod initial;
+mod options;
+
+pub use eos::StiffenedGas;
+pub use initial::{InitialCondition, Phase, PhaseState, Pulse, PulseShape, Region, Shape};
+pub use options::{Boundary, Model, RiemannSolver};

@@ -1,0 +1,38 @@
+//! The rectangle of the (z, r) half-plane that a medium fills, and the metric on it.
+
+/// How the (z, r) plane is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Geometry {
+    /// Rotation about the axis r = 0: volumes and face areas carry the weight r (per radian).
+    Axisymmetric,
+    /// Plane strain: unit depth, r is a Cartesian coordinate.
+    Planar,
+}
+
+impl Geometry {
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 2] =
+        [("axisymmetric", Self::Axisymmetric), ("planar", Self::Planar)];
+}
+
+/// A side of a rectangle, of a block or of the whole domain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Side {
+    /// The side of smallest z.
+    ZMin,
+    /// The side of largest z.
+    ZMax,
+    /// The side of smallest r; the axis of an axisymmetric domain that starts at r = 0.
+    RMin,
+    /// The side of largest r.
+    RMax,
+}
+
+impl Side {
+    /// All four, in the order in which arrays over sides are laid out.
+    pub const ALL: [Self; 4] = [Self::ZMin, Self::ZMax, Self::RMin, Self::RMax];
+
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 4] =
+        [("z_min", Self::ZMin), ("z_max", Self::ZMax), ("r_min", Self::RMin), ("r_max", Self::RMax)];
+}

@@ -1,0 +1,7 @@
+//! Blocks of cells on a quadtree: geometry, fields, ghost layers. No physics.
+
+mod geometry;
+mod limiter;
+
+pub use geometry::{Geometry, Side};
+pub use limiter::Limiter;
