@@ -3,3 +3,5 @@
 mod options;
 
 pub use options::{Kappa, Scheme, StarSolver};
+mod star;
+pub use star::{FluidTrace, star_density};

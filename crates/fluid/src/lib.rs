@@ -1,9 +1,28 @@
-//! Compressible two-phase flow: equations of state, Riemann solvers, `FluidSolver`.
+//! Compressible two-phase flow: equations of state, Riemann solvers, [`FluidSolver`].
+//!
+//! The algorithm of a step reads in one place, `block.rs`: assemble a block with its ghosts, limited
+//! differences, half-step predictor, outer states, one Riemann problem per face, wall fluxes, update.
 
+mod block;
+mod boundary;
 mod eos;
+mod error;
+mod fill;
+mod godunov;
+mod hllc;
 mod initial;
+mod mixture;
 mod options;
+mod rows;
+mod solver;
+mod state;
 
+pub use boundary::{PressureHistory, WallState};
 pub use eos::StiffenedGas;
+pub use error::FluidError;
+pub use hllc::{Face, flux_hllc};
 pub use initial::{InitialCondition, Phase, PhaseState, Pulse, PulseShape, Region, Shape};
+pub use mixture::Mixture;
 pub use options::{Boundary, Model, RiemannSolver};
+pub use solver::{BoundaryLedger, Fixups, FluidSetup, FluidSolver};
+pub use state::Primitive;

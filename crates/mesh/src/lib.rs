@@ -1,7 +1,33 @@
-//! Blocks of cells on a quadtree: geometry, fields, ghost layers. No physics.
+//! Blocks of N × N cells on a quadtree: geometry, fields, ghost layers, slopes. No physics.
+//!
+//! - [`Geometry`], [`Domain`]: the rectangle of the (z, r) half-plane and the metric on it.
+//! - [`Quadtree`], [`BlockId`]: which blocks there are and who neighbours whom.
+//! - [`Mesh`]: both together: where the cells of a block lie.
+//! - [`Field`]: the cell averages of all blocks, one allocation.
+//! - [`Padded`]: one block with its ghost layers, assembled in scratch; what a kernel works on.
+//! - [`limited_differences`]: the slopes of a linear reconstruction.
+//!
+//! Only the cells themselves are stored; ghost layers are assembled block by block into scratch. So every
+//! block can be advanced in parallel from the old field into the new one without locks or `unsafe`, and
+//! both time levels are at hand for what needs them.
 
+mod domain;
+mod field;
 mod geometry;
 mod limiter;
+mod padded;
+mod parallel;
+mod quadtree;
+mod reduce;
 
+pub use domain::{Domain, Mesh, MeshError};
+pub use field::Field;
 pub use geometry::{Geometry, Side};
-pub use limiter::Limiter;
+pub use limiter::{Limiter, limited_differences};
+pub use padded::{GHOSTS, Padded};
+pub use parallel::{ScratchPool, for_each_block};
+pub use quadtree::{BlockId, Neighbour, Offset, Quadtree};
+pub use reduce::maximum;
+
+/// Cells along one side of a block, unless a test chooses otherwise.
+pub const BLOCK: usize = 16;

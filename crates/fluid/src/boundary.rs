@@ -1,0 +1,225 @@
+//! What bounds the fluid: ghost cells before the slopes, outer states and wall fluxes after them.
+
+use mesh::{Mesh, Padded, Side};
+
+use crate::hllc::Face;
+use crate::rows::{FaceRows, Reconstruction};
+use crate::{Boundary, Mixture, Primitive};
+
+/// A pressure history, linear between its points and constant beyond them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PressureHistory {
+    points: Vec<[f64; 2]>,
+}
+
+impl PressureHistory {
+    /// From (time s, pressure Pa) points in ascending order of time; `None` if there is none or they descend.
+    pub fn new(points: Vec<[f64; 2]>) -> Option<Self> {
+        let ascending = points.windows(2).all(|w| w[0][0] <= w[1][0]);
+        (!points.is_empty() && ascending).then_some(Self { points })
+    }
+
+    /// Pressure at a time, Pa.
+    pub fn at(&self, time: f64) -> f64 {
+        let after = self.points.partition_point(|p| p[0] <= time);
+        match (after.checked_sub(1).map(|k| self.points[k]), self.points.get(after).copied()) {
+            (Some([t0, p0]), Some([t1, p1])) => p0 + (p1 - p0) * ((time - t0) / (t1 - t0)),
+            (Some([_, p]), None) | (None, Some([_, p])) => p,
+            (None, None) => unreachable!("there is at least one point"),
+        }
+    }
+}
+
+/// The four sides of the domain.
+#[derive(Clone, Debug)]
+pub(crate) struct Boundaries {
+    kinds: [Boundary; 4],
+    /// The initial state in the cells along each side, on the finest level.
+    initial: [Vec<Primitive>; 4],
+    inflow: Option<PressureHistory>,
+}
+
+/// The state of the wall during a step: means over it of p*, v* and p*v*.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WallState {
+    /// Mean pressure, Pa.
+    pub pressure: f64,
+    /// Mean velocity along +z, m/s.
+    pub velocity: f64,
+    /// Mean of their product, W/m².
+    pub power: f64,
+}
+
+impl Boundaries {
+    pub fn new(kinds: [Boundary; 4], initial: [Vec<Primitive>; 4], inflow: Option<PressureHistory>) -> Self {
+        Self { kinds, initial, inflow }
+    }
+
+    pub fn kind(&self, side: Side) -> Boundary {
+        self.kinds[side as usize]
+    }
+
+    /// Fills the ghosts of one block beyond the domain, in primitive variables.
+    pub fn fill_ghosts<const N: usize>(&self, mesh: &Mesh<N>, slot: usize, cells: &mut Padded<N>) {
+        // r first: the z sides then find the ghosts beyond r filled and complete the corners.
+        for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+            if !mesh.touches(slot, side) {
+                continue;
+            }
+            for component in 0..5 {
+                let row = cells.component_mut(component);
+                match self.kind(side) {
+                    Boundary::Axis | Boundary::Wall => {
+                        Padded::<N>::reflect(row, side, if component == normal(side) { -1.0 } else { 1.0 });
+                    }
+                    Boundary::NonReflecting | Boundary::Inflow | Boundary::Interface => {
+                        Padded::<N>::extrapolate(row, side);
+                    }
+                    Boundary::Periodic => unreachable!("a periodic side has neighbours"),
+                }
+            }
+        }
+    }
+
+    /// Puts the outer states of open sides into the ghost cells at mid-step, without slopes.
+    pub fn impose_outer<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        time: f64,
+        mixture: &Mixture,
+        half: &mut Padded<N>,
+        keep: &mut [f64],
+    ) {
+        let id = mesh.tree().leaves()[slot];
+        for side in Side::ALL {
+            let inflow = match self.kind(side) {
+                Boundary::NonReflecting => None,
+                Boundary::Inflow => self.inflow.as_ref(),
+                _ => continue,
+            };
+            if !mesh.touches(slot, side) {
+                continue;
+            }
+            let first = if normal(side) == 1 { id.j } else { id.i } as usize * N;
+            for along in 0..N {
+                let mut state = self.initial[side as usize][first + along];
+                if let Some(history) = inflow {
+                    state = entering(state, side, history.at(time), mixture);
+                }
+                let (i, j) = ghost(side, N, along);
+                let k = Padded::<N>::index(i, j);
+                keep[k] = 0.0;
+                for (component, value) in state.to_array().into_iter().enumerate() {
+                    half.component_mut(component)[k] = value;
+                }
+            }
+        }
+    }
+
+    /// Replaces the fluxes through the wall between fluid and solid by those that the wall's state makes.
+    ///
+    /// On the fixed mesh the wall's motion carries fluid through the face: mass ρ*v*, momentum p* + ρ*v*²,
+    /// energy (1 + β₁) p*v* + β₂ v* + ½ρ*v*|v|², gas fraction with v*. Without it the liquid would not feel the
+    /// wall give way.
+    ///
+    /// - `wall`: the states of the wall's faces, in the order of r; `first`: the block's first one.
+    pub fn impose_wall<const N: usize>(
+        wall: &[WallState],
+        cells: &Reconstruction<'_>,
+        mixture: &Mixture,
+        faces: &mut FaceRows,
+    ) {
+        for (j, state) in wall.iter().enumerate() {
+            let inner = Padded::<N>::index(0, j as isize);
+            faces.set(inner - 1, wall_face(cells.face_state(inner, -1.0), *state, mixture));
+        }
+    }
+}
+
+/// The flux through a wall that moves with `wall.velocity`, see [`Boundaries::impose_wall`].
+fn wall_face(trace: [f64; 5], wall: WallState, mixture: &Mixture) -> Face {
+    let [density, v_n, v_t, pressure, phi] = trace;
+    let at = mixture.at(phi);
+    let fluid = coupler::FluidTrace { pressure, velocity: v_n, density, gamma: at.gamma, pi: at.pi };
+    let star = coupler::star_density(&fluid, wall.pressure);
+    let mass = star * wall.velocity;
+    let kinetic = 0.5 * mass * (wall.velocity * wall.velocity + v_t * v_t);
+    let energy = (1.0 + mixture.beta1(phi)) * wall.power + mixture.beta2(phi) * wall.velocity + kinetic;
+    Face { mass, velocity: wall.velocity, pressure: wall.pressure, shear: mass * v_t, energy, phi }
+}
+
+/// The state behind a plane wave of pressure `p` that enters into `initial` through a side: isentropic, with
+/// v = ∫dp/(ρc) ≈ (p − p₀)/(ρc) inwards.
+fn entering(initial: Primitive, side: Side, p: f64, mixture: &Mixture) -> Primitive {
+    let at = mixture.at(initial.phi);
+    let ratio = (p + at.pi) / (initial.pressure + at.pi);
+    let density = initial.density * ratio.powf(1.0 / at.gamma);
+    let sound = |p: f64, rho: f64| (at.gamma * (p + at.pi) / rho).sqrt();
+    // Riemann invariant of the isentropic simple wave: v = 2 (c − c₀)/(γ − 1).
+    let jump = 2.0 / (at.gamma - 1.0) * (sound(p, density) - sound(initial.pressure, initial.density));
+    let inwards = if matches!(side, Side::ZMin | Side::RMin) { jump } else { -jump };
+    let (mut v_z, mut v_r) = (initial.v_z, initial.v_r);
+    if normal(side) == 1 {
+        v_z += inwards;
+    } else {
+        v_r += inwards;
+    }
+    Primitive { density, v_z, v_r, pressure: p, phi: initial.phi }
+}
+
+/// Component of the velocity normal to a side: 1 (v_z) or 2 (v_r).
+fn normal(side: Side) -> usize {
+    if matches!(side, Side::ZMin | Side::ZMax) { 1 } else { 2 }
+}
+
+/// The ghost cell next to a side, `along` cells from its beginning.
+fn ghost(side: Side, n: usize, along: usize) -> (isize, isize) {
+    let (n, along) = (n as isize, along as isize);
+    match side {
+        Side::ZMin => (-1, along),
+        Side::ZMax => (n, along),
+        Side::RMin => (along, -1),
+        Side::RMax => (along, n),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::StiffenedGas;
+
+    #[test]
+    fn a_history_is_linear_between_points_and_constant_beyond() {
+        let history = PressureHistory::new(vec![[0.0, 1e5], [1e-6, 3e5], [2e-6, 3e5], [2e-6, 1e5]]).unwrap();
+        assert_eq!(history.at(-1.0), 1e5);
+        assert_eq!(history.at(0.5e-6), 2e5);
+        assert_eq!(history.at(1.5e-6), 3e5);
+        assert_eq!(history.at(5.0), 1e5);
+        assert!(PressureHistory::new(vec![]).is_none());
+        assert!(PressureHistory::new(vec![[1.0, 0.0], [0.0, 0.0]]).is_none());
+    }
+
+    #[test]
+    fn a_wall_at_rest_passes_pressure_only_and_a_moving_one_the_physical_flux() {
+        let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let trace = [1000.0, 0.0, 3.0, 5e7, 0.0];
+        let rest = wall_face(trace, WallState { pressure: 5e7, velocity: 0.0, power: 0.0 }, &mixture);
+        assert_eq!((rest.mass, rest.pressure, rest.energy, rest.shear), (0.0, 5e7, 0.0, 0.0));
+        // A wall that moves with the fluid at its pressure passes the fluid's own flux.
+        let trace = [1000.0, 2.0, 3.0, 5e7, 0.0];
+        let moving = wall_face(trace, WallState { pressure: 5e7, velocity: 2.0, power: 1e8 }, &mixture);
+        let own = crate::hllc::flux_hllc(trace, trace, &mixture);
+        approx::assert_relative_eq!(moving.mass, own.mass, max_relative = 1e-14);
+        approx::assert_relative_eq!(moving.energy, own.energy, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn an_entering_wave_is_acoustic_when_weak() {
+        let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let rest = Primitive { density: 1000.0, v_z: 0.0, v_r: 0.0, pressure: 1e5, phi: 0.0 };
+        let state = entering(rest, Side::ZMax, 1e5 + 100.0, &mixture);
+        let impedance = 1000.0 * (7.15_f64 * (1e5 + 3e8) / 1000.0).sqrt();
+        approx::assert_relative_eq!(state.v_z, -100.0 / impedance, max_relative = 1e-5);
+    }
+}

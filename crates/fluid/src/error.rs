@@ -1,0 +1,34 @@
+//! What can go wrong in the fluid.
+
+/// An error of the fluid solver.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FluidError {
+    /// The mesh cannot be made.
+    #[error(transparent)]
+    Mesh(#[from] mesh::MeshError),
+    /// A side is an inflow, but there is no pressure history.
+    #[error("a side of the fluid is an inflow, but there is no pressure history for it")]
+    NoInflow,
+    /// A cell left the range in which the equations make sense.
+    #[error(
+        "the fluid is not physical at z = {z:.6e} m, r = {r:.6e} m, t = {time:.6e} s (step {step}): \
+         density {density:.4e} kg/m3, energy {energy:.4e} J/m3, gas fraction {phi:.4e}; \
+         try a smaller time.cfl or fluid.limiter = \"minmod\""
+    )]
+    NonPhysical {
+        /// Position, m.
+        z: f64,
+        /// Position, m.
+        r: f64,
+        /// Time at the end of the step, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// Density, kg/m³.
+        density: f64,
+        /// Total energy per volume, J/m³.
+        energy: f64,
+        /// Gas fraction.
+        phi: f64,
+    },
+}

@@ -1,0 +1,238 @@
+//! Cell averages of the initial condition.
+
+use mesh::{Field, Geometry, Mesh};
+
+use crate::{InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, Region, Shape};
+
+/// Points per direction at which a cell that a region's edge may cut is sampled.
+const SAMPLES: usize = 32;
+
+/// A gas fraction above which a cell counts as mixed and takes the gas's pressure.
+const MIXED: f64 = 1e-6;
+
+/// Fills a field of conserved variables with the initial condition.
+///
+/// Cells that the edge of a region cuts hold the volume fractions of what they contain; a mixed cell has
+/// density φρ_g + (1 − φ)ρ_l and the *gas's* pressure. At the liquid's pressure the gas in it would be
+/// compressed gas that expands as soon as the run starts.
+pub(crate) fn fill<const N: usize>(
+    initial: &InitialCondition,
+    mesh: &Mesh<N>,
+    mixture: &Mixture,
+    field: &mut Field,
+) {
+    for (slot, id) in mesh.tree().leaves().to_vec().into_iter().enumerate() {
+        let widths = mesh.widths(id.level);
+        for j in 0..N {
+            for i in 0..N {
+                let centre = mesh.centre(id, i, j);
+                let mut state = cell(initial, mesh.domain().geometry, centre, widths);
+                for pulse in &initial.pulses {
+                    add_pulse(pulse, centre, mixture, &mut state);
+                }
+                let block = field.block_mut(slot);
+                for (component, value) in state.to_conserved(mixture).into_iter().enumerate() {
+                    block[(component * N + j) * N + i] = value;
+                }
+            }
+        }
+    }
+}
+
+/// The average over one cell, without pulses.
+fn cell(initial: &InitialCondition, geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> Primitive {
+    if !initial.regions.iter().any(|region| may_cut(region, centre, widths)) {
+        return pure(*at_point(initial, centre));
+    }
+    let mut sums = Sums::default();
+    for b in 0..SAMPLES {
+        for a in 0..SAMPLES {
+            let offset = |k: usize, h: f64| h * ((k as f64 + 0.5) / SAMPLES as f64 - 0.5);
+            let point = [centre[0] + offset(a, widths[0]), centre[1] + offset(b, widths[1])];
+            let weight = if geometry == Geometry::Axisymmetric { point[1] } else { 1.0 };
+            sums.add(weight, at_point(initial, point));
+        }
+    }
+    sums.average()
+}
+
+/// Weighted sums over the samples of a cell.
+#[derive(Default)]
+struct Sums {
+    weight: f64,
+    gas: f64,
+    mass: f64,
+    momentum: [f64; 2],
+    pressure: f64,
+    gas_pressure: f64,
+}
+
+impl Sums {
+    fn add(&mut self, weight: f64, state: &PhaseState) {
+        self.weight += weight;
+        self.mass += weight * state.density;
+        for axis in 0..2 {
+            self.momentum[axis] += weight * state.density * state.velocity[axis];
+        }
+        self.pressure += weight * state.pressure;
+        if state.phase == Phase::Gas {
+            self.gas += weight;
+            self.gas_pressure += weight * state.pressure;
+        }
+    }
+
+    fn average(&self) -> Primitive {
+        let phi = self.gas / self.weight;
+        let pressure =
+            if phi > MIXED { self.gas_pressure / self.gas } else { self.pressure / self.weight };
+        Primitive {
+            density: self.mass / self.weight,
+            v_z: self.momentum[0] / self.mass,
+            v_r: self.momentum[1] / self.mass,
+            pressure,
+            phi,
+        }
+    }
+}
+
+fn pure(state: PhaseState) -> Primitive {
+    Primitive {
+        density: state.density,
+        v_z: state.velocity[0],
+        v_r: state.velocity[1],
+        pressure: state.pressure,
+        phi: if state.phase == Phase::Gas { 1.0 } else { 0.0 },
+    }
+}
+
+/// The state at a point: the last region painted over it, else the ambient.
+fn at_point(initial: &InitialCondition, point: [f64; 2]) -> &PhaseState {
+    (initial.regions.iter().rev())
+        .find(|region| contains(&region.shape, point))
+        .map_or(&initial.ambient, |region| &region.state)
+}
+
+fn contains(shape: &Shape, [z, r]: [f64; 2]) -> bool {
+    match shape {
+        Shape::Sphere { centre, radius } => (z - centre[0]).hypot(r - centre[1]) < *radius,
+        Shape::Box { z: [z0, z1], r: [r0, r1] } => z >= *z0 && z < *z1 && r >= *r0 && r < *r1,
+    }
+}
+
+/// Whether a region's edge may pass through the cell.
+fn may_cut(region: &Region, [z, r]: [f64; 2], [hz, hr]: [f64; 2]) -> bool {
+    match region.shape {
+        Shape::Sphere { centre, radius } => {
+            ((z - centre[0]).hypot(r - centre[1]) - radius).abs() <= 0.5 * hz.hypot(hr)
+        }
+        Shape::Box { z: z_range, r: r_range } => {
+            let near = |edge: f64, x: f64, h: f64| (edge - x).abs() < 0.5 * h * (1.0 - 1e-9);
+            let spans = |range: [f64; 2], x: f64, h: f64| x + h > range[0] && x - h < range[1];
+            (z_range.iter().any(|e| near(*e, z, hz)) && spans(r_range, r, hr))
+                || (r_range.iter().any(|e| near(*e, r, hr)) && spans(z_range, z, hz))
+        }
+    }
+}
+
+/// Adds p' = A exp(−d²/a²) with isentropic density and, if it travels, v = p'/(ρc).
+fn add_pulse(pulse: &crate::Pulse, [z, r]: [f64; 2], mixture: &Mixture, state: &mut Primitive) {
+    let (dz, dr) = (z - pulse.centre[0], r - pulse.centre[1]);
+    let (distance, direction) = match pulse.shape {
+        PulseShape::Sphere => (dz.hypot(dr), None),
+        PulseShape::Plane { direction: None } => (dz, None),
+        PulseShape::Plane { direction: Some(n) } => (dz * n[0] + dr * n[1], Some(n)),
+    };
+    let excess = pulse.amplitude * (-(distance / pulse.width).powi(2)).exp();
+    let at = mixture.at(state.phi);
+    let impedance = (mixture.stiffness(state.pressure, state.phi) * state.density).sqrt();
+    state.density *= ((state.pressure + excess + at.pi) / (state.pressure + at.pi)).powf(1.0 / at.gamma);
+    state.pressure += excess;
+    if let Some(n) = direction {
+        state.v_z += excess / impedance * n[0];
+        state.v_r += excess / impedance * n[1];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::StiffenedGas;
+    use mesh::Domain;
+
+    fn bubble(centre: f64) -> InitialCondition {
+        let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
+        InitialCondition {
+            ambient: state(Phase::Liquid, 1000.0, 5e7),
+            regions: vec![Region {
+                shape: Shape::Sphere { centre: [centre, 0.0], radius: 0.3 },
+                state: state(Phase::Gas, 0.0266, 2118.0),
+            }],
+            pulses: vec![],
+        }
+    }
+
+    fn filled(initial: &InitialCondition) -> (Mesh<8>, Field, Mixture) {
+        let domain = Domain { geometry: Geometry::Axisymmetric, z: [0.0, 1.0], r: [0.0, 1.0] };
+        let mesh = Mesh::<8>::uniform(domain, [1, 1], 6, [false; 2]).unwrap();
+        let mixture =
+            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let mut field = Field::zeros(mesh.blocks(), 64, 5);
+        fill(initial, &mesh, &mixture, &mut field);
+        (mesh, field, mixture)
+    }
+
+    #[test]
+    fn the_bubble_has_its_volume_wherever_it_sits() {
+        for centre in [0.5, 0.5037, 0.0] {
+            let (mesh, field, _) = filled(&bubble(centre));
+            let mut volume = 0.0;
+            for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+                for j in 0..8 {
+                    for i in 0..8 {
+                        volume += field.component(slot, 4)[j * 8 + i] * mesh.volume(*id, j);
+                    }
+                }
+            }
+            let share = if centre == 0.0 { 0.5 } else { 1.0 };
+            let exact = share * 2.0 / 3.0 * 0.3_f64.powi(3);
+            assert!((volume / exact - 1.0).abs() < 2e-4, "{centre}: {volume} {exact}");
+        }
+    }
+
+    #[test]
+    fn mixed_cells_hold_the_gas_pressure() {
+        let (_, field, mixture) = filled(&bubble(0.5));
+        let mut mixed = 0;
+        for slot in 0..64 {
+            for k in 0..64 {
+                let u = std::array::from_fn(|c| field.component(slot, c)[k]);
+                let w = Primitive::from_conserved(u, &mixture);
+                let expected = if w.phi > MIXED { 2118.0 } else { 5e7 };
+                assert!((w.pressure - expected).abs() < 1e-6 * 5e7, "{w:?}");
+                let density = w.phi * 0.0266 + (1.0 - w.phi) * 1000.0;
+                assert!((w.density - density).abs() < 1e-9 * 1000.0);
+                mixed += usize::from(w.phi > 1e-6 && w.phi < 1.0 - 1e-6);
+            }
+        }
+        assert!(mixed > 50, "{mixed} mixed cells");
+    }
+
+    #[test]
+    fn a_travelling_pulse_is_acoustic() {
+        let mut initial = bubble(0.5);
+        initial.regions.clear();
+        initial.pulses = vec![crate::Pulse {
+            shape: PulseShape::Plane { direction: Some([-1.0, 0.0]) },
+            centre: [0.5, 0.0],
+            width: 0.1,
+            amplitude: 1e4,
+        }];
+        let (mesh, field, mixture) = filled(&initial);
+        let (slot, i, j) = mesh.locate([0.5 + 1e-3, 0.3]).unwrap();
+        let u = std::array::from_fn(|c| field.component(slot, c)[j * 8 + i]);
+        let w = Primitive::from_conserved(u, &mixture);
+        let impedance = 1000.0 * 1581.929_201_955_64;
+        assert!((w.pressure - 5e7 - 1e4).abs() < 70.0);
+        assert!((w.v_z * impedance + (w.pressure - 5e7)).abs() < 1.0, "{w:?}");
+    }
+}

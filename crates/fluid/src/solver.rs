@@ -1,0 +1,312 @@
+//! `FluidSolver`: owns the mesh and the fields, and advances them.
+
+use mesh::{Domain, Field, Limiter, Mesh, ScratchPool, Side, for_each_block, maximum};
+
+use crate::block::{BlockReport, BlockScratch, StepContext, split_block, step_block};
+use crate::boundary::{Boundaries, PressureHistory, WallState};
+use crate::state::conserved::COUNT;
+use crate::{Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RiemannSolver, StiffenedGas};
+
+/// Everything that defines a fluid.
+#[derive(Clone, Debug)]
+pub struct FluidSetup {
+    /// Where it is.
+    pub domain: Domain,
+    /// Cells of the coarsest grid along z and r.
+    pub coarsest: [usize; 2],
+    /// Levels of refinement: the finest grid has `coarsest · 2^levels` cells.
+    pub levels: u8,
+    /// The liquid's equation of state.
+    pub liquid: StiffenedGas,
+    /// The gas's equation of state.
+    pub gas: StiffenedGas,
+    /// The two-phase model.
+    pub model: Model,
+    /// The Riemann solver at cell faces.
+    pub riemann: RiemannSolver,
+    /// The slope limiter.
+    pub limiter: Limiter,
+    /// What bounds it, in the order of [`Side::ALL`].
+    pub boundaries: [Boundary; 4],
+    /// What enters through sides of kind [`Boundary::Inflow`].
+    pub inflow: Option<PressureHistory>,
+}
+
+/// Corrections that were made where the scheme left the admissible states.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fixups {
+    /// Cell-steps at first order, because a reconstructed face state was not admissible.
+    pub first_order: u64,
+    /// Cell-steps lifted to the pressure floor.
+    pub floored: u64,
+    /// Energy that the floor added, J (per radian in axial symmetry, per metre of depth in planar geometry).
+    pub floor_energy: f64,
+}
+
+/// What crossed the sides of the domain since the start, inwards, in the order of [`Side::ALL`].
+///
+/// Per radian in axial symmetry, per metre of depth in planar geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BoundaryLedger {
+    /// Mass, kg.
+    pub mass: [f64; 4],
+    /// Axial momentum, N s: what flows in and the impulse of the pressure.
+    pub momentum: [f64; 4],
+    /// Energy, J.
+    pub energy: [f64; 4],
+}
+
+/// The fluid: state, time, and how to advance it.
+///
+/// `N` is the number of cells along a block's side.
+pub struct FluidSolver<const N: usize> {
+    pub(crate) mesh: Mesh<N>,
+    pub(crate) mixture: Mixture,
+    pub(crate) limiter: Limiter,
+    riemann: RiemannSolver,
+    pub(crate) boundaries: Boundaries,
+    pub(crate) state: Field,
+    next: Field,
+    reports: Vec<BlockReport>,
+    pub(crate) scratch: ScratchPool<BlockScratch<N>>,
+    pub(crate) wall: Vec<WallState>,
+    pub(crate) wall_first: Vec<usize>,
+    pub(crate) time: f64,
+    steps: u64,
+    fixups: Fixups,
+    ledger: BoundaryLedger,
+}
+
+impl<const N: usize> FluidSolver<N> {
+    /// A fluid filled with an initial condition. Scratch is made for the current rayon pool's threads.
+    ///
+    /// - errors: [`FluidError::Mesh`], [`FluidError::NoInflow`], [`FluidError::NonPhysical`].
+    pub fn new(setup: &FluidSetup, initial: &InitialCondition) -> Result<Self, FluidError> {
+        let mixture = Mixture::new(setup.liquid, setup.gas);
+        Self::with(setup, |mesh, field| crate::fill::fill(initial, mesh, &mixture, field))
+    }
+
+    /// A fluid filled point by point: `state` gives the primitive variables at a cell's centre (z, r).
+    ///
+    /// - errors: as [`FluidSolver::new`].
+    pub fn from_fn(setup: &FluidSetup, state: impl Fn([f64; 2]) -> Primitive) -> Result<Self, FluidError> {
+        let mixture = Mixture::new(setup.liquid, setup.gas);
+        Self::with(setup, |mesh, field| {
+            for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+                let [rho, mz, mr, energy, phi] = split_block::<N>(field.block_mut(slot));
+                for j in 0..N {
+                    for i in 0..N {
+                        let k = j * N + i;
+                        [rho[k], mz[k], mr[k], energy[k], phi[k]] =
+                            state(mesh.centre(*id, i, j)).to_conserved(&mixture);
+                    }
+                }
+            }
+        })
+    }
+
+    fn with(setup: &FluidSetup, fill: impl FnOnce(&Mesh<N>, &mut Field)) -> Result<Self, FluidError> {
+        let Model::SaurelAbgrall = setup.model;
+        let kinds = setup.boundaries;
+        if kinds.contains(&Boundary::Inflow) && setup.inflow.is_none() {
+            return Err(FluidError::NoInflow);
+        }
+        let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
+        let mesh = Mesh::<N>::uniform(setup.domain, setup.coarsest, setup.levels, periodic)?;
+        let mixture = Mixture::new(setup.liquid, setup.gas);
+        let mut state = Field::zeros(mesh.blocks(), N * N, COUNT);
+        fill(&mesh, &mut state);
+
+        let along = Side::ALL.map(|side| edge_states(&mesh, &state, &mixture, side));
+        let mut wall_first = vec![usize::MAX; mesh.blocks()];
+        let mut faces = 0;
+        if kinds[Side::ZMin as usize] == Boundary::Interface {
+            for slot in mesh.blocks_along(Side::ZMin) {
+                wall_first[slot] = faces;
+                faces += N;
+            }
+        }
+        let mut solver = Self {
+            reports: vec![BlockReport::default(); mesh.blocks()],
+            next: state.clone(),
+            state,
+            limiter: setup.limiter,
+            riemann: setup.riemann,
+            boundaries: Boundaries::new(kinds, along, setup.inflow.clone()),
+            scratch: ScratchPool::new(BlockScratch::new),
+            wall: vec![WallState::default(); faces],
+            wall_first,
+            time: 0.0,
+            steps: 0,
+            fixups: Fixups::default(),
+            ledger: BoundaryLedger::default(),
+            mixture,
+            mesh,
+        };
+        solver.measure_speeds();
+        solver.check(0.0)?;
+        Ok(solver)
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh<N> {
+        &self.mesh
+    }
+
+    /// The equations of state.
+    pub fn mixture(&self) -> &Mixture {
+        &self.mixture
+    }
+
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps made.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Corrections made so far.
+    pub fn fixups(&self) -> Fixups {
+        self.fixups
+    }
+
+    /// What crossed the domain's sides so far.
+    pub fn ledger(&self) -> &BoundaryLedger {
+        &self.ledger
+    }
+
+    /// Conserved variables ρ, ρv_z, ρv_r, ρE, φ of all blocks.
+    pub fn state(&self) -> &Field {
+        &self.state
+    }
+
+    /// The largest |v| + c along z and r, m/s.
+    pub fn largest_speeds(&self) -> [f64; 2] {
+        self.reports.iter().fold([0.0_f64; 2], |[z, r], report| {
+            [z.max(report.extremes.speed_z), r.max(report.extremes.speed_r)]
+        })
+    }
+
+    /// The largest step that the Courant number allows, s:
+    /// cfl · min over cells of min(h_z/(|v_z| + c), h_r/(|v_r| + c)).
+    pub fn time_step_limit(&self, cfl: f64) -> f64 {
+        (self.mesh.tree().leaves().iter().zip(&self.reports)).fold(f64::INFINITY, |limit, (id, report)| {
+            let [h_z, h_r] = self.mesh.widths(id.level);
+            limit.min(cfl * h_z / report.extremes.speed_z).min(cfl * h_r / report.extremes.speed_r)
+        })
+    }
+
+    /// Advances by `dt`. With a solid behind z_min the wall's state must have been set, see
+    /// [`FluidSolver::set_wall`].
+    ///
+    /// - errors: [`FluidError::NonPhysical`]; the state before the step is then kept.
+    pub fn step(&mut self, dt: f64) -> Result<(), FluidError> {
+        let context = StepContext {
+            mesh: &self.mesh,
+            mixture: &self.mixture,
+            limiter: self.limiter,
+            riemann: self.riemann,
+            boundaries: &self.boundaries,
+            old: &self.state,
+            time: self.time,
+            dt,
+            wall: &self.wall,
+            wall_first: &self.wall_first,
+        };
+        let scratch = &self.scratch;
+        for_each_block(&mut self.next, &mut self.reports, |slot, new, report| {
+            *report = scratch.with(|scratch| step_block(&context, slot, new, scratch));
+        });
+        std::mem::swap(&mut self.state, &mut self.next);
+        if let Err(error) = self.check(self.time + dt) {
+            std::mem::swap(&mut self.state, &mut self.next);
+            return Err(error);
+        }
+        self.account();
+        self.time += dt;
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// Adds up the blocks' reports in the order of their slots, so that sums do not depend on threads.
+    fn account(&mut self) {
+        for report in &self.reports {
+            self.fixups.first_order += u64::from(report.fallbacks);
+            self.fixups.floored += u64::from(report.floored);
+            self.fixups.floor_energy += report.floor_energy;
+            for (side, [mass, momentum, energy]) in report.inflow.into_iter().enumerate() {
+                self.ledger.mass[side] += mass;
+                self.ledger.momentum[side] += momentum;
+                self.ledger.energy[side] += energy;
+            }
+        }
+    }
+
+    /// Fails if a cell is not physical; its speed is then infinite.
+    fn check(&self, time: f64) -> Result<(), FluidError> {
+        if self.largest_speeds().iter().all(|speed| speed.is_finite()) {
+            return Ok(());
+        }
+        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
+            for j in 0..N {
+                for i in 0..N {
+                    let u: [f64; COUNT] = std::array::from_fn(|c| self.state.component(slot, c)[j * N + i]);
+                    let w = Primitive::from_conserved(u, &self.mixture);
+                    let stiffness = self.mixture.stiffness(w.pressure, w.phi);
+                    if w.density > 0.0 && stiffness >= 0.0 && (stiffness / w.density).is_finite() {
+                        continue;
+                    }
+                    let [z, r] = self.mesh.centre(*id, i, j);
+                    let [density, _, _, energy, phi] = u;
+                    let step = self.steps + 1;
+                    return Err(FluidError::NonPhysical { z, r, time, step, density, energy, phi });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Speeds of the initial state; later ones come with each step.
+    fn measure_speeds(&mut self) {
+        for slot in 0..self.mesh.blocks() {
+            let mut speeds = [[0.0; 2]; 1].repeat(N * N);
+            for (k, speed) in speeds.iter_mut().enumerate() {
+                let u: [f64; COUNT] = std::array::from_fn(|c| self.state.component(slot, c)[k]);
+                let w = Primitive::from_conserved(u, &self.mixture);
+                let sound = (self.mixture.stiffness(w.pressure, w.phi) / w.density).sqrt();
+                let sane = w.density > 0.0 && sound < f64::MAX;
+                *speed = if sane { [w.v_z.abs() + sound, w.v_r.abs() + sound] } else { [f64::INFINITY; 2] };
+            }
+            let extremes = &mut self.reports[slot].extremes;
+            extremes.speed_z = speeds.iter().fold(0.0, |m, s| m.max(s[0]));
+            extremes.speed_r = speeds.iter().fold(0.0, |m, s| m.max(s[1]));
+            extremes.phi = maximum(self.state.component(slot, crate::state::conserved::PHI));
+        }
+    }
+
+    /// The largest gas fraction in a block, for diagnostics that skip pure liquid.
+    pub(crate) fn largest_phi(&self, slot: usize) -> f64 {
+        self.reports[slot].extremes.phi
+    }
+}
+
+/// The states of the cells along one side of the domain, in order.
+fn edge_states<const N: usize>(mesh: &Mesh<N>, state: &Field, mixture: &Mixture, side: Side) -> Vec<Primitive> {
+    let mut states = Vec::new();
+    for slot in mesh.blocks_along(side) {
+        for along in 0..N {
+            let (i, j) = match side {
+                Side::ZMin => (0, along),
+                Side::ZMax => (N - 1, along),
+                Side::RMin => (along, 0),
+                Side::RMax => (along, N - 1),
+            };
+            let u = std::array::from_fn(|c| state.component(slot, c)[j * N + i]);
+            states.push(Primitive::from_conserved(u, mixture));
+        }
+    }
+    states
+}

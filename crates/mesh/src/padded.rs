@@ -1,0 +1,223 @@
+//! One block with its ghost layers.
+
+use crate::{Field, Neighbour, Offset, Quadtree, Side};
+
+/// Ghost layers on each side: what a slope in a neighbouring cell needs.
+pub const GHOSTS: usize = 2;
+
+/// Several components of one block with ghosts, laid out `[component][j][i]` with N + 4 cells along each side.
+///
+/// Kernels walk one component as one flat row of (N + 4)² numbers, in which the neighbours of `k` are `k ± 1`
+/// along z and `k ± STRIDE` along r; what they compute in passing for the ghosts at the ends of a row is not used.
+#[derive(Clone, Debug)]
+pub struct Padded<const N: usize> {
+    components: usize,
+    data: Vec<f64>,
+}
+
+impl<const N: usize> Padded<N> {
+    /// Distance between cells that neighbour each other along r.
+    pub const STRIDE: usize = N + 2 * GHOSTS;
+    /// Numbers per component.
+    pub const LEN: usize = Self::STRIDE * Self::STRIDE;
+
+    /// All zero.
+    pub fn zeros(components: usize) -> Self {
+        Self { components, data: vec![0.0; components * Self::LEN] }
+    }
+
+    /// Flat index of cell (i, j) of the block; ghosts have i or j in −2..0 and N..N + 2.
+    #[inline(always)]
+    pub const fn index(i: isize, j: isize) -> usize {
+        ((j + GHOSTS as isize) * Self::STRIDE as isize + i + GHOSTS as isize) as usize
+    }
+
+    /// One component.
+    pub fn component(&self, component: usize) -> &[f64] {
+        &self.data[component * Self::LEN..(component + 1) * Self::LEN]
+    }
+
+    /// One component, to write.
+    pub fn component_mut(&mut self, component: usize) -> &mut [f64] {
+        &mut self.data[component * Self::LEN..(component + 1) * Self::LEN]
+    }
+
+    /// All components, each a flat row.
+    pub fn split<const C: usize>(&self) -> [&[f64]; C] {
+        assert_eq!(C, self.components, "as many rows as components");
+        let mut rows = self.data.chunks_exact(Self::LEN);
+        std::array::from_fn(|_| rows.next().expect("asserted above"))
+    }
+
+    /// All components, each a flat row, to write.
+    pub fn split_mut<const C: usize>(&mut self) -> [&mut [f64]; C] {
+        assert_eq!(C, self.components, "as many rows as components");
+        let mut rows = self.data.chunks_exact_mut(Self::LEN);
+        std::array::from_fn(|_| rows.next().expect("asserted above"))
+    }
+
+    /// Copies the block in `slot` and the ghost cells that other blocks own. Ghosts beyond the domain are set
+    /// to the nearest cell of the block, so that they hold finite numbers; [`Padded::reflect`] and
+    /// [`Padded::extrapolate`] overwrite them.
+    pub fn assemble(&mut self, tree: &Quadtree, field: &Field, slot: usize) {
+        debug_assert_eq!(field.components(), self.components, "same components");
+        let neighbours = tree.neighbours(slot);
+        for component in 0..self.components {
+            let own = field.component(slot, component);
+            let row = self.component_mut(component);
+            for j in 0..N {
+                let at = Self::index(0, j as isize);
+                row[at..at + N].copy_from_slice(&own[j * N..(j + 1) * N]);
+            }
+            for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
+                match neighbour {
+                    Neighbour::Same(other) => {
+                        copy_ghosts::<N>(row, field.component(*other, component), *offset)
+                    }
+                    Neighbour::Boundary => hold_ghosts::<N>(row, *offset),
+                }
+            }
+        }
+    }
+
+    /// Fills the ghosts beyond a side of one component by reflection, times `parity` (±1).
+    pub fn reflect(row: &mut [f64], side: Side, parity: f64) {
+        for layer in 0..GHOSTS as isize {
+            for along in ghost_range::<N>() {
+                let (ghost, inner) = match side {
+                    Side::ZMin => (Self::index(-1 - layer, along), Self::index(layer, along)),
+                    Side::ZMax => {
+                        (Self::index(N as isize + layer, along), Self::index(N as isize - 1 - layer, along))
+                    }
+                    Side::RMin => (Self::index(along, -1 - layer), Self::index(along, layer)),
+                    Side::RMax => {
+                        (Self::index(along, N as isize + layer), Self::index(along, N as isize - 1 - layer))
+                    }
+                };
+                row[ghost] = parity * row[inner];
+            }
+        }
+    }
+
+    /// Fills the ghosts beyond a side of one component by continuing the smaller of the two inner differences
+    /// (none where they differ in sign): the boundary cell then has a slope made from its own side only.
+    pub fn extrapolate(row: &mut [f64], side: Side) {
+        let n = N as isize;
+        for along in ghost_range::<N>() {
+            let at = |depth: isize| match side {
+                Side::ZMin => Self::index(depth, along),
+                Side::ZMax => Self::index(n - 1 - depth, along),
+                Side::RMin => Self::index(along, depth),
+                Side::RMax => Self::index(along, n - 1 - depth),
+            };
+            let [first, second, third] = [row[at(0)], row[at(1)], row[at(2)]];
+            let difference = crate::limiter::minmod(first - second, second - third);
+            row[at(-1)] = first + difference;
+            row[at(-2)] = first + 2.0 * difference;
+        }
+    }
+}
+
+/// The cells along a side, ghosts at its ends included.
+fn ghost_range<const N: usize>() -> std::ops::Range<isize> {
+    -(GHOSTS as isize)..(N + GHOSTS) as isize
+}
+
+/// The range of cells that the ghosts in one direction cover, and the shift from them into their owner.
+fn ghost_span<const N: usize>(step: i8) -> (std::ops::Range<isize>, isize) {
+    let (n, g) = (N as isize, GHOSTS as isize);
+    match step {
+        -1 => (-g..0, n),
+        0 => (0..n, 0),
+        _ => (n..n + g, -n),
+    }
+}
+
+fn copy_ghosts<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset) {
+    let (span_i, shift_i) = ghost_span::<N>(offset.i);
+    let (span_j, shift_j) = ghost_span::<N>(offset.j);
+    let width = span_i.len();
+    for j in span_j {
+        let to = Padded::<N>::index(span_i.start, j);
+        let from = (j + shift_j) as usize * N + (span_i.start + shift_i) as usize;
+        row[to..to + width].copy_from_slice(&owner[from..from + width]);
+    }
+}
+
+fn hold_ghosts<const N: usize>(row: &mut [f64], offset: Offset) {
+    let (span_i, _) = ghost_span::<N>(offset.i);
+    let (span_j, _) = ghost_span::<N>(offset.j);
+    let last = N as isize - 1;
+    for j in span_j {
+        for i in span_i.clone() {
+            row[Padded::<N>::index(i, j)] = row[Padded::<N>::index(i.clamp(0, last), j.clamp(0, last))];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A field whose values name their place: 1000·(global j) + global i.
+    fn labelled<const N: usize>(tree: &Quadtree, extent: [usize; 2]) -> Field {
+        let mut field = Field::zeros(tree.leaves().len(), N * N, 1);
+        for (slot, id) in tree.leaves().iter().enumerate() {
+            for j in 0..N {
+                for i in 0..N {
+                    let place = [id.i as usize * N + i, id.j as usize * N + j];
+                    assert!(place[0] < extent[0] && place[1] < extent[1]);
+                    field.block_mut(slot)[j * N + i] = (1000 * place[1] + place[0]) as f64;
+                }
+            }
+        }
+        field
+    }
+
+    #[test]
+    fn ghosts_are_the_cells_of_the_neighbours_corners_included() {
+        let tree = Quadtree::uniform(0, [3, 3], 0, [true, true]);
+        let field = labelled::<8>(&tree, [24, 24]);
+        let mut padded = Padded::<8>::zeros(1);
+        for (slot, id) in tree.leaves().iter().enumerate() {
+            padded.assemble(&tree, &field, slot);
+            for j in -2..10_isize {
+                for i in -2..10_isize {
+                    let gi = (id.i as isize * 8 + i).rem_euclid(24);
+                    let gj = (id.j as isize * 8 + j).rem_euclid(24);
+                    assert_eq!(padded.component(0)[Padded::<8>::index(i, j)], (1000 * gj + gi) as f64);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn reflection_mirrors_both_layers_with_parity() {
+        let mut row: Vec<f64> = (0..Padded::<8>::LEN).map(|k| k as f64).collect();
+        for side in Side::ALL {
+            Padded::<8>::reflect(&mut row, side, -1.0);
+        }
+        let at = |i, j| row[Padded::<8>::index(i, j)];
+        assert_eq!(at(-1, 3), -at(0, 3));
+        assert_eq!(at(-2, 3), -at(1, 3));
+        assert_eq!(at(9, 3), -at(6, 3));
+        assert_eq!(at(3, -2), -at(3, 1));
+        assert_eq!(at(3, 8), -at(3, 7));
+        assert_eq!(at(-1, -1), at(0, 0));
+    }
+
+    #[test]
+    fn extrapolation_continues_a_line_and_flattens_an_extremum() {
+        let mut row = vec![0.0; Padded::<8>::LEN];
+        for j in -2..10 {
+            for i in -2..10 {
+                row[Padded::<8>::index(i, j)] =
+                    if j == 5 { [1.0, 3.0, 2.0][i.clamp(0, 2) as usize] } else { 3.0 * i as f64 };
+            }
+        }
+        Padded::<8>::extrapolate(&mut row, Side::ZMin);
+        assert_eq!(row[Padded::<8>::index(-1, 2)], -3.0);
+        assert_eq!(row[Padded::<8>::index(-2, 2)], -6.0);
+        assert_eq!(row[Padded::<8>::index(-1, 5)], 1.0);
+    }
+}

@@ -1,0 +1,48 @@
+//! Work on all blocks in parallel.
+
+use std::sync::Mutex;
+
+use rayon::prelude::*;
+
+use crate::Field;
+
+/// Blocks that a thread takes at once.
+const BLOCKS_AT_ONCE: usize = 4;
+
+/// Runs `work(slot, block, report)` for every block of a field, in parallel on the current rayon pool. The
+/// result cannot depend on the number of threads: each block has its own part of the field and its own report.
+pub fn for_each_block<R: Send>(
+    field: &mut Field,
+    reports: &mut [R],
+    work: impl Fn(usize, &mut [f64], &mut R) + Sync,
+) {
+    let len = field.block_len();
+    (field.as_mut_slice().par_chunks_mut(len))
+        .zip(reports.par_iter_mut())
+        .enumerate()
+        .with_min_len(BLOCKS_AT_ONCE)
+        .for_each(|(slot, (block, report))| work(slot, block, report));
+}
+
+/// One scratch object per worker thread, so that a step allocates nothing.
+///
+/// Each block is worked on with the scratch of the thread that took it; the locks are never contended.
+#[derive(Debug)]
+pub struct ScratchPool<T> {
+    slots: Vec<Mutex<T>>,
+}
+
+impl<T> ScratchPool<T> {
+    /// As many objects as the current rayon pool has threads.
+    pub fn new(make: impl Fn() -> T) -> Self {
+        Self { slots: (0..rayon::current_num_threads().max(1)).map(|_| Mutex::new(make())).collect() }
+    }
+
+    /// Runs `work` with this thread's scratch.
+    pub fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+        let index = rayon::current_thread_index().unwrap_or(0) % self.slots.len();
+        // A panic while working leaves scratch behind that the next block overwrites anyway.
+        let mut scratch = self.slots[index].lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        work(&mut scratch)
+    }
+}

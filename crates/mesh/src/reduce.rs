@@ -1,0 +1,31 @@
+//! Reductions over rows.
+
+/// The largest of a row's numbers, at least 0; NaN is skipped. In eight lanes, so that it vectorises.
+#[inline(always)]
+pub fn maximum(row: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let mut lanes = [0.0_f64; LANES];
+    let chunks = row.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for (lane, value) in lanes.iter_mut().zip(chunk) {
+            *lane = if *value > *lane { *value } else { *lane };
+        }
+    }
+    lanes.iter().chain(rest).fold(0.0, |m, v| if *v > m { *v } else { m })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_maximum_is_found_wherever_it_stands() {
+        for n in [1, 7, 8, 9, 31] {
+            for at in 0..n {
+                let mut row = vec![0.5; n];
+                row[at] = 2.0;
+                assert_eq!(super::maximum(&row), 2.0);
+            }
+        }
+        assert_eq!(super::maximum(&[-1.0, f64::NAN]), 0.0);
+    }
+}

@@ -1,0 +1,224 @@
+//! One MUSCL-Hancock step of one block: the algorithm, part by part.
+
+use mesh::{Field, Limiter, Mesh, Padded, Side, limited_differences};
+
+use crate::boundary::{Boundaries, SurfaceState};
+use crate::rows::{self, Elasticity, FaceRows, Metric, Reconstruction};
+use crate::state::component::COUNT;
+use crate::Boundary;
+
+/// What all blocks of a step share.
+pub(crate) struct StepContext<'a, const N: usize> {
+    pub mesh: &'a Mesh<N>,
+    pub elasticity: &'a Elasticity,
+    pub limiter: Limiter,
+    pub boundaries: &'a Boundaries,
+    /// The state at the beginning of the step.
+    pub old: &'a Field,
+    pub dt: f64,
+    /// The faces of the surface under the fluid in the order of r, and each block's first one.
+    pub surface: &'a [SurfaceState],
+    pub surface_first: &'a [usize],
+    /// Squared yield strength, Pa².
+    pub yield_squared: f64,
+}
+
+/// Scratch of one thread.
+pub(crate) struct BlockScratch<const N: usize> {
+    pub cells: Padded<N>,
+    pub s_z: Padded<N>,
+    pub s_r: Padded<N>,
+    half: Padded<N>,
+    pub inverse_r: Vec<f64>,
+    z_faces: FaceRows,
+    r_faces: FaceRows,
+    mises: Vec<f64>,
+}
+
+impl<const N: usize> BlockScratch<N> {
+    pub fn new() -> Self {
+        let len = Padded::<N>::LEN;
+        Self {
+            cells: Padded::zeros(COUNT),
+            s_z: Padded::zeros(COUNT),
+            s_r: Padded::zeros(COUNT),
+            half: Padded::zeros(COUNT),
+            inverse_r: vec![0.0; len],
+            z_faces: FaceRows::zeros(len),
+            r_faces: FaceRows::zeros(len),
+            mises: vec![0.0; N * N],
+        }
+    }
+}
+
+/// What one block tells of its step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BlockReport {
+    /// Largest squared von Mises stress, Pa²; infinite if a number is not finite.
+    pub mises_squared: f64,
+    /// Volume in which the yield strength is exceeded (per radian).
+    pub yielded: f64,
+    /// What came in through each side of the domain: axial momentum, energy (per radian).
+    pub inflow: [[f64; 2]; 4],
+}
+
+/// Components whose derivative along z, and along r, enters the equations.
+const ALONG_Z: [usize; 4] = [0, 1, 2, 3];
+const ALONG_R: [usize; 4] = [0, 1, 3, 4];
+
+/// Assembles a block with its ghosts and reconstructs it: the state in `cells`, limited differences in `s_z`, `s_r`.
+pub(crate) fn reconstruct<const N: usize>(
+    ctx: &StepContext<'_, N>,
+    slot: usize,
+    scratch: &mut BlockScratch<N>,
+) {
+    let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
+    cells.assemble(ctx.mesh.tree(), ctx.old, slot);
+    ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    for component in 0..COUNT - 1 {
+        limited_differences(
+            ctx.limiter,
+            cells.component(component),
+            Padded::<N>::STRIDE,
+            s_z.component_mut(component),
+            s_r.component_mut(component),
+        );
+    }
+    ctx.mesh.inverse_radii(ctx.mesh.tree().leaves()[slot], inverse_r);
+}
+
+/// Advances one block by one step from `ctx.old` into `new`.
+pub(crate) fn step_block<const N: usize>(
+    ctx: &StepContext<'_, N>,
+    slot: usize,
+    new: &mut [f64],
+    scratch: &mut BlockScratch<N>,
+) -> BlockReport {
+    let stride = Padded::<N>::STRIDE;
+    let id = ctx.mesh.tree().leaves()[slot];
+    let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
+
+    reconstruct(ctx, slot, scratch);
+    rows::predict(
+        scratch.cells.split(),
+        scratch.s_z.split(),
+        scratch.s_r.split(),
+        &scratch.inverse_r,
+        inverse_h,
+        0.5 * ctx.dt,
+        stride,
+        ctx.elasticity,
+        scratch.half.split_mut(),
+    );
+    ctx.boundaries.impose_outer(ctx.mesh, slot, &mut scratch.half, &mut scratch.s_z, &mut scratch.s_r);
+
+    let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
+    let differences = scratch.s_z.split::<COUNT>();
+    let along_z = Reconstruction { half: [v_z, v_r, zz, zr], differences: ALONG_Z.map(|c| differences[c]) };
+    let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
+    rows::faces(&along_z, 1, z_range, ctx.elasticity, &mut scratch.z_faces);
+    if ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax) {
+        let first = ctx.surface_first[slot];
+        let surface = &ctx.surface[first..first + N];
+        Boundaries::impose_surface::<N>(surface, &along_z, ctx.elasticity, &mut scratch.z_faces);
+    }
+
+    let differences = scratch.s_r.split::<COUNT>();
+    let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
+    let along_r = Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr] };
+    let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
+    rows::faces(&along_r, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
+
+    let metric = Metric {
+        n: N,
+        stride,
+        origin: Padded::<N>::index(0, 0),
+        inverse_h,
+        inverse_r: &scratch.inverse_r,
+    };
+    let old = ctx.old.block(slot);
+    let largest = rows::update(
+        std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
+        &scratch.z_faces,
+        &scratch.r_faces,
+        scratch.half.component(COUNT - 1),
+        ctx.dt,
+        &metric,
+        ctx.elasticity,
+        split_block::<N>(new),
+        &mut scratch.mises,
+    );
+    BlockReport {
+        mises_squared: largest,
+        yielded: if largest > ctx.yield_squared { yielded_volume(ctx, slot, &scratch.mises) } else { 0.0 },
+        inflow: boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces),
+    }
+}
+
+/// The components of one block of a field.
+pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COUNT] {
+    let mut rows = block.chunks_exact_mut(N * N);
+    std::array::from_fn(|_| rows.next().expect("a block has that many components"))
+}
+
+fn yielded_volume<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, mises: &[f64]) -> f64 {
+    let id = ctx.mesh.tree().leaves()[slot];
+    (mises.chunks_exact(N).enumerate())
+        .map(|(j, row)| {
+            let cells = row.iter().filter(|squared| **squared > ctx.yield_squared).count();
+            cells as f64 * ctx.mesh.volume(id, j)
+        })
+        .sum()
+}
+
+/// Axial momentum and energy that a block took in through the sides of the domain.
+fn boundary_inflow<const N: usize>(
+    ctx: &StepContext<'_, N>,
+    slot: usize,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+) -> [[f64; 2]; 4] {
+    let mut inflow = [[0.0; 2]; 4];
+    let id = ctx.mesh.tree().leaves()[slot];
+    let [h_z, h_r] = ctx.mesh.widths(id.level);
+    let r_low = ctx.mesh.origin(id)[1];
+    for side in Side::ALL {
+        if !ctx.mesh.touches(slot, side) {
+            continue;
+        }
+        let outward = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
+        let total = &mut inflow[side as usize];
+        for along in 0..N {
+            let [traction_z, power, area] = match side {
+                Side::ZMin | Side::ZMax => {
+                    let i = if side == Side::ZMin { -1 } else { N as isize - 1 };
+                    let k = Padded::<N>::index(i, along as isize);
+                    let area = ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r;
+                    [z_faces.s_nn[k], power(z_faces, k), area]
+                }
+                Side::RMin | Side::RMax => {
+                    let j = if side == Side::RMin { -1 } else { N as isize - 1 };
+                    let k = Padded::<N>::index(along as isize, j);
+                    let area = ctx.mesh.weight(r_low + (j + 1) as f64 * h_r) * h_z;
+                    [r_faces.s_nt[k], power(r_faces, k), area]
+                }
+            };
+            total[0] += outward * ctx.dt * area * traction_z;
+            total[1] += outward * ctx.dt * area * power;
+        }
+        if side == Side::ZMax && ctx.boundaries.kind(side) == Boundary::Interface {
+            // The mean of the product, not the product of the means, is what the fluid gave.
+            let first = ctx.surface_first[slot];
+            total[1] = -(ctx.surface[first..first + N].iter().enumerate())
+                .map(|(j, s)| ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]) * h_r * s.power)
+                .sum::<f64>()
+                * ctx.dt;
+        }
+    }
+    inflow
+}
+
+/// Power of the traction on a face with outward normal along the axis, W/m².
+fn power(faces: &FaceRows, k: usize) -> f64 {
+    faces.s_nn[k] * faces.v_n[k] + faces.s_nt[k] * faces.v_t[k]
+}

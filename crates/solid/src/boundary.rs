@@ -1,0 +1,123 @@
+//! What bounds the solid: ghost cells before the slopes, outer states and interface tractions after them.
+
+use mesh::{Mesh, Padded, Side};
+
+use crate::rows::{Elasticity, FaceRows, Reconstruction};
+use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
+use crate::{Boundary, ElasticState};
+
+/// The four sides of the domain.
+#[derive(Clone, Debug)]
+pub(crate) struct Boundaries {
+    kinds: [Boundary; 4],
+    /// The initial state in the cells along each side, on the finest level.
+    initial: [Vec<ElasticState>; 4],
+}
+
+/// The state of the surface under the fluid during a step: means over it of p*, v* and p*v*.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceState {
+    /// Mean pressure of the fluid, Pa.
+    pub pressure: f64,
+    /// Mean velocity along +z, m/s.
+    pub velocity: f64,
+    /// Mean of their product, W/m².
+    pub power: f64,
+}
+
+impl Boundaries {
+    pub fn new(kinds: [Boundary; 4], initial: [Vec<ElasticState>; 4]) -> Self {
+        Self { kinds, initial }
+    }
+
+    pub fn kind(&self, side: Side) -> Boundary {
+        self.kinds[side as usize]
+    }
+
+    /// Fills the ghosts of one block beyond the domain.
+    pub fn fill_ghosts<const N: usize>(&self, mesh: &Mesh<N>, slot: usize, cells: &mut Padded<N>) {
+        // r first: the z sides then find the ghosts beyond r filled and complete the corners.
+        for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+            if !mesh.touches(slot, side) {
+                continue;
+            }
+            for component in 0..6 {
+                let row = cells.component_mut(component);
+                match parity(self.kind(side), side, component) {
+                    Some(sign) => Padded::<N>::reflect(row, side, sign),
+                    None => Padded::<N>::extrapolate(row, side),
+                }
+            }
+        }
+    }
+
+    /// Puts the outer states of open sides into the ghost cells at mid-step, without slopes.
+    pub fn impose_outer<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        half: &mut Padded<N>,
+        s_z: &mut Padded<N>,
+        s_r: &mut Padded<N>,
+    ) {
+        let id = mesh.tree().leaves()[slot];
+        for side in Side::ALL {
+            if self.kind(side) != Boundary::NonReflecting || !mesh.touches(slot, side) {
+                continue;
+            }
+            let across_z = matches!(side, Side::ZMin | Side::ZMax);
+            let first = if across_z { id.j } else { id.i } as usize * N;
+            for along in 0..N {
+                let (n, a) = (N as isize, along as isize);
+                let (i, j) = match side {
+                    Side::ZMin => (-1, a),
+                    Side::ZMax => (n, a),
+                    Side::RMin => (a, -1),
+                    Side::RMax => (a, n),
+                };
+                let k = Padded::<N>::index(i, j);
+                let state = self.initial[side as usize][first + along].to_array();
+                for (component, value) in state.into_iter().enumerate() {
+                    half.component_mut(component)[k] = value;
+                    let slopes = if across_z { &mut *s_z } else { &mut *s_r };
+                    slopes.component_mut(component)[k] = 0.0;
+                }
+            }
+        }
+    }
+
+    /// Replaces the star states on the surface under the fluid (z_max): the wall's velocity, the fluid's
+    /// pressure, no shear traction; the tangential velocity follows from the arriving shear wave.
+    ///
+    /// - `surface`: the states of the surface's faces in the block, in the order of r.
+    pub fn impose_surface<const N: usize>(
+        surface: &[SurfaceState],
+        cells: &Reconstruction<'_>,
+        elasticity: &Elasticity,
+        faces: &mut FaceRows,
+    ) {
+        for (j, state) in surface.iter().enumerate() {
+            let k = Padded::<N>::index(N as isize - 1, j as isize);
+            let [_, v_t, _, s_nt] = cells.face_state(k, 1.0);
+            faces.v_n[k] = state.velocity;
+            faces.s_nn[k] = -state.pressure;
+            faces.s_nt[k] = 0.0;
+            faces.v_t[k] = v_t - s_nt / elasticity.z2;
+        }
+    }
+}
+
+/// The sign with which a component is reflected at a side; `None` where it is extrapolated.
+fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64> {
+    let across_z = matches!(side, Side::ZMin | Side::ZMax);
+    let v_normal = if across_z { V_Z } else { V_R };
+    let s_normal = S_NORMAL[usize::from(!across_z)];
+    let odd = match kind {
+        Boundary::Axis | Boundary::Symmetry => component == v_normal || component == S_ZR,
+        Boundary::Fixed => component == V_Z || component == V_R,
+        Boundary::Free => component == s_normal || component == S_ZR,
+        Boundary::NonReflecting | Boundary::Interface => return None,
+        Boundary::Periodic => unreachable!("a periodic side has neighbours"),
+    };
+    Some(if odd { -1.0 } else { 1.0 })
+}
