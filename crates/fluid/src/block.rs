@@ -31,7 +31,7 @@ pub(crate) struct BlockScratch<const N: usize> {
     pub s_r: Padded<N>,
     pub half: Padded<N>,
     pub keep: Vec<f64>,
-    inverse_r: Vec<f64>,
+    pub inverse_r: Vec<f64>,
     z_faces: FaceRows,
     r_faces: FaceRows,
     speeds: Padded<N>,
@@ -230,7 +230,11 @@ fn used_face<const N: usize>(k: usize, step: usize) -> bool {
     let (i, j) = (k % Padded::<N>::STRIDE, k / Padded::<N>::STRIDE);
     let inner = mesh::GHOSTS..mesh::GHOSTS + N;
     let faces = mesh::GHOSTS - 1..mesh::GHOSTS + N;
-    if step == 1 { faces.contains(&i) && inner.contains(&j) } else { inner.contains(&i) && faces.contains(&j) }
+    if step == 1 {
+        faces.contains(&i) && inner.contains(&j)
+    } else {
+        inner.contains(&i) && faces.contains(&j)
+    }
 }
 
 fn count_fallbacks<const N: usize>(keep: &[f64]) -> u32 {

@@ -202,7 +202,8 @@ mod tests {
 
     #[test]
     fn a_wall_at_rest_passes_pressure_only_and_a_moving_one_the_physical_flux() {
-        let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let mixture =
+            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let trace = [1000.0, 0.0, 3.0, 5e7, 0.0];
         let rest = wall_face(trace, WallState { pressure: 5e7, velocity: 0.0, power: 0.0 }, &mixture);
         assert_eq!((rest.mass, rest.pressure, rest.energy, rest.shear), (0.0, 5e7, 0.0, 0.0));
@@ -216,7 +217,8 @@ mod tests {
 
     #[test]
     fn an_entering_wave_is_acoustic_when_weak() {
-        let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let mixture =
+            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let rest = Primitive { density: 1000.0, v_z: 0.0, v_r: 0.0, pressure: 1e5, phi: 0.0 };
         let state = entering(rest, Side::ZMax, 1e5 + 100.0, &mixture);
         let impedance = 1000.0 * (7.15_f64 * (1e5 + 3e8) / 1000.0).sqrt();

@@ -83,8 +83,7 @@ impl Sums {
 
     fn average(&self) -> Primitive {
         let phi = self.gas / self.weight;
-        let pressure =
-            if phi > MIXED { self.gas_pressure / self.gas } else { self.pressure / self.weight };
+        let pressure = if phi > MIXED { self.gas_pressure / self.gas } else { self.pressure / self.weight };
         Primitive {
             density: self.mass / self.weight,
             v_z: self.momentum[0] / self.mass,

@@ -5,6 +5,7 @@
 
 mod block;
 mod boundary;
+mod diagnostics;
 mod eos;
 mod error;
 mod fill;
@@ -13,11 +14,13 @@ mod hllc;
 mod initial;
 mod mixture;
 mod options;
+mod participant;
 mod rows;
 mod solver;
 mod state;
 
 pub use boundary::{PressureHistory, WallState};
+pub use diagnostics::{AxisState, Bubble, Snapshot, TRACE_GAS, Totals, WallPressures};
 pub use eos::StiffenedGas;
 pub use error::FluidError;
 pub use hllc::{Face, flux_hllc};

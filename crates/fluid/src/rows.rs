@@ -6,9 +6,9 @@
 
 use mesh::maximum;
 
+use crate::Mixture;
 use crate::hllc::{Face, flux_hllc};
 use crate::state::primitive;
-use crate::Mixture;
 
 /// Slices of the five primitive variables ρ, v_z, v_r, p, φ.
 pub(crate) type Rows<'a> = [&'a [f64]; 5];
@@ -80,10 +80,7 @@ pub(crate) fn half_step(
 }
 
 /// Conserved to primitive variables, in place of rows of equal length.
-#[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq+fma+bmi2",
-    "x86_64+avx2+fma+bmi2"
-))]
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn to_primitive(rows: [&mut [f64]; 5], mixture: &Mixture) {
     let n = rows[0].len();
     let [rho, a, b, c, phi] = rows;
@@ -112,10 +109,7 @@ fn to_primitive_body(
 ///
 /// - `w`: the cells; `s_z`, `s_r`: limited differences; `inverse_r`: per cell.
 /// - `half`, `keep`: written where differences exist, see [`mesh::limited_differences`].
-#[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq+fma+bmi2",
-    "x86_64+avx2+fma+bmi2"
-))]
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn predict(
     w: Rows<'_>,
     s_z: Rows<'_>,
@@ -223,10 +217,7 @@ impl Reconstruction<'_> {
 }
 
 /// HLLC at the faces between cells `k` and `k + step`, for `k` in `range`.
-#[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq+fma+bmi2",
-    "x86_64+avx2+fma+bmi2"
-))]
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn hllc_faces(
     cells: &Reconstruction<'_>,
     step: usize,
@@ -315,10 +306,7 @@ pub(crate) struct Metric<'a> {
 ///
 /// - `old`, `new`: conserved variables `[component][j][i]` without ghosts.
 /// - `speeds`: scratch of N² numbers each: |v_z| + c, |v_r| + c, energy added by the floor.
-#[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq+fma+bmi2",
-    "x86_64+avx2+fma+bmi2"
-))]
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update(
     old: Rows<'_>,
     z_faces: &FaceRows,

@@ -2,7 +2,7 @@
 
 use mesh::{Domain, Field, Limiter, Mesh, ScratchPool, Side, for_each_block, maximum};
 
-use crate::block::{BlockReport, BlockScratch, StepContext, split_block, step_block};
+use crate::block::{BlockReport, BlockScratch, split_block, step_block};
 use crate::boundary::{Boundaries, PressureHistory, WallState};
 use crate::state::conserved::COUNT;
 use crate::{Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RiemannSolver, StiffenedGas};
@@ -63,7 +63,7 @@ pub struct FluidSolver<const N: usize> {
     pub(crate) mesh: Mesh<N>,
     pub(crate) mixture: Mixture,
     pub(crate) limiter: Limiter,
-    riemann: RiemannSolver,
+    pub(crate) riemann: RiemannSolver,
     pub(crate) boundaries: Boundaries,
     pub(crate) state: Field,
     next: Field,
@@ -204,22 +204,13 @@ impl<const N: usize> FluidSolver<N> {
     ///
     /// - errors: [`FluidError::NonPhysical`]; the state before the step is then kept.
     pub fn step(&mut self, dt: f64) -> Result<(), FluidError> {
-        let context = StepContext {
-            mesh: &self.mesh,
-            mixture: &self.mixture,
-            limiter: self.limiter,
-            riemann: self.riemann,
-            boundaries: &self.boundaries,
-            old: &self.state,
-            time: self.time,
-            dt,
-            wall: &self.wall,
-            wall_first: &self.wall_first,
-        };
-        let scratch = &self.scratch;
-        for_each_block(&mut self.next, &mut self.reports, |slot, new, report| {
-            *report = scratch.with(|scratch| step_block(&context, slot, new, scratch));
+        let mut next = std::mem::replace(&mut self.next, Field::zeros(0, 0, 0));
+        let mut reports = std::mem::take(&mut self.reports);
+        let context = self.context(dt);
+        for_each_block(&mut next, &mut reports, |slot, new, report| {
+            *report = self.scratch.with(|scratch| step_block(&context, slot, new, scratch));
         });
+        (self.next, self.reports) = (next, reports);
         std::mem::swap(&mut self.state, &mut self.next);
         if let Err(error) = self.check(self.time + dt) {
             std::mem::swap(&mut self.state, &mut self.next);
@@ -294,7 +285,12 @@ impl<const N: usize> FluidSolver<N> {
 }
 
 /// The states of the cells along one side of the domain, in order.
-fn edge_states<const N: usize>(mesh: &Mesh<N>, state: &Field, mixture: &Mixture, side: Side) -> Vec<Primitive> {
+fn edge_states<const N: usize>(
+    mesh: &Mesh<N>,
+    state: &Field,
+    mixture: &Mixture,
+    side: Side,
+) -> Vec<Primitive> {
     let mut states = Vec::new();
     for slot in mesh.blocks_along(side) {
         for along in 0..N {

@@ -2,10 +2,10 @@
 
 use mesh::{Field, Limiter, Mesh, Padded, Side, limited_differences};
 
+use crate::Boundary;
 use crate::boundary::{Boundaries, SurfaceState};
 use crate::rows::{self, Elasticity, FaceRows, Metric, Reconstruction};
 use crate::state::component::COUNT;
-use crate::Boundary;
 
 /// What all blocks of a step share.
 pub(crate) struct StepContext<'a, const N: usize> {
@@ -129,13 +129,8 @@ pub(crate) fn step_block<const N: usize>(
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     rows::faces(&along_r, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
 
-    let metric = Metric {
-        n: N,
-        stride,
-        origin: Padded::<N>::index(0, 0),
-        inverse_h,
-        inverse_r: &scratch.inverse_r,
-    };
+    let metric =
+        Metric { n: N, stride, origin: Padded::<N>::index(0, 0), inverse_h, inverse_r: &scratch.inverse_r };
     let old = ctx.old.block(slot);
     let largest = rows::update(
         std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),

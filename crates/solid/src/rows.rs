@@ -60,10 +60,7 @@ pub(crate) fn rates(w: [f64; 6], d_z: [f64; 6], d_r: [f64; 6], inverse_r: f64, e
 }
 
 /// State at mid-step in all cells but the outermost layer: MUSCL-Hancock predictor, paper eqs. (24), (25).
-#[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq+fma+bmi2",
-    "x86_64+avx2+fma+bmi2"
-))]
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn predict(
     w: Rows<'_>,
     s_z: Rows<'_>,
@@ -191,10 +188,7 @@ impl Reconstruction<'_> {
 }
 
 /// The exact linear Riemann solution at the faces between cells `k` and `k + step`, for `k` in `range`.
-#[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq+fma+bmi2",
-    "x86_64+avx2+fma+bmi2"
-))]
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn faces(
     cells: &Reconstruction<'_>,
     step: usize,
@@ -270,10 +264,7 @@ pub(crate) struct Metric<'a> {
 /// - `old`, `new`: state `[component][j][i]` without ghosts; `hoop`: padded σ_φφ at mid-step.
 /// - `mises`: N² numbers, the squared von Mises stress of the new state.
 /// - returns: the largest squared von Mises stress, and whether all is finite.
-#[multiversion::multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq+fma+bmi2",
-    "x86_64+avx2+fma+bmi2"
-))]
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update(
     old: Rows<'_>,
     z_faces: &FaceRows,
@@ -382,8 +373,8 @@ fn update_row(
         s_zr[k] = zr;
         s_rr[k] = rr;
         s_pp[k] = pp;
-        let squared = 0.5 * ((zz - rr) * (zz - rr) + (zz - pp) * (zz - pp) + (rr - pp) * (rr - pp))
-            + 3.0 * (zr * zr);
+        let squared =
+            0.5 * ((zz - rr) * (zz - rr) + (zz - pp) * (zz - pp) + (rr - pp) * (rr - pp)) + 3.0 * (zr * zr);
         mises[k] = if squared < f64::MAX { squared } else { f64::INFINITY };
     }
 }

@@ -1,0 +1,92 @@
+//! What the two sides tell each other: the rows of a frame's payload.
+//!
+//! One round trip a step: the side with the longer step sends its trace on the interface and the trace's rate
+//! of change; the other side meets it in a Riemann problem per common sub-face, advances, and returns the means
+//! over the step of p*, v* and p*v* on the faces of the first. All rows are there in every frame, tangential
+//! velocity and shear included, so that a viscous fluid needs no other format.
+
+/// A row of a trace frame: one number per interface face of the sender. Velocities along +z and +r.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TraceRow {
+    /// Outer radius of the face, m.
+    Edge,
+    /// Pressure, Pa.
+    Pressure,
+    /// Velocity normal to the interface, m/s.
+    NormalVelocity,
+    /// Velocity along the interface, m/s.
+    TangentialVelocity,
+    /// Shear traction, Pa.
+    Shear,
+    /// Density, kg/m³.
+    Density,
+    /// ∂p/∂t, Pa/s.
+    PressureRate,
+    /// ∂v_n/∂t, m/s².
+    NormalVelocityRate,
+    /// ∂v_t/∂t, m/s².
+    TangentialVelocityRate,
+    /// ∂ρ/∂t, kg/(m³ s).
+    DensityRate,
+    /// Adiabatic exponent of the stiffened gas that the cell behaves as.
+    Gamma,
+    /// Its stiffness, Pa.
+    Pi,
+}
+
+impl TraceRow {
+    /// How many rows a trace frame has.
+    pub const COUNT: usize = 12;
+
+    /// This row's part of a payload of `count` faces.
+    pub fn of(self, payload: &[f64], count: usize) -> &[f64] {
+        &payload[self as usize * count..][..count]
+    }
+}
+
+/// A row of a register frame: one number per interface face of the *receiver*, means over its step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RegisterRow {
+    /// Mean of p*, Pa.
+    Pressure,
+    /// Mean of v*, m/s.
+    NormalVelocity,
+    /// Mean of p*v*, W/m².
+    Power,
+    /// Mean of the tangential velocity of the other side, m/s.
+    TangentialVelocity,
+    /// Mean of the shear traction, Pa.
+    Shear,
+}
+
+impl RegisterRow {
+    /// How many rows a register frame has.
+    pub const COUNT: usize = 5;
+
+    /// This row's part of a payload of `count` faces.
+    pub fn of(self, payload: &[f64], count: usize) -> &[f64] {
+        &payload[self as usize * count..][..count]
+    }
+}
+
+/// The rows that an inviscid fluid takes from a register frame.
+#[derive(Clone, Copy, Debug)]
+pub struct WallRegister<'a> {
+    /// Mean of p* on each face, Pa.
+    pub pressure: &'a [f64],
+    /// Mean of v* along +z, m/s.
+    pub velocity: &'a [f64],
+    /// Mean of p*v*, W/m².
+    pub power: &'a [f64],
+}
+
+impl<'a> WallRegister<'a> {
+    /// From the payload of a register frame.
+    pub fn of(payload: &'a [f64], count: usize) -> Self {
+        Self {
+            pressure: RegisterRow::Pressure.of(payload, count),
+            velocity: RegisterRow::NormalVelocity.of(payload, count),
+            power: RegisterRow::Power.of(payload, count),
+        }
+    }
+}

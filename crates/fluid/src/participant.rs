@@ -1,0 +1,100 @@
+//! The fluid as one side of the interface: the only place where it meets the coupler.
+
+use coupler::{TraceRow, WallRegister};
+use mesh::{Padded, Side};
+
+use crate::block::{BlockScratch, reconstruct};
+use crate::rows::{half_step, rates};
+use crate::{FluidSolver, WallState};
+
+impl<const N: usize> FluidSolver<N> {
+    /// Number of faces on the wall to the solid; 0 without one.
+    pub fn wall_faces(&self) -> usize {
+        self.wall.len()
+    }
+
+    /// The outer radius of each face on the wall, ascending, m; the first one begins at the domain's r_min.
+    pub fn wall_edges(&self) -> Vec<f64> {
+        let mut edges = Vec::with_capacity(self.wall.len());
+        for slot in self.mesh.blocks_along(Side::ZMin) {
+            let id = self.mesh.tree().leaves()[slot];
+            let h_r = self.mesh.widths(id.level)[1];
+            edges.extend((0..N).map(|j| self.mesh.centre(id, 0, j)[1] + 0.5 * h_r));
+        }
+        edges
+    }
+
+    /// Writes the traces on the wall at the present time and their rates of change.
+    ///
+    /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the
+    /// predictor uses; at mid-step it is what the face's Riemann problem would see.
+    ///
+    /// - `dt`: the step about to be made: a cell that falls back to first order in it has no slope and no rate.
+    /// - `row`: gives the place to write one [`TraceRow`] of a face.
+    pub fn write_trace(&self, dt: f64, mut put: impl FnMut(TraceRow, usize, f64)) {
+        for slot in self.mesh.blocks_along(Side::ZMin) {
+            let first = self.wall_first[slot];
+            let id = self.mesh.tree().leaves()[slot];
+            let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
+            self.scratch.with(|scratch| {
+                reconstruct(&self.context(dt), slot, scratch);
+                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
+                for j in 0..N {
+                    let k = Padded::<N>::index(0, j as isize);
+                    let w: [f64; 5] = std::array::from_fn(|c| cells.component(c)[k]);
+                    let d_z: [f64; 5] = std::array::from_fn(|c| s_z.component(c)[k]);
+                    let d_r: [f64; 5] = std::array::from_fn(|c| s_r.component(c)[k]);
+                    let (_, keep) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, &self.mixture);
+                    let rate = rates(
+                        w,
+                        d_z.map(|d| d * inverse_h[0]),
+                        d_r.map(|d| d * inverse_h[1]),
+                        inverse_r[k],
+                        &self.mixture,
+                    )
+                    .map(|rate| keep * rate);
+                    let trace: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
+                    let at = self.mixture.at(trace[4]);
+                    let face = first + j;
+                    put(TraceRow::Density, face, trace[0]);
+                    put(TraceRow::NormalVelocity, face, trace[1]);
+                    put(TraceRow::TangentialVelocity, face, trace[2]);
+                    put(TraceRow::Pressure, face, trace[3]);
+                    put(TraceRow::Shear, face, 0.0);
+                    put(TraceRow::DensityRate, face, rate[0]);
+                    put(TraceRow::NormalVelocityRate, face, rate[1]);
+                    put(TraceRow::TangentialVelocityRate, face, rate[2]);
+                    put(TraceRow::PressureRate, face, rate[3]);
+                    put(TraceRow::Gamma, face, at.gamma);
+                    put(TraceRow::Pi, face, at.pi);
+                }
+            });
+        }
+    }
+
+    /// Sets the wall's state for the next step from what the other side returned.
+    pub fn set_wall(&mut self, register: &WallRegister<'_>) {
+        for (face, wall) in self.wall.iter_mut().enumerate() {
+            *wall = WallState {
+                pressure: register.pressure[face],
+                velocity: register.velocity[face],
+                power: register.power[face],
+            };
+        }
+    }
+
+    /// The wall's state during the last step.
+    pub fn wall(&self) -> &[WallState] {
+        &self.wall
+    }
+
+    /// Cell means next to the wall: pressure and normal velocity, face by face; what the weak scheme exchanges.
+    pub fn wall_cells(&self, mut put: impl FnMut(usize, f64, f64)) {
+        for slot in self.mesh.blocks_along(Side::ZMin) {
+            for j in 0..N {
+                let cell = self.cell(slot, 0, j);
+                put(self.wall_first[slot] + j, cell.pressure, cell.v_z);
+            }
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Numbers that are read off the solid's state.
+
+use mesh::{Geometry, Padded};
+
+use crate::block::{BlockScratch, reconstruct};
+use crate::state::component::COUNT;
+use crate::{ElasticState, SolidSolver, von_mises};
+
+/// The largest von Mises stress and where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MisesPeak {
+    /// Stress, Pa.
+    pub stress: f64,
+    /// Centre of the cell (z, r), m.
+    pub position: [f64; 2],
+}
+
+/// Integrals over the domain, per radian in axial symmetry, per metre of depth in planar geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// Mass (constant), kg.
+    pub mass: f64,
+    /// Axial momentum, N s.
+    pub momentum_z: f64,
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Elastic energy, J.
+    pub elastic: f64,
+}
+
+/// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// (v_z, v_r, 0), m/s, three numbers a cell.
+    pub velocity: Vec<f64>,
+    /// σ_zz, Pa.
+    pub stress_zz: Vec<f64>,
+    /// σ_zr, Pa.
+    pub stress_zr: Vec<f64>,
+    /// σ_rr, Pa.
+    pub stress_rr: Vec<f64>,
+    /// σ_φφ, Pa.
+    pub stress_phiphi: Vec<f64>,
+    /// Von Mises stress (44), Pa.
+    pub von_mises: Vec<f64>,
+    /// Yield function (45), (46): von Mises stress minus yield strength, Pa.
+    pub yield_function: Vec<f64>,
+    /// Refinement level.
+    pub level: Vec<f64>,
+}
+
+impl<const N: usize> SolidSolver<N> {
+    /// The state of one cell.
+    pub fn cell(&self, slot: usize, i: usize, j: usize) -> ElasticState {
+        ElasticState::from_array(std::array::from_fn(|c| self.state.component(slot, c)[j * N + i]))
+    }
+
+    /// The largest von Mises stress and where it is.
+    pub fn mises_peak(&self) -> MisesPeak {
+        let (slot, _) = (self.mises_by_block().enumerate())
+            .fold((0, -1.0), |best, (slot, stress)| if stress > best.1 { (slot, stress) } else { best });
+        let id = self.mesh.tree().leaves()[slot];
+        let mut peak = MisesPeak { stress: -1.0, position: [f64::NAN; 2] };
+        for j in 0..N {
+            for i in 0..N {
+                let w = self.cell(slot, i, j);
+                let stress = von_mises(w.stress_zz, w.stress_rr, w.stress_phiphi, w.stress_zr);
+                if stress > peak.stress {
+                    peak = MisesPeak { stress, position: self.mesh.centre(id, i, j) };
+                }
+            }
+        }
+        peak
+    }
+
+    /// The volume in which the von Mises stress exceeds the yield strength, m³ (planar: m² per metre of depth).
+    pub fn yielded_volume(&self) -> f64 {
+        let turn = match self.mesh.domain().geometry {
+            Geometry::Axisymmetric => std::f64::consts::TAU,
+            Geometry::Planar => 1.0,
+        };
+        turn * self.yielded()
+    }
+
+    /// Mass, axial momentum, kinetic and elastic energy in the domain.
+    ///
+    /// The elastic energy per volume is tr(σ)²/(18K) + s:s/(4μ) with the deviator s and the bulk modulus K.
+    pub fn totals(&self) -> Totals {
+        let (density, mu) = (self.setup.density, self.elasticity.mu);
+        let bulk = self.elasticity.lambda + 2.0 / 3.0 * mu;
+        let mut totals = Totals::default();
+        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
+            let mut block = [0.0; 4];
+            for j in 0..N {
+                let volume = self.mesh.volume(*id, j);
+                let mut row = [0.0; 4];
+                for i in 0..N {
+                    let [v_z, v_r, zz, zr, rr, pp] = self.cell(slot, i, j).to_array();
+                    let mean = (zz + rr + pp) / 3.0;
+                    let deviator =
+                        (zz - mean).powi(2) + (rr - mean).powi(2) + (pp - mean).powi(2) + 2.0 * zr * zr;
+                    row[0] += density;
+                    row[1] += density * v_z;
+                    row[2] += 0.5 * density * (v_z * v_z + v_r * v_r);
+                    row[3] += mean * mean / (2.0 * bulk) + deviator / (4.0 * mu);
+                }
+                block.iter_mut().zip(row).for_each(|(sum, value)| *sum += volume * value);
+            }
+            totals.mass += block[0];
+            totals.momentum_z += block[1];
+            totals.kinetic += block[2];
+            totals.elastic += block[3];
+        }
+        totals
+    }
+
+    /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
+    pub fn sample(&self, point: [f64; 2]) -> Option<ElasticState> {
+        let (slot, i, j) = self.mesh.locate(point)?;
+        let id = self.mesh.tree().leaves()[slot];
+        let (centre, widths) = (self.mesh.centre(id, i, j), self.mesh.widths(id.level));
+        let (a, b) = ((point[0] - centre[0]) / widths[0], (point[1] - centre[1]) / widths[1]);
+        Some(self.scratch.with(|scratch| {
+            reconstruct(&self.context(0.0), slot, scratch);
+            let k = Padded::<N>::index(i as isize, j as isize);
+            let BlockScratch { cells, s_z, s_r, .. } = scratch;
+            let hoop = cells.component(COUNT - 1);
+            let stride = Padded::<N>::STRIDE;
+            let limiter = self.setup.limiter;
+            let hoop_slope =
+                |step: usize| limiter.difference(hoop[k] - hoop[k - step], hoop[k + step] - hoop[k]);
+            ElasticState::from_array(std::array::from_fn(|c| {
+                let (d_z, d_r) = if c == COUNT - 1 {
+                    (hoop_slope(1), hoop_slope(stride))
+                } else {
+                    (s_z.component(c)[k], s_r.component(c)[k])
+                };
+                cells.component(c)[k] + a * d_z + b * d_r
+            }))
+        }))
+    }
+
+    /// All fields, cell by cell.
+    pub fn snapshot(&self) -> Snapshot {
+        let mut snapshot = Snapshot::default();
+        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
+            for j in 0..N {
+                for i in 0..N {
+                    let w = self.cell(slot, i, j);
+                    let mises = von_mises(w.stress_zz, w.stress_rr, w.stress_phiphi, w.stress_zr);
+                    snapshot.velocity.extend([w.v_z, w.v_r, 0.0]);
+                    snapshot.stress_zz.push(w.stress_zz);
+                    snapshot.stress_zr.push(w.stress_zr);
+                    snapshot.stress_rr.push(w.stress_rr);
+                    snapshot.stress_phiphi.push(w.stress_phiphi);
+                    snapshot.von_mises.push(mises);
+                    snapshot.yield_function.push(mises - self.setup.yield_strength);
+                    snapshot.level.push(f64::from(id.level));
+                }
+            }
+        }
+        snapshot
+    }
+}
