@@ -25,8 +25,8 @@ const LONGEST_ROOT: usize = 45;
 /// All runs of a user share one, so that whoever starts next clears away what a killed run left; the run id in the
 /// service names keeps them apart. After a run there remains one 16-byte file `<prefix>*.global_mgmt` in `/dev/shm`.
 ///
-/// Permissions: the directory is 0700, made before iceoryx2 sees it and refused if another user owns it. The objects in
-/// `/dev/shm` belong to the user; see the crate's tests for their modes.
+/// Permissions: the directory is made 0700 before iceoryx2 sees it and refused if it is open to others or another
+/// user's. In `/dev/shm`, frames and connections are 0600; only the 16-byte file, a counter, is 0666.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Domain {
     /// Of all names in `/dev/shm`.
@@ -36,10 +36,10 @@ pub struct Domain {
 }
 
 impl Default for Domain {
-    /// Prefix `cav_`, root `/tmp/cav-<uid>`.
+    /// Prefix `cav_<uid>_`, root `/tmp/cav-<uid>`: users do not share, they could not clear up after each other.
     fn default() -> Self {
         let uid = rustix::process::getuid().as_raw();
-        Self { prefix: "cav_".to_owned(), root: PathBuf::from(format!("/tmp/cav-{uid}")) }
+        Self { prefix: format!("cav_{uid}_"), root: PathBuf::from(format!("/tmp/cav-{uid}")) }
     }
 }
 
