@@ -1,13 +1,36 @@
 //! The interface between two solvers: frames, transports, coupling schemes. No PDE.
+//!
+//! - [`Frame`], [`Link`]: what crosses and how: [`ProcessLink`] between processes, [`DirectLink`] within one.
+//! - [`TraceRow`], [`RegisterRow`]: what the numbers in a frame mean.
+//! - [`CommonRefinement`]: two non-matching sets of interface faces.
+//! - [`exact_star`], [`acoustic_star`]: the Riemann problem between the two media; [`KappaFactor`]: the paper's
+//!   damping of the weak scheme.
 
+#![forbid(unsafe_code)]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod direct;
+mod domain;
+mod error;
 mod exchange;
+mod frame;
+mod link;
 mod mapping;
 mod options;
+mod ports;
+mod process;
 mod star;
+mod watch;
 mod weak;
 
+pub use direct::{DirectLink, direct_pair};
+pub use domain::{Domain, clean_up_dead};
+pub use error::CouplerError;
 pub use exchange::{RegisterRow, TraceRow, WallRegister};
+pub use frame::{Expected, FRAME_VERSION, Fault, Frame, FrameHeader, FrameKind};
+pub use link::{Link, LinkCounters, Participant};
 pub use mapping::{CommonRefinement, SubFace};
 pub use options::{Kappa, Scheme, StarSolver};
+pub use process::{Endpoint, Interrupt, ProcessLink};
 pub use star::{FluidTrace, InterfaceStar, SolidTrace, acoustic_star, exact_star, star_density};
 pub use weak::KappaFactor;

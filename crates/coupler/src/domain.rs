@@ -1,0 +1,143 @@
+//! Where iceoryx2 keeps its objects, who may see them, and how the dead are cleared away.
+
+use std::fs::{self, DirBuilder};
+use std::io::ErrorKind;
+use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+use std::path::{Path, PathBuf};
+
+use iceoryx2::config::Config;
+use iceoryx2::node::NodeView;
+use iceoryx2::prelude::{
+    CallbackProgression, FileName, LogLevel, Node, NodeState, Path as IoxPath, SemanticString,
+    set_log_level_from_env_or,
+};
+
+use crate::error::CouplerError;
+
+/// Ports can move to the thread that uses them, so the thread-safe flavour.
+pub(crate) type Ipc = iceoryx2::prelude::ipc_threadsafe::Service;
+
+/// The event's Unix socket lies below the root, and the system limits the length of its path: 51 worked, 71 did not.
+const LONGEST_ROOT: usize = 45;
+
+/// The set of objects that participants can see of each other: a directory and a prefix in `/dev/shm`.
+///
+/// All runs of a user share one, so that whoever starts next clears away what a killed run left; the run id in the
+/// service names keeps them apart. After a run there remains one 16-byte file `<prefix>*.global_mgmt` in `/dev/shm`.
+///
+/// Permissions: the directory is made 0700 before iceoryx2 sees it and refused if it is open to others or another
+/// user's. In `/dev/shm`, frames and connections are 0600; only the 16-byte file, a counter, is 0666.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Domain {
+    /// Of all names in `/dev/shm`.
+    pub prefix: String,
+    /// Of node and service descriptions and of the events' sockets; at most 45 characters.
+    pub root: PathBuf,
+}
+
+impl Default for Domain {
+    /// Prefix `cav_<uid>_`, root `/tmp/cav-<uid>`: users do not share, they could not clear up after each other.
+    fn default() -> Self {
+        let uid = rustix::process::getuid().as_raw();
+        Self { prefix: format!("cav_{uid}_"), root: PathBuf::from(format!("/tmp/cav-{uid}")) }
+    }
+}
+
+impl Domain {
+    /// Makes the directory and the configuration for everything in this domain.
+    pub(crate) fn config(&self) -> Result<Config, CouplerError> {
+        make_private(&self.root)?;
+        set_log_level_from_env_or(LogLevel::Error);
+        let mut config = Config::default();
+        let bad = |what, cause| CouplerError::SharedMemory { what, cause };
+        config.global.prefix = FileName::new(self.prefix.as_bytes())
+            .map_err(|error| bad("using this prefix", format!("{error:?}")))?;
+        let root = IoxPath::new(self.root.as_os_str().as_encoded_bytes())
+            .map_err(|error| bad("using this root directory", format!("{error:?}")))?;
+        config.global.set_root_path(&root);
+        Ok(config)
+    }
+}
+
+/// Removes what participants of this domain left behind when they were killed. Safe at any time: the living keep theirs.
+///
+/// - returns: how many dead participants were cleared away.
+pub fn clean_up_dead(domain: &Domain) -> Result<usize, CouplerError> {
+    remove_dead(&domain.config()?)
+}
+
+pub(crate) fn remove_dead(config: &Config) -> Result<usize, CouplerError> {
+    let mut removed = 0;
+    Node::<Ipc>::list(config, |state| {
+        if let NodeState::Dead(node) = state {
+            let id = *node.id();
+            match node.try_remove_stale_resources() {
+                Ok(()) => removed += 1,
+                // Another participant is at it, which is as good.
+                Err(cause) => tracing::debug!(%id, %cause, "a dead participant was not cleared away here"),
+            }
+        }
+        CallbackProgression::Continue
+    })
+    .map_err(|cause| CouplerError::SharedMemory {
+        what: "listing the participants",
+        cause: cause.to_string(),
+    })?;
+    Ok(removed)
+}
+
+/// A directory of ours that nobody else can enter; in a shared `/tmp` anyone could have made it first.
+fn make_private(root: &Path) -> Result<(), CouplerError> {
+    let refuse = |reason: String| Err(CouplerError::BadRoot { path: root.to_owned(), reason });
+    if root.as_os_str().len() > LONGEST_ROOT {
+        return refuse(format!("has a name of more than {LONGEST_ROOT} characters"));
+    }
+    match DirBuilder::new().mode(0o700).create(root) {
+        Ok(()) => {}
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+        Err(error) => return refuse(format!("cannot be made: {error}")),
+    }
+    let found = match fs::symlink_metadata(root) {
+        Ok(found) => found,
+        Err(error) => return refuse(format!("cannot be looked at: {error}")),
+    };
+    if !found.is_dir() {
+        return refuse("is not a directory".to_owned());
+    }
+    if found.uid() != rustix::process::getuid().as_raw() {
+        return refuse(format!("belongs to user {}", found.uid()));
+    }
+    if found.mode() & 0o077 != 0 {
+        return refuse(format!("is open to others (mode {:o})", found.mode() & 0o777));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::fs::PermissionsExt;
+
+    use super::*;
+
+    #[test]
+    fn the_root_is_made_private_and_refused_if_it_is_not() {
+        let root = PathBuf::from(format!("/tmp/cavt-{}-root", std::process::id()));
+        make_private(&root).unwrap();
+        assert_eq!(fs::metadata(&root).unwrap().mode() & 0o777, 0o700);
+        make_private(&root).expect("an own private directory is taken again");
+        fs::set_permissions(&root, fs::Permissions::from_mode(0o755)).unwrap();
+        let error = make_private(&root).expect_err("open to others");
+        assert!(error.to_string().contains("mode 755"), "{error}");
+        fs::remove_dir(&root).unwrap();
+        std::os::unix::fs::symlink("/tmp", &root).unwrap();
+        let error = make_private(&root).expect_err("a link leads elsewhere");
+        assert!(error.to_string().contains("not a directory"), "{error}");
+        fs::remove_file(&root).unwrap();
+    }
+
+    #[test]
+    fn a_root_too_long_for_a_socket_is_refused() {
+        let error = make_private(Path::new("/tmp/a-name-so-long-that-sockets-below-it-cannot-be-made"));
+        assert!(matches!(error, Err(CouplerError::BadRoot { .. })));
+    }
+}

@@ -1,0 +1,172 @@
+//! What a solver sees of its peer: send, receive, wait.
+
+use std::fmt;
+use std::time::Duration;
+
+use crate::error::CouplerError;
+use crate::frame::{Expected, Fault, Frame, FrameHeader, FrameKind};
+
+/// The two parts of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Participant {
+    /// The liquid with its bubble.
+    Fluid,
+    /// The wall.
+    Solid,
+}
+
+impl Participant {
+    /// As in service names, logs and command lines.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fluid => "fluid",
+            Self::Solid => "solid",
+        }
+    }
+
+    /// The other part.
+    pub fn peer(self) -> Self {
+        match self {
+            Self::Fluid => Self::Solid,
+            Self::Solid => Self::Fluid,
+        }
+    }
+}
+
+impl fmt::Display for Participant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What a link has done so far. Greetings and goodbyes count, too.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct LinkCounters {
+    /// Frames sent.
+    pub sent: u64,
+    /// Frames received.
+    pub received: u64,
+    /// Payload and headers, both ways.
+    pub bytes: u64,
+    /// Time spent blocked in [`Link::wait`].
+    pub waited: Duration,
+}
+
+/// One end of the way between two participants.
+///
+/// Frames alternate or nearly so: one frame each way can be under way, a second one waits until the first was read.
+pub trait Link {
+    /// Writes a frame in place and hands it over.
+    ///
+    /// - `header`: kind, step, times and the shape `fields` x `count`, which may differ in every frame. Version,
+    ///   case hash, pid and sequence are stamped by the link.
+    /// - `fill`: gets the payload, `fields` rows of `count` numbers, all zero, where the peer will read it.
+    /// - errors: the peer is dead or does not take the frame before.
+    fn send(&mut self, header: FrameHeader, fill: impl FnOnce(&mut [f64])) -> Result<(), CouplerError>;
+
+    /// Reads the next frame in place, if there is one.
+    ///
+    /// - `read`: gets a frame whose header was checked; its return value is handed on.
+    /// - returns: `None` if nothing has arrived.
+    /// - errors: a frame that must not come now; the peer's fault; the peer left.
+    fn try_receive<R>(&mut self, read: impl FnOnce(&Frame<'_>) -> R) -> Result<Option<R>, CouplerError>;
+
+    /// Blocks without using the processor until a frame has arrived.
+    ///
+    /// - errors: the peer died, left, or was silent for too long; the caller's hook ended the wait.
+    fn wait(&mut self) -> Result<(), CouplerError>;
+
+    /// What was done so far.
+    fn counters(&self) -> LinkCounters;
+
+    /// Waits for the next frame and reads it.
+    fn receive<R>(&mut self, read: impl FnOnce(&Frame<'_>) -> R) -> Result<R, CouplerError> {
+        let mut read = Some(read);
+        loop {
+            let mut once = |frame: &Frame<'_>| read.take().map(|read| read(frame));
+            if let Some(Some(value)) = self.try_receive(&mut once)? {
+                return Ok(value);
+            }
+            self.wait()?;
+        }
+    }
+
+    /// Tells the peer that this side cannot go on, so that it need not wait.
+    fn send_fault(&mut self, fault: Fault, step: u64) -> Result<(), CouplerError> {
+        self.send(FrameHeader::fault(fault, step), |_| {})
+    }
+}
+
+/// The part of a link that does not depend on how bytes travel: stamps, checks, counts.
+#[derive(Debug)]
+pub(crate) struct Conversation {
+    pub(crate) peer: Participant,
+    pub(crate) peer_pid: Option<u32>,
+    pub(crate) case_hash: [u8; 32],
+    /// Step of the last frame that passed either way.
+    pub(crate) step: u64,
+    pub(crate) counters: LinkCounters,
+}
+
+impl Conversation {
+    pub(crate) fn new(peer: Participant, case_hash: [u8; 32]) -> Self {
+        Self { peer, peer_pid: None, case_hash, step: 0, counters: LinkCounters::default() }
+    }
+
+    /// The header as it goes out, and the payload's length.
+    pub(crate) fn stamp(&self, header: FrameHeader) -> Result<(FrameHeader, usize), CouplerError> {
+        let len = header.len().ok_or(CouplerError::LengthMismatch {
+            fields: header.fields,
+            count: header.count,
+            found: 0,
+        })?;
+        let stamped = FrameHeader {
+            case_hash: self.case_hash,
+            pid: std::process::id(),
+            sequence: self.counters.sent + 1,
+            ..header
+        };
+        Ok((stamped, len))
+    }
+
+    /// Counts a frame that was handed over.
+    pub(crate) fn sent(&mut self, header: &FrameHeader, len: usize) {
+        self.counters.sent += 1;
+        self.counters.bytes += frame_bytes(len);
+        self.note_step(header);
+    }
+
+    /// Checks an arrived frame and counts it; faults and goodbyes become errors.
+    pub(crate) fn accept(&mut self, frame: &Frame<'_>) -> Result<(), CouplerError> {
+        let kind = frame.check(&Expected {
+            case_hash: self.case_hash,
+            sequence: self.counters.received + 1,
+            pid: self.peer_pid,
+        })?;
+        self.peer_pid = Some(frame.header.pid);
+        self.counters.received += 1;
+        self.counters.bytes += frame_bytes(frame.payload.len());
+        match kind {
+            FrameKind::Fault => Err(CouplerError::PeerFailed {
+                peer: self.peer,
+                step: frame.header.step,
+                fault: Fault::from_code(frame.header.code),
+            }),
+            FrameKind::Goodbye => Err(CouplerError::PeerClosed { peer: self.peer, step: self.step }),
+            FrameKind::Hello | FrameKind::Trace | FrameKind::Register => {
+                self.note_step(frame.header);
+                Ok(())
+            }
+        }
+    }
+
+    fn note_step(&mut self, header: &FrameHeader) {
+        if header.kind == FrameKind::Trace as u32 || header.kind == FrameKind::Register as u32 {
+            self.step = header.step;
+        }
+    }
+}
+
+fn frame_bytes(len: usize) -> u64 {
+    (size_of::<FrameHeader>() + len * size_of::<f64>()) as u64
+}

@@ -1,0 +1,306 @@
+//! The link between two processes: iceoryx2, frames written and read where they lie in shared memory.
+
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use iceoryx2::config::Config;
+use iceoryx2::port::SendError;
+
+use crate::domain::{Domain, remove_dead};
+use crate::error::CouplerError;
+use crate::frame::{Frame, FrameHeader, FrameKind};
+use crate::link::{Conversation, Link, LinkCounters, Participant};
+use crate::ports::{Ports, Wake, failed, pid_of};
+use crate::watch::{PeerWatch, SLICE};
+
+/// Asked about ten times a second while a participant waits; its error ends the wait.
+pub type Interrupt = Box<dyn FnMut() -> Result<(), CouplerError> + Send>;
+
+/// Which run to join, as whom.
+pub struct Endpoint {
+    /// The same on both sides, different for each run on the machine: 1 to 64 of `A-Z a-z 0-9 _ . -`.
+    pub run_id: String,
+    /// Who this is.
+    pub name: Participant,
+    /// Hash of the effective case; both sides must have the same.
+    pub case_hash: [u8; 32],
+    /// Numbers in the largest frame to be expected. Only a hint: more memory is taken as frames grow.
+    pub initial_len: usize,
+    /// How long to wait for the peer to come.
+    pub connect_timeout: Duration,
+    /// How long to wait for a peer that lives but does not answer.
+    pub patience: Duration,
+    /// Ends waits early, e.g. when the launcher is gone.
+    pub interrupt: Option<Interrupt>,
+    /// Where shared objects live; the default unless runs must not see each other at all.
+    pub domain: Domain,
+}
+
+impl Endpoint {
+    /// With 10 s to connect and ten minutes of patience.
+    pub fn new(run_id: impl Into<String>, name: Participant, case_hash: [u8; 32]) -> Self {
+        Self {
+            run_id: run_id.into(),
+            name,
+            case_hash,
+            initial_len: 4096,
+            connect_timeout: Duration::from_secs(10),
+            patience: Duration::from_secs(600),
+            interrupt: None,
+            domain: Domain::default(),
+        }
+    }
+}
+
+/// One end of a link between two processes (or threads).
+///
+/// Dropping it says goodbye. That blocks until the peer has taken the last frame, for ten seconds at most, and not at all
+/// if the peer is dead.
+pub struct ProcessLink {
+    ports: Ports,
+    config: Config,
+    watch: Arc<PeerWatch>,
+    talk: Conversation,
+    peer_pid: u32,
+    patience: Duration,
+    interrupt: Option<Interrupt>,
+    /// The peer died or left: nothing more to say to it.
+    parted: bool,
+}
+
+impl std::fmt::Debug for ProcessLink {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ProcessLink").field("talk", &self.talk).finish_non_exhaustive()
+    }
+}
+
+impl ProcessLink {
+    /// Clears away what dead runs left, joins the run, waits for the peer, and compares version and case with it.
+    ///
+    /// - errors: unusable names or directories, the name is taken, no peer in time, a peer with another case (both
+    ///   sides learn it at once).
+    pub fn connect(endpoint: Endpoint) -> Result<Self, CouplerError> {
+        Self::connect_saying(endpoint, FrameHeader::new(FrameKind::Hello))
+    }
+
+    fn connect_saying(endpoint: Endpoint, hello: FrameHeader) -> Result<Self, CouplerError> {
+        let Endpoint {
+            run_id,
+            name,
+            case_hash,
+            initial_len,
+            connect_timeout,
+            patience,
+            mut interrupt,
+            domain,
+        } = endpoint;
+        check_run_id(&run_id)?;
+        let config = domain.config()?;
+        let removed = remove_dead(&config)?;
+        if removed > 0 {
+            tracing::info!(removed, "cleared away participants that were killed");
+        }
+        let watch = Arc::new(PeerWatch::new(config.clone(), patience));
+        let ports = Ports::open(&config, &run_id, name, initial_len, &watch)?;
+
+        let start = Instant::now();
+        let mut looked = start;
+        let peer = loop {
+            if let Some(peer) = ports.connected_peer(&config) {
+                break peer;
+            }
+            if start.elapsed() >= connect_timeout {
+                return Err(CouplerError::PeerAbsent { peer: name.peer(), run_id, waited: start.elapsed() });
+            }
+            if looked.elapsed() >= SLICE {
+                looked = Instant::now();
+                ask(&mut interrupt)?;
+                // A peer that was killed while connecting holds its place until it is cleared away.
+                remove_dead(&config)?;
+            }
+            thread::sleep(Duration::from_millis(5));
+        };
+        watch.set_peer(peer);
+        let peer_pid = pid_of(peer);
+        tracing::debug!(peer = %name.peer(), peer_pid, run_id, waited = ?start.elapsed(), "connected");
+
+        let mut talk = Conversation::new(name.peer(), case_hash);
+        talk.peer_pid = Some(peer_pid);
+        let mut link = Self { ports, config, watch, talk, peer_pid, patience, interrupt, parted: false };
+        link.send(hello, |_| {})?;
+        link.receive(|frame| frame.require(FrameKind::Hello))??;
+        Ok(link)
+    }
+
+    /// The peer's process.
+    pub fn peer_pid(&self) -> u32 {
+        self.peer_pid
+    }
+
+    /// The peer is no more: clears away what it left and says so.
+    fn lost(&mut self) -> CouplerError {
+        self.parted = true;
+        if let Err(error) = remove_dead(&self.config) {
+            tracing::warn!(%error, "what the dead peer left in shared memory stays until the next run");
+        }
+        CouplerError::PeerLost { peer: self.talk.peer, pid: self.peer_pid, step: self.talk.step }
+    }
+
+    fn has_frame(&self) -> Result<bool, CouplerError> {
+        self.ports.subscriber.has_samples().map_err(failed("looking for a frame"))
+    }
+
+    fn block(&mut self) -> Result<(), CouplerError> {
+        let start = Instant::now();
+        loop {
+            if self.has_frame()? {
+                return Ok(());
+            }
+            match self.ports.wait(SLICE) {
+                Wake::Frame => {}
+                Wake::PeerGone | Wake::TimeOut => {
+                    ask(&mut self.interrupt)?;
+                    if !self.watch.is_peer_alive() {
+                        // Its last frame may have come since the look above.
+                        return if self.has_frame()? { Ok(()) } else { Err(self.lost()) };
+                    }
+                    if start.elapsed() >= self.patience {
+                        return Err(CouplerError::PeerSilent {
+                            peer: self.talk.peer,
+                            pid: self.peer_pid,
+                            step: self.talk.step,
+                            waited: start.elapsed(),
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    fn undelivered(&mut self, step: u64, start: Instant, cause: SendError) -> CouplerError {
+        if !self.watch.is_peer_alive() {
+            return self.lost();
+        }
+        match cause {
+            SendError::UnableToDeliver => CouplerError::Undelivered {
+                peer: self.talk.peer,
+                pid: self.peer_pid,
+                step,
+                waited: start.elapsed(),
+            },
+            other => failed("sending a frame")(other),
+        }
+    }
+}
+
+impl Link for ProcessLink {
+    fn send(&mut self, header: FrameHeader, fill: impl FnOnce(&mut [f64])) -> Result<(), CouplerError> {
+        let (header, len) = self.talk.stamp(header)?;
+        let mut sample =
+            self.ports.publisher.loan_slice(len).map_err(failed("taking shared memory for a frame"))?;
+        fill(sample.payload_mut());
+        *sample.user_header_mut() = header;
+        let start = Instant::now();
+        match sample.send() {
+            Ok(1) => {}
+            // The peer's receiving end is gone.
+            Ok(_) if self.watch.is_peer_alive() => {
+                self.parted = true;
+                return Err(CouplerError::PeerClosed { peer: self.talk.peer, step: self.talk.step });
+            }
+            Ok(_) => return Err(self.lost()),
+            Err(cause) => return Err(self.undelivered(header.step, start, cause)),
+        }
+        self.talk.sent(&header, len);
+        // A peer that died since is found by the next wait.
+        if let Err(error) = self.ports.notifier.notify() {
+            tracing::debug!(%error, "the peer could not be woken");
+        }
+        Ok(())
+    }
+
+    fn try_receive<R>(&mut self, read: impl FnOnce(&Frame<'_>) -> R) -> Result<Option<R>, CouplerError> {
+        let received = self.ports.subscriber.receive().map_err(failed("taking a frame"))?;
+        let Some(sample) = received else { return Ok(None) };
+        let frame = Frame { header: sample.user_header(), payload: sample.payload() };
+        if let Err(error) = self.talk.accept(&frame) {
+            self.parted |= matches!(error, CouplerError::PeerClosed { .. });
+            return Err(error);
+        }
+        Ok(Some(read(&frame)))
+    }
+
+    fn wait(&mut self) -> Result<(), CouplerError> {
+        let start = Instant::now();
+        let result = self.block();
+        self.talk.counters.waited += start.elapsed();
+        result
+    }
+
+    fn counters(&self) -> LinkCounters {
+        self.talk.counters
+    }
+}
+
+impl Drop for ProcessLink {
+    /// A frame whose memory was newly taken is lost if its sender leaves before the peer has mapped it. The goodbye fits
+    /// into the buffer of one only after the last frame was taken.
+    fn drop(&mut self) {
+        self.watch.leave();
+        if self.parted || !self.ports.has_peer() {
+            return;
+        }
+        if let Err(error) = self.send(FrameHeader::new(FrameKind::Goodbye), |_| {}) {
+            tracing::debug!(%error, "left without the peer taking notice");
+        }
+    }
+}
+
+fn ask(interrupt: &mut Option<Interrupt>) -> Result<(), CouplerError> {
+    interrupt.as_mut().map_or(Ok(()), |hook| hook())
+}
+
+fn check_run_id(run_id: &str) -> Result<(), CouplerError> {
+    let fits = (1..=64).contains(&run_id.len())
+        && run_id.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_.-".contains(&byte));
+    if fits { Ok(()) } else { Err(CouplerError::BadRunId { run_id: run_id.to_owned() }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::FRAME_VERSION;
+
+    #[test]
+    fn only_plain_run_ids_are_taken() {
+        let longest = "a".repeat(64);
+        for good in ["a", "run_1.2-x", longest.as_str()] {
+            assert_eq!(check_run_id(good), Ok(()));
+        }
+        for bad in ["", "a/b", "ä", "a b", &"a".repeat(65)] {
+            assert!(check_run_id(bad).is_err(), "{bad:?}");
+        }
+    }
+
+    #[test]
+    fn a_frame_of_another_version_is_refused_by_the_side_that_sees_it() {
+        let run_id = format!("version-{}", std::process::id());
+        let newer = Endpoint::new(run_id.clone(), Participant::Solid, [1; 32]);
+        let hello = FrameHeader { version: FRAME_VERSION + 1, ..FrameHeader::new(FrameKind::Hello) };
+        let other = thread::spawn(move || ProcessLink::connect_saying(newer, hello).map(|_| ()));
+        let refused = ProcessLink::connect(Endpoint::new(run_id, Participant::Fluid, [1; 32]));
+        assert_eq!(
+            refused.map(|_| ()),
+            Err(CouplerError::VersionMismatch { ours: FRAME_VERSION, theirs: FRAME_VERSION + 1 })
+        );
+        // Of this build but for the hello, so it does not mind.
+        assert_eq!(other.join().expect("no panic"), Ok(()));
+    }
+
+    #[test]
+    fn a_link_can_move_to_another_thread() {
+        fn movable<T: Send>() {}
+        movable::<ProcessLink>();
+    }
+}
