@@ -1,6 +1,7 @@
 //! Compressible two-phase flow: equations of state, Riemann solvers, `FluidSolver`.
 
 mod eos;
+pub mod exact_riemann;
 mod initial;
 mod options;
 
