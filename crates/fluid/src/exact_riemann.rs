@@ -11,11 +11,11 @@
 //! and the star pressure is the zero of G(p) = f_L(p) + f_R(p) + u_R − u_L.
 //!
 //! The iteration works in P = p + min(π_L, π_R), which vanishes in the vacuum. G is concave in P and convex
-//! in ln P (each f_K is, as its two derivatives show). So a Newton step in P ends at or below the root and one
-//! in ln P at or above it, from wherever they start: two bounds per evaluation. The iterate taken between them is
-//! the Newton step in P^θ, with θ in (0, 1] such that G is linear in P^θ to second order. It converges cubically, and
-//! in one step for two rarefactions of one gas. Where it leaves the bounds the Newton step that cannot
-//! overshoot replaces it, so convergence is certain.
+//! in ln P (each f_K is, as its two derivatives show). So a Newton step in P ends at or below the root and
+//! one in ln P at or above it, from wherever they start: two bounds per evaluation. The iterate taken between
+//! them is the Newton step in P^θ, with θ in (0, 1] such that G is linear in P^θ to second order. It
+//! converges cubically, and in one step for two rarefactions of one gas. Where it leaves the bounds the
+//! Newton step that cannot overshoot replaces it, so convergence is certain.
 
 use crate::eos::{StiffenedGas, ln_pressure_ratio};
 
@@ -174,16 +174,18 @@ fn curve_density(side: &Side, p: f64, shifted: f64, offset: f64) -> f64 {
 /// exact solver of the Godunov flux. The iteration is at the head of this file.
 ///
 /// - `left`, `right`: the two states, SI (rho kg/m³, u m/s, p and pi Pa).
-/// - returns: pressure, velocity, both densities. Equal pressures and velocities come back as they are, bitwise,
-///   whatever densities and gases meet; exchanging the sides with the sign of u gives the mirror image, bitwise.
-/// - valid for: rho > 0, gamma > 1, pi ≥ 0, p + pi > 0 (debug-asserted), and any velocities. p may be negative
-///   (tension). Otherwise NaN.
+/// - returns: pressure, velocity, both densities. Equal pressures and velocities come back as they are,
+///   bitwise, whatever densities and gases meet; exchanging the sides with the sign of u gives the mirror
+///   image, bitwise.
+/// - valid for: rho > 0, gamma > 1, pi ≥ 0, p + pi > 0 (debug-asserted), and any velocities. p may be
+///   negative (tension). Otherwise NaN.
 /// - errors: none. If the sides move apart faster than both can expand (G(−min π) ≥ 0), `vacuum` is set, p is
-///   −min(π_L, π_R) and `u_left`, `u_right` are the speeds at which the fluids recede from each other there. Of two
-///   different stiffnesses only the softer fluid's density vanishes: the stiffer one would bear more tension.
+///   −min(π_L, π_R) and `u_left`, `u_right` are the speeds at which the fluids recede from each other there.
+///   Of two different stiffnesses only the softer fluid's density vanishes: the stiffer one would bear more
+///   tension.
 /// - exactness: p to the round-off of the data, |δp| ≈ ε (|p| + |u|ρc + max |p_K|).
-/// - cost: `iterations` evaluations of the curves and one more; 2.9 iterations on average over random states, 1 to 4 in
-///   common ones, 12 next to the vacuum of two different gases.
+/// - cost: `iterations` evaluations of the curves and one more; 2.9 iterations on average over random states,
+///   1 to 4 in common ones, 12 next to the vacuum of two different gases.
 /// - tested by: reference star states, residual and mirror symmetry of random states, Rankine-Hugoniot
 ///   conditions, Galilean invariance, contacts bitwise, vacuum limit.
 #[must_use]
@@ -271,7 +273,8 @@ fn first_guess(left: &Side, right: &Side, du: f64) -> f64 {
     let z_low = low.rho * low.sound_speed();
     let z_high = high.rho * high.sound_speed();
     let floor = -left.pi.min(right.pi);
-    // Linear solution (Toro 2009, sect. 9.3) in increments on the lower pressure, so that equal states return it.
+    // Linear solution (Toro 2009, sect. 9.3) in increments on the lower pressure, so that equal states return
+    // it.
     let acoustic = low.p + (z_low * (high.p - low.p) - (z_low * z_high) * du) / (z_low + z_high);
     let fallback = if low.p > floor { low.p } else { high.p };
     // Far below both states the tangent says nothing.
@@ -280,7 +283,8 @@ fn first_guess(left: &Side, right: &Side, du: f64) -> f64 {
 
 /// One step of the iteration, in ln P.
 ///
-/// The Newton step in P^θ, kept within the bounds that the Newton steps in P and ln P are; see the file's head.
+/// The Newton step in P^θ, kept within the bounds that the Newton steps in P and ln P are; see the file's
+/// head.
 ///
 /// - `x`: G/(P G'). `theta`: 1 + P G''/G', in (0, 1] but for round-off. `shifted`: P, Pa.
 /// - `lowest`, `highest`: bounds of the root so far, Pa; narrowed.
@@ -295,7 +299,8 @@ fn newton_power_step(x: f64, theta: f64, shifted: f64, lowest: &mut f64, highest
     let power = if theta * x < 1.0 { (-theta * x).ln_1p() / theta } else { f64::NEG_INFINITY };
     let candidate = shifted * power.exp();
     if candidate < *lowest {
-        // No bound from below is known yet where it is that of the vacuum; then down with ln P, which cannot overshoot.
+        // No bound from below is known yet where it is that of the vacuum; then down with ln P, which cannot
+        // overshoot.
         if *lowest > VACUUM_PRESSURE { (*lowest / shifted).ln() } else { -x }
     } else if candidate > *highest {
         (*highest / shifted).ln()
@@ -344,8 +349,9 @@ fn wave(side: &Side, star: &Star, u_star: f64, offset: f64) -> Wave {
 /// Toro (2009) sect. 4.5, in P = p + π. Paper: sect. 3.1.
 ///
 /// - `left`, `right`, `star`: a Riemann problem and its star state. `xi`: speed, m/s.
-/// - returns: density, velocity, pressure, whose fluid it is and whether inside a fan. In the vacuum between two
-///   receding fluids density 0, velocity `xi`, pressure −min(π_L, π_R): at `xi` = 0 no mass and no energy pass.
+/// - returns: density, velocity, pressure, whose fluid it is and whether inside a fan. In the vacuum between
+///   two receding fluids density 0, velocity `xi`, pressure −min(π_L, π_R): at `xi` = 0 no mass and no energy
+///   pass.
 /// - valid for: as [`star_state`].
 /// - errors: none.
 /// - tested by: reference profiles, invariants through a fan, mirror symmetry.
@@ -373,7 +379,8 @@ fn sample_left(side: &Side, star: &Star, u_star: f64, rho_star: f64, offset: f64
     } else if xi >= wave.tail {
         Sample { rho: rho_star, u: u_star, p: star.p, of_left: true, in_fan: false }
     } else {
-        // Toro (2009) eq. 4.56: with y = (xi - head)/c, the sound speed falls to c (1 - (gamma - 1)/(gamma + 1) y).
+        // Toro (2009) eq. 4.56: with y = (xi - head)/c, the sound speed falls to c (1 - (gamma - 1)/(gamma +
+        // 1) y).
         let gamma = side.gamma;
         let ahead = xi - wave.head;
         let ln_c = (-(gamma - 1.0) / (gamma + 1.0) * ahead / side.sound_speed()).ln_1p();

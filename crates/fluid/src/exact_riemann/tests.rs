@@ -179,7 +179,8 @@ const EXTREME: [Case; 13] = [
     ),
 ];
 
-/// Points (x, rho, u, p, left of the contact) of the profile at time t of a case of `REFERENCE`, jump at x0: 12 digits.
+/// Points (x, rho, u, p, left of the contact) of the profile at time t of a case of `REFERENCE`, jump at x0:
+/// 12 digits.
 type Profile = (usize, f64, f64, &'static [(f64, f64, f64, f64, bool)]);
 const PROFILES: [Profile; 6] = [
     (
@@ -369,7 +370,8 @@ impl Random {
     }
 }
 
-/// f(p) as Toro (2009) eqs. 4.6 and 4.7 have it, and its slope, at p + pi = `shifted`: not in the solver's form.
+/// f(p) as Toro (2009) eqs. 4.6 and 4.7 have it, and its slope, at p + pi = `shifted`: not in the solver's
+/// form.
 fn plain_curve(side: &Side, p: f64, shifted: f64) -> (f64, f64) {
     let (base, gamma) = (side.p + side.pi, side.gamma);
     if p > side.p {
