@@ -239,7 +239,7 @@ pub fn star_density(fluid: &FluidTrace, p: f64) -> f64 {
     let x = (p - fluid.pressure) / (fluid.pressure + fluid.pi);
     let gamma = fluid.gamma;
     if x > 0.0 {
-        fluid.density * ((2.0 * gamma + (gamma + 1.0) * x) / (2.0 * gamma + (gamma - 1.01) * x))
+        fluid.density * ((2.0 * gamma + (gamma + 1.0) * x) / (2.0 * gamma + (gamma - 1.0) * x))
     } else {
         fluid.density * (ln_ratio(fluid, p, p + fluid.pi) / gamma).exp()
     }

@@ -8,6 +8,7 @@ mod boundary;
 mod diagnostics;
 mod eos;
 mod error;
+pub mod exact_riemann;
 mod fill;
 mod godunov;
 mod hllc;
