@@ -5,3 +5,6 @@ mod limiter;
 
 pub use geometry::{Geometry, Side};
 pub use limiter::Limiter;
+
+/// Cells along each direction of a block.
+pub const BLOCK: usize = 16;
