@@ -58,7 +58,20 @@ pub fn report(case: &Case) -> String {
 pub fn materials_table() -> String {
     let mut text = format!(
         "{:<18}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}  source\n{:<18}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}\n",
-        "name", "density", "c1", "c2", "young", "poisson", "yield", "", "kg/m3", "m/s", "m/s", "GPa", "1", "MPa"
+        "name",
+        "density",
+        "c1",
+        "c2",
+        "young",
+        "poisson",
+        "yield",
+        "",
+        "kg/m3",
+        "m/s",
+        "m/s",
+        "GPa",
+        "1",
+        "MPa"
     );
     for material in Material::library() {
         let strength = material.yield_strength().map_or("-".to_owned(), |y| format!("{:.0}", y / 1e6));
@@ -102,7 +115,8 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
     let ambient = &fluid.initial.ambient;
     for (number, region) in fluid.initial.regions.iter().enumerate() {
         let Shape::Sphere { centre, radius } = region.shape else { continue };
-        let mut parts = vec![format!("R = {}, {:.1} cells per radius", si(radius, "m"), radius / h_z.max(h_r))];
+        let mut parts =
+            vec![format!("R = {}, {:.1} cells per radius", si(radius, "m"), radius / h_z.max(h_r))];
         if case.coupling.scheme != Scheme::None {
             let distance = centre[0] - fluid.grid.z[0];
             parts.push(format!("stand-off d/R = {:.3}", distance / radius));
@@ -113,7 +127,8 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
         line(text, &format!("region {number}"), &parts.join(", "));
     }
     for (number, pulse) in fluid.initial.pulses.iter().enumerate() {
-        let cells = format!("a = {}, {:.1} cells per width", si(pulse.width, "m"), pulse.width / h_z.max(h_r));
+        let cells =
+            format!("a = {}, {:.1} cells per width", si(pulse.width, "m"), pulse.width / h_z.max(h_r));
         line(text, &format!("pulse {number}"), &cells);
     }
 }
@@ -204,11 +219,7 @@ fn steps(text: &mut String, case: &Case) {
         (None, None) => return,
     };
     if let (Some(fluid), Some(solid)) = (fluid, solid) {
-        line(
-            text,
-            "time step",
-            &format!("fluid {}, solid {}: {limiting}", si(fluid, "s"), si(solid, "s")),
-        );
+        line(text, "time step", &format!("fluid {}, solid {}: {limiting}", si(fluid, "s"), si(solid, "s")));
     } else {
         line(text, "time step", &format!("{limiting} {}", si(step, "s")));
     }
@@ -284,7 +295,13 @@ fn si(value: f64, unit: &str) -> String {
         .find(|(scale, _)| value.abs() >= *scale * 0.99995)
         .unwrap_or(if value == 0.0 { (1.0, "") } else { (1e-12, "p") });
     let scaled = value / scale;
-    let digits = if scaled.abs() < 10.0 { 3 } else if scaled.abs() < 100.0 { 2 } else { 1 };
+    let digits = if scaled.abs() < 10.0 {
+        3
+    } else if scaled.abs() < 100.0 {
+        2
+    } else {
+        1
+    };
     let number = format!("{scaled:.digits$}");
     let number = number.trim_end_matches('0').trim_end_matches('.');
     format!("{number} {prefix}{unit}")

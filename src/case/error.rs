@@ -70,16 +70,49 @@ impl CaseErrors {
     /// The faults with the lines of the text they are in, for a terminal (`colour`) or a file.
     pub fn render(&self, colour: bool) -> String {
         let theme = if colour { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
-        let handler = GraphicalReportHandler::new_themed(theme)
-            .with_width(110)
-            .with_context_lines(0)
-            .with_show_related_as_nested(false)
-            .without_cause_chain();
+        let handler = GraphicalReportHandler::new_themed(theme).with_width(110).without_cause_chain();
         let mut text = String::new();
-        match handler.render_report(&mut text, self) {
-            Ok(()) => text,
-            Err(fmt::Error) => self.to_string(),
+        for fault in &self.faults {
+            let drawn = Drawn { fault, source: fault.span.as_ref().map(|_| &self.source) };
+            if handler.render_report(&mut text, &drawn).is_err() {
+                return self.to_string();
+            }
+            text.push('\n');
         }
+        let count = match self.faults.len() {
+            1 => "1 fault".to_owned(),
+            several => format!("{several} faults"),
+        };
+        text + &format!("{count} in {}\n", self.source.name())
+    }
+}
+
+/// A fault with the text it is in.
+#[derive(Debug)]
+struct Drawn<'a> {
+    fault: &'a CaseError,
+    source: Option<&'a NamedSource<String>>,
+}
+
+impl fmt::Display for Drawn<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.fault.fmt(f)
+    }
+}
+
+impl std::error::Error for Drawn<'_> {}
+
+impl Diagnostic for Drawn<'_> {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.fault.help()
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.fault.labels()
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.map(|source| source as &dyn SourceCode)
     }
 }
 
@@ -104,7 +137,6 @@ impl fmt::Display for CaseErrors {
 }
 
 impl std::error::Error for CaseErrors {}
-
 
 impl Diagnostic for CaseErrors {
     fn source_code(&self) -> Option<&dyn SourceCode> {

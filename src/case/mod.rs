@@ -22,8 +22,7 @@ pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
 
 /// Cell fields of the fluid that `output.fields` may name.
-pub const FLUID_FIELDS: [&str; 6] =
-    ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
+pub const FLUID_FIELDS: [&str; 6] = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
 
 /// Cell fields of the solid that `output.fields` may name.
 pub const SOLID_FIELDS: [&str; 8] = [
@@ -254,8 +253,7 @@ impl Case {
                 _ => "check that the file may be read",
             };
             let message = format!("cannot read the case file: {error}");
-            let fault =
-                CaseError { path: shown.clone(), message, help: Some(help.to_owned()), span: None };
+            let fault = CaseError { path: shown.clone(), message, help: Some(help.to_owned()), span: None };
             CaseErrors::new(&shown, "", vec![fault])
         })?;
         let stem = path.file_stem().map_or_else(|| "case".into(), |stem| stem.to_string_lossy());

@@ -56,12 +56,10 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     let (coupling, scheme) = coupling(&mut root, &mut faults);
     let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value) };
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
-    let fluid = root
-        .table("fluid", &mut faults)
-        .and_then(|table| read_fluid::fluid(table, context, &mut faults));
-    let solid = root
-        .table("solid", &mut faults)
-        .and_then(|table| read_solid::solid(table, context, &mut faults));
+    let fluid =
+        root.table("fluid", &mut faults).and_then(|table| read_fluid::fluid(table, context, &mut faults));
+    let solid =
+        root.table("solid", &mut faults).and_then(|table| read_solid::solid(table, context, &mut faults));
     let probes = probes(&mut root, &mut faults);
     let output = output(&mut root, &mut faults);
     root.finish(&mut faults);
@@ -130,7 +128,8 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
     if let Some(given) = &snapshots {
         for (number, &value) in given.value.iter().enumerate() {
             if !(0.0..=end).contains(&value) {
-                let message = format!("snapshot {number} at {value:?} s lies outside the run, 0 to {end:?} s");
+                let message =
+                    format!("snapshot {number} at {value:?} s lies outside the run, 0 to {end:?} s");
                 faults.of(given, message, "remove it, or make `end` later");
             }
         }
@@ -229,8 +228,7 @@ fn probes(root: &mut Table<'_>, faults: &mut Faults) -> Vec<PlacedProbe> {
         let medium = table.choice("medium", &Medium::NAMES, faults);
         table.finish(faults);
         if let (Some(name), Some(position), Some(medium)) = (name, position, medium) {
-            let probe =
-                Probe { name: name.value.to_owned(), position: position.value, medium: medium.value };
+            let probe = Probe { name: name.value.to_owned(), position: position.value, medium: medium.value };
             probes.push(PlacedProbe { probe, position, medium });
         }
     }

@@ -7,8 +7,8 @@ use fluid::{
 };
 use mesh::{Geometry, Limiter, Side};
 
-use super::reader::{Faults, Given, Table, number, pair};
 use super::read::{Context, GridPlace, boundaries, grid, history};
+use super::reader::{Faults, Given, Table, number, pair};
 use super::{FluidCase, GridCase, Inflow};
 
 /// The shapes of regions and pulses by name.
@@ -54,12 +54,8 @@ pub(super) fn fluid(
         Some(table) => stiffened_gas(table, Some(air), faults),
         None => Some(air),
     };
-    let setting = Setting {
-        liquid,
-        gas,
-        grid: placed.as_ref().map(|(grid, _)| *grid),
-        geometry: context.geometry,
-    };
+    let setting =
+        Setting { liquid, gas, grid: placed.as_ref().map(|(grid, _)| *grid), geometry: context.geometry };
     let initial = initial(&mut table, &setting, faults);
     let boundary = sides(&mut table, context, faults);
     let inflow = inflow(&mut table, boundary, liquid, faults);
@@ -112,11 +108,7 @@ fn stiffened_gas(
     sound.then_some(StiffenedGas { gamma: gamma.value, pi: pi.value })
 }
 
-fn initial(
-    table: &mut Table<'_>,
-    setting: &Setting,
-    faults: &mut Faults,
-) -> Option<InitialCondition> {
+fn initial(table: &mut Table<'_>, setting: &Setting, faults: &mut Faults) -> Option<InitialCondition> {
     let ambient = if table.has("ambient") {
         table.table("ambient", faults).and_then(|mut table| {
             let ambient = state(&mut table, Some(Phase::Liquid), setting, faults);
@@ -176,11 +168,7 @@ fn state(
     Some(PhaseState { phase: phase?, density: density?, pressure: pressure.value, velocity })
 }
 
-fn shape(
-    table: &mut Table<'_>,
-    names: &[(&'static str, Kind)],
-    faults: &mut Faults,
-) -> Option<Kind> {
+fn shape(table: &mut Table<'_>, names: &[(&'static str, Kind)], faults: &mut Faults) -> Option<Kind> {
     if !table.has("shape") {
         let all: Vec<String> = names.iter().map(|(name, _)| format!("\"{name}\"")).collect();
         table.missing("shape", format!("give `shape = ` one of {}", all.join(", ")), faults);
@@ -260,9 +248,8 @@ fn pulse(
     if let (Some(ambient), Some(liquid)) = (ambient, setting.liquid) {
         let lowest = ambient.pressure + amplitude.value;
         if lowest + liquid.pi <= 0.0 {
-            let message = format!(
-                "the pressure at the pulse's centre would be {lowest:?} Pa, where p + pi > 0 fails"
-            );
+            let message =
+                format!("the pressure at the pulse's centre would be {lowest:?} Pa, where p + pi > 0 fails");
             faults.of(&amplitude, message, "give a smaller amplitude");
         }
     }

@@ -142,12 +142,7 @@ impl<'a> Table<'a> {
     }
 
     /// A positive number that must be there.
-    pub fn required_positive(
-        &mut self,
-        key: &'static str,
-        unit: &str,
-        faults: &mut Faults,
-    ) -> Option<f64> {
+    pub fn required_positive(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<f64> {
         if !self.has(key) {
             self.missing(key, format!("give `{key} = ...` in {unit}"), faults);
         }
@@ -155,12 +150,7 @@ impl<'a> Table<'a> {
     }
 
     /// A list of finite numbers.
-    pub fn numbers(
-        &mut self,
-        key: &'static str,
-        unit: &str,
-        faults: &mut Faults,
-    ) -> Option<Given<Vec<f64>>> {
+    pub fn numbers(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<Vec<f64>>> {
         let given = self.raw(key)?;
         let elements = array(&given, "a list of numbers", unit, faults)?;
         let values: Vec<Option<f64>> = elements.iter().map(|e| number(e, unit, faults)).collect();
@@ -195,7 +185,8 @@ impl<'a> Table<'a> {
         if low < high {
             return Some(given);
         }
-        let help = format!("give the smaller bound first: {key} = [{:?}, {:?}]", high.min(low), high.max(low));
+        let help =
+            format!("give the smaller bound first: {key} = [{:?}, {:?}]", high.min(low), high.max(low));
         faults.of(&given, format!("must increase, got [{low:?}, {high:?}] m"), help);
         None
     }
@@ -290,12 +281,7 @@ pub(super) fn describe(value: &DeValue<'_>) -> String {
     }
 }
 
-pub(super) fn wrong_type(
-    given: &Given<&DeValue<'_>>,
-    expected: &str,
-    help: String,
-    faults: &mut Faults,
-) {
+pub(super) fn wrong_type(given: &Given<&DeValue<'_>>, expected: &str, help: String, faults: &mut Faults) {
     faults.of(given, format!("must be {expected}, got {}", describe(given.value)), help);
 }
 

@@ -43,7 +43,11 @@ fn parse(path: &str, text: &str) -> Result<Value, CaseError> {
         Ok(value) => Ok(value),
         Err(_) if text.starts_with(['[', '{', '"', '\'']) => {
             let message = format!("--set: `{text}` is no TOML value");
-            Err(fault(path, message, "close the brackets and quotes, and mind those that the shell takes away"))
+            Err(fault(
+                path,
+                message,
+                "close the brackets and quotes, and mind those that the shell takes away",
+            ))
         }
         Err(_) => Ok(Value::from(text)),
     }
@@ -54,12 +58,7 @@ fn path_to(keys: &[&str], depth: usize) -> String {
     keys[..=depth.min(keys.len() - 1)].join(".")
 }
 
-fn in_table(
-    table: &mut dyn TableLike,
-    keys: &[&str],
-    depth: usize,
-    value: Value,
-) -> Result<(), CaseError> {
+fn in_table(table: &mut dyn TableLike, keys: &[&str], depth: usize, value: Value) -> Result<(), CaseError> {
     let key = keys[depth];
     if depth + 1 == keys.len() {
         table.insert(key, Item::Value(value));

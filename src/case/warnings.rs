@@ -28,7 +28,12 @@ impl Case {
         if let Some(solid) = &self.solid {
             let [h_z, h_r] = solid.grid.cell_size();
             for (number, pulse) in solid.pulses.iter().enumerate() {
-                unresolved(&format!("solid.pulse.{number}"), "width", pulse.width / h_z.max(h_r), &mut warnings);
+                unresolved(
+                    &format!("solid.pulse.{number}"),
+                    "width",
+                    pulse.width / h_z.max(h_r),
+                    &mut warnings,
+                );
             }
         }
         warnings
@@ -47,7 +52,8 @@ fn fluid_warnings(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<Stri
     for (number, pulse) in initial.pulses.iter().enumerate() {
         unresolved(&format!("fluid.pulse.{number}"), "width", pulse.width / widest, warnings);
         if initial.ambient.phase == Phase::Gas {
-            warnings.push(format!("fluid.pulse.{number}: pulses act on liquid, but the ambient phase is gas"));
+            warnings
+                .push(format!("fluid.pulse.{number}: pulses act on liquid, but the ambient phase is gas"));
         }
     }
     if geometry == Geometry::Axisymmetric && initial.ambient.velocity[1] != 0.0 {
