@@ -237,6 +237,35 @@ fn all_faults_of_a_case_come_together_and_are_drawn() {
     assert!(errors.render(true).contains('\u{1b}'));
 }
 
+proptest::proptest! {
+    /// Whatever a line is replaced by, reading ends with a case or with faults, and a case can be written out.
+    #[test]
+    fn damaged_cases_do_not_panic(
+        line in 1_usize..32,
+        value in "[-+.eE0-9]{1,9}|[\\[\\]{}=\"'.a-z0-9, ]{0,12}|inf|nan|\\[1e308, -1e308\\]|1e308|9223372036854775807",
+        set in "(time|fluid|solid|probe)(\\.(end|cells|levels|z|r|region|material|0|1|x)){0,3}=[\\[\\]{}0-9ae.,]{0,5}",
+    ) {
+        let damaged: Vec<String> = GOOD
+            .lines()
+            .enumerate()
+            .map(|(number, text)| match text.split_once('=') {
+                Some((key, _)) if number == line => format!("{key}= {value}"),
+                None if number == line => value.clone(),
+                _ => text.to_owned(),
+            })
+            .collect();
+        for (text, sets) in [(damaged.join("\n"), vec![]), (GOOD.to_owned(), vec![set])] {
+            match Case::from_toml(&text, "damaged", &sets) {
+                Ok(case) => {
+                    round_trip(&case);
+                    cav::case::report(&case);
+                }
+                Err(errors) => assert!(!errors.faults().is_empty() && !errors.render(false).is_empty()),
+            }
+        }
+    }
+}
+
 #[test]
 fn a_missing_file_and_a_directory_are_named() {
     for (path, part) in [("no/such/case.toml", "check the path"), ("cases", "give the TOML file")] {
@@ -349,6 +378,8 @@ fn sides_that_are_not_named_have_what_the_scheme_means() {
     let rigid = with(&["coupling.scheme=rigid", "probe.0.medium=solid"]);
     assert_eq!(fluid_sides(&rigid), Some([Wall, NonReflecting, Axis, NonReflecting]));
     assert!(rigid.solid.is_none() && rigid.probes.is_empty());
+    let named = with(&["fluid.boundary={ z_min = \"interface\", r_min = \"axis\" }"]);
+    assert_eq!(named, good());
     assert_eq!(rigid.warnings().len(), 2, "{:?}", rigid.warnings());
     round_trip(&rigid);
 }
@@ -434,6 +465,11 @@ fn the_report_knows_the_papers_case() {
     ] {
         assert!(report.contains(part), "no `{part}` in:\n{report}");
     }
+    // The same bubble above a rigid wall is the rigid case, to the last key.
+    let rigid = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/rigid-wall.toml"));
+    let text = case.effective_toml();
+    let same = Case::from_toml(&text, "rigid-wall", &["coupling.scheme=rigid".to_owned()]);
+    assert_eq!(same.unwrap_or_else(|errors| panic!("{errors}")).hash(), rigid.hash());
     let coarse = Case::load(
         &Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml"),
         &["fluid.levels=2".to_owned(), "time.cfl=0.6".to_owned()],

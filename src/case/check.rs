@@ -143,7 +143,7 @@ fn rayleigh_time(ambient: &PhaseState, bubble: &PhaseState, radius: f64) -> Opti
 fn material(text: &mut String, material: &Material) {
     let strength = material.yield_strength().map_or("none".to_owned(), |y| si(y, "Pa"));
     let numbers = format!(
-        "{}: density {:?} kg/m3, c1 = {:.6} m/s, c2 = {:.6} m/s, E = {}, nu = {:.4}, yield strength {strength}",
+        "{}: density {:?} kg/m3, c1 = {:.1} m/s, c2 = {:.1} m/s, E = {}, nu = {:.4}, yield strength {strength}",
         material.name(),
         material.density(),
         material.c1(),
@@ -236,7 +236,7 @@ fn steps(text: &mut String, case: &Case) {
     let per_step = cells(case.fluid.as_ref().map(|side| &side.grid)) * FLUID_NS
         + cells(case.solid.as_ref().map(|side| &side.grid)) * SOLID_NS;
     let seconds = count * per_step * 1e-9 / THREADS;
-    line(text, "steps", &format!("about {count:.0} at the first step's size; a collapse shortens them"));
+    line(text, "steps", &format!("about {count:.0} of the first one's size; a collapse shortens them"));
     line(
         text,
         "run time",

@@ -2,7 +2,8 @@
 
 use coupler::Scheme;
 
-use super::read::{GridPlace, PlacedProbe};
+use super::read::PlacedProbe;
+use super::read_grid::GridPlace;
 use super::reader::{Faults, Given};
 use super::{GridCase, Medium, Probe};
 

@@ -6,6 +6,7 @@ mod effective;
 mod error;
 mod read;
 mod read_fluid;
+mod read_grid;
 mod read_solid;
 mod reader;
 mod set;

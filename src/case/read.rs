@@ -3,20 +3,17 @@
 use std::path::PathBuf;
 
 use coupler::{Kappa, Scheme, StarSolver};
-use mesh::{BLOCK, Geometry, Side};
+use mesh::{Geometry, Side};
 use toml::de::DeTable;
 
 use super::error::{CaseError, suggest};
+use super::read_grid::MOST_CELLS;
 use super::reader::{Faults, Given, Table, array, pair};
 use super::{
-    Case, CouplingCase, FLUID_FIELDS, GridCase, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index,
+    Case, CouplingCase, FLUID_FIELDS, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index,
     read_fluid, read_solid,
 };
 
-/// More cells than this along one direction are a mistake.
-const MOST_CELLS: usize = 1 << 20;
-/// More levels than this are a mistake.
-const MOST_LEVELS: usize = 20;
 /// More snapshots than this are a mistake.
 const MOST_SNAPSHOTS: f64 = 1e5;
 
@@ -26,12 +23,6 @@ pub(super) struct Context {
     pub geometry: Geometry,
     /// `None` where the name given is faulty.
     pub scheme: Option<Scheme>,
-}
-
-/// Where a side's ranges stand, for what is found out when both sides are known.
-pub(super) struct GridPlace {
-    pub z: Given<[f64; 2]>,
-    pub r: Given<[f64; 2]>,
 }
 
 /// A probe and where its point stands.
@@ -281,77 +272,12 @@ fn output(root: &mut Table<'_>, faults: &mut Faults) -> OutputCase {
     output
 }
 
-/// Domain and cells of a side.
-pub(super) fn grid(
-    table: &mut Table<'_>,
-    context: Context,
-    faults: &mut Faults,
-) -> Option<(GridCase, GridPlace)> {
-    let z = table.range("z", faults);
-    let mut r = table.range("r", faults);
-    if let Some(given) = &r
-        && context.geometry == Geometry::Axisymmetric
-        && given.value[0] != 0.0
-    {
-        let start = given.value[0];
-        let message = if start < 0.0 {
-            format!("axisymmetric geometry has no negative r, got {start:?} m")
-        } else {
-            format!("an axisymmetric domain must start at the axis r = 0, got {start:?} m")
-        };
-        faults.of(given, message, "start at r = 0.0, or take geometry = \"planar\"");
-        r = None;
-    }
-    let cells = table.whole_pair("cells", 1..=MOST_CELLS, faults);
-    let levels = table.whole("levels", 0..=MOST_LEVELS, faults);
-    let levels = match levels {
-        Some(given) => Some(given.value),
-        // Present and faulty, or absent: then there is one level.
-        None => (!table.has("levels")).then_some(0),
-    };
-    let (cells, levels) = (cells?, levels?);
-    if !fits(&cells, levels, faults) {
-        return None;
-    }
-    let (z, r) = (z?, r?);
-    Some((GridCase { z: z.value, r: r.value, cells: cells.value, levels }, GridPlace { z, r }))
-}
-
-/// Whether the finest grid is a whole number of blocks and not absurdly large.
-fn fits(cells: &Given<[usize; 2]>, levels: usize, faults: &mut Faults) -> bool {
-    let finest = cells.value.map(|cells| cells << levels);
-    let formula = format!("{} x {} cells (cells * 2^levels)", finest[0], finest[1]);
-    if finest.iter().any(|cells| *cells > MOST_CELLS) {
-        let message = format!("the finest grid has {formula}, more than {MOST_CELLS} along one direction");
-        faults.of(cells, message, "take fewer cells or levels");
-        return false;
-    }
-    if finest.iter().all(|cells| cells.is_multiple_of(BLOCK)) {
-        return true;
-    }
-    let step = BLOCK >> levels.min(BLOCK.ilog2() as usize);
-    let nearest = cells.value.map(|cells| ((cells + step / 2) / step).max(1) * step);
-    let mut help = format!(
-        "the nearest that is: cells = [{}, {}], finest {} x {}",
-        nearest[0],
-        nearest[1],
-        nearest[0] << levels,
-        nearest[1] << levels
-    );
-    let whole = |levels: &usize| cells.value.iter().all(|cells| (cells << levels).is_multiple_of(BLOCK));
-    if let Some(levels) = (levels..=MOST_LEVELS).find(whole) {
-        help += &format!("; or levels = {levels} with the cells as they are");
-    }
-    let message = format!("the finest grid has {formula}, no whole number of blocks of {BLOCK} x {BLOCK}");
-    faults.of(cells, message, help);
-    false
-}
-
-/// The four sides of a `[....boundary]` table; `fixed` says why a side cannot be named.
+/// The four sides of a `[....boundary]` table; `fixed` says what a side is that cannot be chosen, and why. Naming it
+/// as what it is does no harm.
 pub(super) fn boundaries<B: Copy + PartialEq>(
     table: Option<Table<'_>>,
     names: &[(&'static str, B)],
-    fixed: impl Fn(Side) -> Option<String>,
+    fixed: impl Fn(Side) -> Option<(&'static str, &'static str)>,
     default: [B; 4],
     periodic: B,
     faults: &mut Faults,
@@ -360,11 +286,10 @@ pub(super) fn boundaries<B: Copy + PartialEq>(
     let Some(mut table) = table else { return sides };
     let mut given: [Option<Given<B>>; 4] = [const { None }; 4];
     for (key, side) in Side::NAMES {
-        if table.has(key)
-            && let Some(reason) = fixed(side)
-            && let Some(value) = table.raw(key)
-        {
-            faults.of(&value, reason, format!("remove `{key}`"));
+        if let Some((name, reason)) = fixed(side) {
+            if let Some(value) = table.raw(key).filter(|given| given.value.as_str() != Some(name)) {
+                faults.of(&value, reason, format!("remove `{key}`"));
+            }
             continue;
         }
         given[index(side)] = table.choice(key, names, faults);

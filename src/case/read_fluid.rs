@@ -7,7 +7,8 @@ use fluid::{
 };
 use mesh::{Geometry, Limiter, Side};
 
-use super::read::{Context, GridPlace, boundaries, grid, history};
+use super::read::{Context, boundaries, history};
+use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, Given, Table, number, pair};
 use super::{FluidCase, GridCase, Inflow};
 
@@ -296,13 +297,13 @@ fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Bound
     };
     let fixed = |side| match (side, context.scheme) {
         (Side::ZMin, Some(Scheme::Riemann | Scheme::Weak)) => {
-            Some("z_min of the fluid is the interface; only scheme = \"none\" leaves it free".to_owned())
+            Some(("interface", "z_min of the fluid is the interface; only scheme = \"none\" leaves it free"))
         }
         (Side::ZMin, Some(Scheme::Rigid)) => {
-            Some("z_min of the fluid is the rigid wall; only scheme = \"none\" leaves it free".to_owned())
+            Some(("wall", "z_min of the fluid is the rigid wall; only scheme = \"none\" leaves it free"))
         }
         (Side::RMin, _) if context.geometry == Geometry::Axisymmetric => {
-            Some("r_min is the axis in axisymmetric geometry".to_owned())
+            Some(("axis", "r_min is the axis in axisymmetric geometry"))
         }
         _ => None,
     };

@@ -7,7 +7,8 @@ use toml::de::DeValue;
 
 use super::SolidCase;
 use super::error::suggest;
-use super::read::{Context, GridPlace, boundaries, grid};
+use super::read::{Context, boundaries};
+use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, Table, describe};
 
 pub(super) fn solid(
@@ -178,10 +179,10 @@ fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Bound
     };
     let fixed = |side| match side {
         Side::ZMax if coupled => {
-            Some("z_max of the solid is the interface; only scheme = \"none\" leaves it free".to_owned())
+            Some(("interface", "z_max of the solid is the interface; only scheme = \"none\" leaves it free"))
         }
         Side::RMin if context.geometry == Geometry::Axisymmetric => {
-            Some("r_min is the axis in axisymmetric geometry".to_owned())
+            Some(("axis", "r_min is the axis in axisymmetric geometry"))
         }
         _ => None,
     };

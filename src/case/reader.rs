@@ -215,7 +215,7 @@ impl<'a> Table<'a> {
             return None;
         };
         let elements = array(&given, "two whole numbers", "cells along z and r", faults)?;
-        let &[ref z, ref r] = elements.as_slice() else {
+        let [z, r] = elements.as_slice() else {
             let message = format!("must be two whole numbers, got {}", elements.len());
             faults.of(&given, message, format!("give `{key} = [along z, along r]`"));
             return None;
@@ -330,7 +330,7 @@ pub(super) fn number(given: &Given<&DeValue<'_>>, unit: &str, faults: &mut Fault
 /// Two finite numbers.
 pub(super) fn pair(given: &Given<&DeValue<'_>>, unit: &str, faults: &mut Faults) -> Option<[f64; 2]> {
     let elements = array(given, "two numbers", unit, faults)?;
-    let &[ref first, ref second] = elements.as_slice() else {
+    let [first, second] = elements.as_slice() else {
         let message = format!("must be two numbers, got {}", elements.len());
         faults.of(given, message, format!("write [..., ...] with values in {unit}"));
         return None;

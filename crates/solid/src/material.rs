@@ -324,8 +324,9 @@ mod tests {
     #[test]
     fn young_210_gpa_gives_the_slower_speeds() {
         let steel = Material::from_young(7800.0, 210e9, 0.25).expect("steel");
-        assert_relative_eq!(steel.c1(), 5684.0, max_relative = 1e-4);
-        assert_relative_eq!(steel.c2(), 3282.0, max_relative = 1e-4);
+        // The speeds are known to the metre per second.
+        assert_relative_eq!(steel.c1(), 5684.0, epsilon = 0.5);
+        assert_relative_eq!(steel.c2(), 3282.0, epsilon = 0.5);
     }
 
     #[test]
