@@ -1,1 +1,3 @@
-//! cav
+//! A bubble collapses near an elastic solid: cases, runs, output.
+
+pub mod case;

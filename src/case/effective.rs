@@ -1,0 +1,211 @@
+//! A case written out in full, and its hash.
+
+use std::fmt::Write as _;
+
+use coupler::Scheme;
+use fluid::{PhaseState, PulseShape, Shape};
+use mesh::Side;
+use sha2::{Digest, Sha256};
+
+use super::{Case, FluidCase, GridCase, SolidCase};
+
+impl Case {
+    /// The case as TOML with all defaults filled in; reading it gives this case again.
+    pub fn effective_toml(&self) -> String {
+        let output = &self.output;
+        let mut table = Lines(self.write(true));
+        table.head("[output]");
+        if let Some(directory) = &output.directory {
+            table.key("directory", quoted(&directory.to_string_lossy()));
+        }
+        if let Some(fields) = &output.fields {
+            let fields: Vec<String> = fields.iter().map(|field| quoted(field)).collect();
+            table.key("fields", format!("[{}]", fields.join(", ")));
+        }
+        table.key("compression", output.compression);
+        if let Some(cells) = output.interface_cells {
+            table.key("interface_cells", cells);
+        }
+        if let Some(seconds) = output.interface_every {
+            table.number("interface_every", seconds);
+        }
+        table.0
+    }
+
+    /// SHA-256 of what the case computes: of [`Case::effective_toml`] without `[output]` and the waiting times.
+    pub fn hash(&self) -> [u8; 32] {
+        Sha256::digest(self.write(false).as_bytes()).into()
+    }
+
+    /// The effective case without `[output]`, and without the waiting times unless asked for.
+    fn write(&self, waiting: bool) -> String {
+        let mut text = Lines(String::new());
+        text.name("geometry", &mesh::Geometry::NAMES, self.geometry);
+        text.head("[time]");
+        text.number("end", self.time.end);
+        text.number("cfl", self.time.cfl);
+        text.list("snapshots", &self.time.snapshots);
+        if let Some(fluid) = &self.fluid {
+            write_fluid(&mut text, fluid, self.coupling.scheme);
+        }
+        if let Some(solid) = &self.solid {
+            write_solid(&mut text, solid);
+        }
+        text.head("[coupling]");
+        text.name("scheme", &coupler::Scheme::NAMES, self.coupling.scheme);
+        text.name("star", &coupler::StarSolver::NAMES, self.coupling.star);
+        text.name("kappa", &coupler::Kappa::NAMES, self.coupling.kappa);
+        if waiting {
+            text.number("connect_timeout", self.coupling.connect_timeout);
+            text.number("patience", self.coupling.patience);
+        }
+        for probe in &self.probes {
+            text.head("[[probe]]");
+            text.key("name", quoted(&probe.name));
+            text.list("position", &probe.position);
+            text.name("medium", &super::Medium::NAMES, probe.medium);
+        }
+        text.0
+    }
+}
+
+fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
+    text.head("[fluid]");
+    write_grid(text, &fluid.grid);
+    text.name("riemann", &fluid::RiemannSolver::NAMES, fluid.riemann);
+    text.name("model", &fluid::Model::NAMES, fluid.model);
+    text.name("limiter", &mesh::Limiter::NAMES, fluid.limiter);
+    for (head, eos) in [("[fluid.liquid]", fluid.liquid), ("[fluid.gas]", fluid.gas)] {
+        text.head(head);
+        text.number("gamma", eos.gamma);
+        text.number("pi", eos.pi);
+    }
+    text.head("[fluid.ambient]");
+    write_state(text, &fluid.initial.ambient);
+    for region in &fluid.initial.regions {
+        text.head("[[fluid.region]]");
+        match region.shape {
+            Shape::Sphere { centre, radius } => {
+                text.key("shape", "\"sphere\"");
+                text.list("centre", &centre);
+                text.number("radius", radius);
+            }
+            Shape::Box { z, r } => {
+                text.key("shape", "\"box\"");
+                text.list("z", &z);
+                text.list("r", &r);
+            }
+        }
+        write_state(text, &region.state);
+    }
+    for pulse in &fluid.initial.pulses {
+        text.head("[[fluid.pulse]]");
+        match pulse.shape {
+            PulseShape::Sphere => text.key("shape", "\"sphere\""),
+            PulseShape::Plane { direction } => {
+                text.key("shape", "\"plane\"");
+                if let Some(direction) = direction {
+                    text.list("direction", &direction);
+                }
+            }
+        }
+        text.list("centre", &pulse.centre);
+        text.number("width", pulse.width);
+        text.number("amplitude", pulse.amplitude);
+    }
+    text.head("[fluid.boundary]");
+    // The rigid wall is the scheme's and cannot be named.
+    let first = usize::from(scheme == Scheme::Rigid);
+    write_sides(text, fluid.boundary, &fluid::Boundary::NAMES, first);
+    if let Some(inflow) = &fluid.inflow {
+        text.head("[fluid.inflow]");
+        let rows: Vec<String> = inflow.pressure.iter().map(|[t, p]| format!("[{t:?}, {p:?}]")).collect();
+        text.key("pressure", format!("[{}]", rows.join(", ")));
+    }
+}
+
+fn write_solid(text: &mut Lines, solid: &SolidCase) {
+    text.head("[solid]");
+    write_grid(text, &solid.grid);
+    text.name("initial_stress", &solid::InitialStress::NAMES, solid.initial_stress);
+    text.name("limiter", &mesh::Limiter::NAMES, solid.limiter);
+    // The numbers, not only the name: a case stays what it is when the library changes.
+    text.head("[solid.material]");
+    let material = &solid.material;
+    text.key("name", quoted(material.name()));
+    text.number("density", material.density());
+    text.number("c1", material.c1());
+    text.number("c2", material.c2());
+    if let Some(yield_strength) = material.yield_strength() {
+        text.number("yield_strength", yield_strength);
+    }
+    for pulse in &solid.pulses {
+        text.head("[[solid.pulse]]");
+        text.list("centre", &pulse.centre);
+        text.number("width", pulse.width);
+        text.number("amplitude", pulse.amplitude);
+    }
+    text.head("[solid.boundary]");
+    write_sides(text, solid.boundary, &solid::Boundary::NAMES, 0);
+}
+
+fn write_grid(text: &mut Lines, grid: &GridCase) {
+    text.list("z", &grid.z);
+    text.list("r", &grid.r);
+    text.key("cells", format!("[{}, {}]", grid.cells[0], grid.cells[1]));
+    text.key("levels", grid.levels);
+}
+
+fn write_state(text: &mut Lines, state: &PhaseState) {
+    text.name("phase", &fluid::Phase::NAMES, state.phase);
+    text.number("density", state.density);
+    text.number("pressure", state.pressure);
+    text.list("velocity", &state.velocity);
+}
+
+/// The sides from `first` on that a case may name: neither the axis nor the interface.
+fn write_sides<B: Copy + PartialEq>(
+    text: &mut Lines,
+    sides: [B; 4],
+    names: &[(&'static str, B)],
+    first: usize,
+) {
+    for ((key, _), side) in Side::NAMES.iter().zip(sides).skip(first) {
+        if names.iter().any(|(_, named)| *named == side) {
+            text.name(key, names, side);
+        }
+    }
+}
+
+/// TOML being written line by line.
+struct Lines(String);
+
+impl Lines {
+    fn head(&mut self, head: &str) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(self.0, "\n{head}");
+    }
+
+    fn key(&mut self, key: &str, value: impl std::fmt::Display) {
+        let _ = writeln!(self.0, "{key} = {value}");
+    }
+
+    /// The shortest digits that give the same number again.
+    fn number(&mut self, key: &str, value: f64) {
+        self.key(key, format_args!("{value:?}"));
+    }
+
+    fn list(&mut self, key: &str, values: &[f64]) {
+        self.key(key, format_args!("{values:?}"));
+    }
+
+    fn name<T: Copy + PartialEq>(&mut self, key: &str, names: &[(&'static str, T)], value: T) {
+        if let Some((name, _)) = names.iter().find(|(_, named)| *named == value) {
+            self.key(key, format_args!("\"{name}\""));
+        }
+    }
+}
+
+fn quoted(text: &str) -> String {
+    toml_edit::Value::from(text).to_string()
+}

@@ -1,0 +1,298 @@
+//! Case files: TOML in SI units, read into a validated [`Case`]. `docs/cases.md` lists every key.
+
+mod check;
+mod cross;
+mod effective;
+mod error;
+mod read;
+mod read_fluid;
+mod read_grid;
+mod read_solid;
+mod reader;
+mod set;
+mod warnings;
+
+use std::path::{Path, PathBuf};
+
+use coupler::{Kappa, Scheme, StarSolver};
+use fluid::{InitialCondition, Model, PhaseState, RiemannSolver, StiffenedGas};
+use mesh::{Geometry, Limiter, Side};
+use solid::{InitialStress, Material, PotentialPulse};
+
+pub use check::{materials_table, report};
+pub use error::{CaseError, CaseErrors};
+
+/// Cell fields of the fluid that `output.fields` may name.
+pub const FLUID_FIELDS: [&str; 6] = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
+
+/// Cell fields of the solid that `output.fields` may name.
+pub const SOLID_FIELDS: [&str; 8] = [
+    "velocity",
+    "stress_zz",
+    "stress_zr",
+    "stress_rr",
+    "stress_phiphi",
+    "von_mises",
+    "yield_function",
+    "level",
+];
+
+/// A case: everything that says what a run computes, checked and with all defaults filled in.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// What the case is called: the name of its file without `.toml`.
+    pub name: String,
+    /// Rotation about r = 0 or plane strain.
+    pub geometry: Geometry,
+    /// How long, in what steps, and when fields are written.
+    pub time: Time,
+    /// The fluid's side; at least one of the two sides is there.
+    pub fluid: Option<FluidCase>,
+    /// The solid's side; absent where the scheme has no solid, even if the file describes one.
+    pub solid: Option<SolidCase>,
+    /// How the two meet.
+    pub coupling: CouplingCase,
+    /// Points at which every step is recorded.
+    pub probes: Vec<Probe>,
+    /// What is written, and where.
+    pub output: OutputCase,
+    /// What was left aside in reading; see [`Case::warnings`].
+    notes: Vec<String>,
+}
+
+/// Equal when they compute the same; what was left aside in reading does not count.
+impl PartialEq for Case {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+            && self.geometry == other.geometry
+            && self.time == other.time
+            && self.fluid == other.fluid
+            && self.solid == other.solid
+            && self.coupling == other.coupling
+            && self.probes == other.probes
+            && self.output == other.output
+    }
+}
+
+/// `[time]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Time {
+    /// End of the run, s.
+    pub end: f64,
+    /// Δt over the smallest h/(|v| + c) of a cell; in (0, 0.9].
+    pub cfl: f64,
+    /// When fields are written, s: ascending, from 0 to `end`, both included.
+    pub snapshots: Vec<f64>,
+}
+
+/// The cells of one side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridCase {
+    /// Range in z, m.
+    pub z: [f64; 2],
+    /// Range in r, m.
+    pub r: [f64; 2],
+    /// Cells along z and r on the coarsest level.
+    pub cells: [usize; 2],
+    /// How often the coarsest cells are halved.
+    pub levels: usize,
+}
+
+impl GridCase {
+    /// Cells along z and r on the finest level.
+    pub fn finest(&self) -> [usize; 2] {
+        self.cells.map(|cells| cells << self.levels)
+    }
+
+    /// Blocks along z and r on the finest level.
+    pub fn blocks(&self) -> [usize; 2] {
+        self.finest().map(|cells| cells / mesh::BLOCK)
+    }
+
+    /// Widths of the finest cells along z and r, m.
+    pub fn cell_size(&self) -> [f64; 2] {
+        let [cells_z, cells_r] = self.finest();
+        [(self.z[1] - self.z[0]) / cells_z as f64, (self.r[1] - self.r[0]) / cells_r as f64]
+    }
+
+    /// Number of cells where all are on the finest level.
+    pub fn cell_count(&self) -> usize {
+        let [cells_z, cells_r] = self.finest();
+        cells_z * cells_r
+    }
+
+    /// Whether the closed rectangle has the point (z, r) in it.
+    pub fn contains(&self, [z, r]: [f64; 2]) -> bool {
+        (self.z[0]..=self.z[1]).contains(&z) && (self.r[0]..=self.r[1]).contains(&r)
+    }
+}
+
+/// `[fluid]` and what is below it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FluidCase {
+    /// Domain and cells.
+    pub grid: GridCase,
+    /// The liquid's equation of state.
+    pub liquid: StiffenedGas,
+    /// The gas's equation of state.
+    pub gas: StiffenedGas,
+    /// What fills the domain at t = 0.
+    pub initial: InitialCondition,
+    /// The four sides in the order of [`Side::ALL`].
+    pub boundary: [fluid::Boundary; 4],
+    /// The pressure history of the sides that are inflows; present if there is one.
+    pub inflow: Option<Inflow>,
+    /// The solver at cell faces.
+    pub riemann: RiemannSolver,
+    /// The two-phase model.
+    pub model: Model,
+    /// The limiter of the reconstruction.
+    pub limiter: Limiter,
+}
+
+impl FluidCase {
+    /// The equation of state of the phase of a state.
+    pub fn eos(&self, state: &PhaseState) -> StiffenedGas {
+        match state.phase {
+            fluid::Phase::Liquid => self.liquid,
+            fluid::Phase::Gas => self.gas,
+        }
+    }
+}
+
+/// `[fluid.inflow]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inflow {
+    /// Times (s, ascending) and pressures (Pa), linear in between, constant before and after.
+    pub pressure: Vec<[f64; 2]>,
+}
+
+/// `[solid]` and what is below it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidCase {
+    /// Domain and cells.
+    pub grid: GridCase,
+    /// What it is made of.
+    pub material: Material,
+    /// The stress at t = 0 that carries the fluid's ambient pressure.
+    pub initial_stress: InitialStress,
+    /// The four sides in the order of [`Side::ALL`].
+    pub boundary: [solid::Boundary; 4],
+    /// The limiter of the reconstruction.
+    pub limiter: Limiter,
+    /// Waves that are there at t = 0.
+    pub pulses: Vec<PotentialPulse>,
+}
+
+/// `[coupling]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CouplingCase {
+    /// How the sides meet.
+    pub scheme: Scheme,
+    /// How the fluid answers in the interface problem.
+    pub star: StarSolver,
+    /// The paper's factors of the weak scheme.
+    pub kappa: Kappa,
+    /// How long a side waits for the other to appear, s.
+    pub connect_timeout: f64,
+    /// How long a side waits for the other within a step, s.
+    pub patience: f64,
+}
+
+/// One of the two media.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Medium {
+    /// The fluid.
+    Fluid,
+    /// The solid.
+    Solid,
+}
+
+impl Medium {
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 2] = [("fluid", Self::Fluid), ("solid", Self::Solid)];
+}
+
+/// `[[probe]]`: a point at which all fields of a medium are recorded every step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Name, unique; letters, digits, `_` and `-`.
+    pub name: String,
+    /// The point (z, r), m, within the closed domain of the medium.
+    pub position: [f64; 2],
+    /// Whose fields.
+    pub medium: Medium,
+}
+
+/// `[output]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputCase {
+    /// The run directory; the command line's choice comes first, then this, then one by the case's name.
+    pub directory: Option<PathBuf>,
+    /// Cell fields to write; all of them if absent.
+    pub fields: Option<Vec<String>>,
+    /// Level of compression, 0 (none) to 9.
+    pub compression: u8,
+    /// Cells of the radial grid of the interface's history; the finest fluid faces if absent.
+    pub interface_cells: Option<usize>,
+    /// Interval of the interface's history, s; every step if absent.
+    pub interface_every: Option<f64>,
+}
+
+impl Case {
+    /// Reads a case file, with `--set KEY=VALUE` changes applied to it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it: no such file, not TOML, unknown keys, values that make no sense.
+    pub fn load(path: &Path, sets: &[String]) -> Result<Self, CaseErrors> {
+        let shown = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            let help = match error.kind() {
+                std::io::ErrorKind::NotFound => "check the path; cases/ holds examples",
+                std::io::ErrorKind::InvalidData => "a case is a text file in UTF-8",
+                std::io::ErrorKind::IsADirectory => "give the TOML file in it",
+                _ => "check that the file may be read",
+            };
+            let message = format!("cannot read the case file: {error}");
+            let fault = CaseError { path: shown.clone(), message, help: Some(help.to_owned()), span: None };
+            CaseErrors::new(&shown, "", vec![fault])
+        })?;
+        let stem = path.file_stem().map_or_else(|| "case".into(), |stem| stem.to_string_lossy());
+        Self::read(&text, &stem, &shown, sets)
+    }
+
+    /// Reads a case from text; `name` becomes the case's name.
+    ///
+    /// # Errors
+    /// As [`Case::load`].
+    pub fn from_toml(text: &str, name: &str, sets: &[String]) -> Result<Self, CaseErrors> {
+        Self::read(text, name, &format!("{name}.toml"), sets)
+    }
+
+    fn read(text: &str, name: &str, shown: &str, sets: &[String]) -> Result<Self, CaseErrors> {
+        let syntax = |text: &str, errors: Vec<toml::de::Error>| {
+            let fault = |error: toml::de::Error| CaseError {
+                path: String::new(),
+                message: format!("not TOML: {}", error.message()),
+                help: Some("see https://toml.io for the format".to_owned()),
+                span: error.span(),
+            };
+            CaseErrors::new(shown, text, errors.into_iter().map(fault).collect())
+        };
+        let (_, errors) = toml::de::DeTable::parse_recoverable(text);
+        if !errors.is_empty() {
+            return Err(syntax(text, errors));
+        }
+        if sets.is_empty() {
+            return read::case(text, name).map_err(|faults| CaseErrors::new(shown, text, faults));
+        }
+        let shown = format!("{shown} with --set");
+        let text = set::apply(text, sets).map_err(|faults| CaseErrors::new(&shown, "", faults))?;
+        read::case(&text, name).map_err(|faults| CaseErrors::new(&shown, &text, faults))
+    }
+}
+
+/// The place of a side in arrays over sides.
+const fn index(side: Side) -> usize {
+    side as usize
+}

@@ -1,0 +1,341 @@
+//! From a parsed document to a [`Case`]: the whole, and the tables that belong to neither side alone.
+
+use std::path::PathBuf;
+
+use coupler::{Kappa, Scheme, StarSolver};
+use mesh::{Geometry, Side};
+use toml::de::DeTable;
+
+use super::error::{CaseError, suggest};
+use super::read_grid::MOST_CELLS;
+use super::reader::{Faults, Given, Table, array, pair};
+use super::{
+    Case, CouplingCase, FLUID_FIELDS, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index,
+    read_fluid, read_solid,
+};
+
+/// More snapshots than this are a mistake.
+const MOST_SNAPSHOTS: f64 = 1e5;
+
+/// What the tables of both sides need to know of the rest of the case.
+#[derive(Clone, Copy)]
+pub(super) struct Context {
+    pub geometry: Geometry,
+    /// `None` where the name given is faulty.
+    pub scheme: Option<Scheme>,
+}
+
+/// A probe and where its point stands.
+pub(super) struct PlacedProbe {
+    pub probe: Probe,
+    pub position: Given<[f64; 2]>,
+    pub medium: Given<Medium>,
+}
+
+pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
+    let document = DeTable::parse(text).map_err(|error| {
+        let message = format!("not TOML: {}", error.message());
+        vec![CaseError { path: String::new(), message, help: None, span: error.span() }]
+    })?;
+    let mut faults = Faults::default();
+    let mut root = Table::root(&document);
+
+    let geometry = root
+        .choice("geometry", &Geometry::NAMES, &mut faults)
+        .map_or(Geometry::Axisymmetric, |given| given.value);
+    let time = time(&mut root, &mut faults);
+    let (coupling, scheme) = coupling(&mut root, &mut faults);
+    let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value) };
+    let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
+    let fluid =
+        root.table("fluid", &mut faults).and_then(|table| read_fluid::fluid(table, context, &mut faults));
+    let solid =
+        root.table("solid", &mut faults).and_then(|table| read_solid::solid(table, context, &mut faults));
+    let probes = probes(&mut root, &mut faults);
+    let output = output(&mut root, &mut faults);
+    root.finish(&mut faults);
+
+    let mut notes = Vec::new();
+    if let Some(scheme) = &scheme {
+        cross::media(scheme, has_fluid, has_solid, &mut faults);
+    }
+    let ignores_solid = context.scheme == Some(Scheme::Rigid) && has_solid;
+    let solid = if ignores_solid {
+        notes.push("scheme = \"rigid\" has no solid: the [solid] table is ignored".to_owned());
+        None
+    } else {
+        solid
+    };
+    if let (Some((_, fluid)), Some((_, solid))) = (&fluid, &solid) {
+        cross::domains_meet(fluid, solid, &mut faults);
+    }
+    let probes = cross::probes(
+        probes,
+        fluid.as_ref().map(|(fluid, _)| &fluid.grid),
+        solid.as_ref().map(|(solid, _)| &solid.grid),
+        [has_fluid, has_solid && !ignores_solid],
+        ignores_solid,
+        &mut notes,
+        &mut faults,
+    );
+
+    match time {
+        Some(time) if faults.0.is_empty() => Ok(Case {
+            name: name.to_owned(),
+            geometry,
+            time,
+            fluid: fluid.map(|(fluid, _)| fluid),
+            solid: solid.map(|(solid, _)| solid),
+            coupling,
+            probes,
+            output,
+            notes,
+        }),
+        _ => Err(faults.0),
+    }
+}
+
+fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
+    if !root.has("time") {
+        root.missing("time", "write [time] and below it `end = ...`, in seconds", faults);
+    }
+    let mut table = root.table("time", faults)?;
+    let end = table.required_positive("end", "s", faults);
+    let cfl = table.number("cfl", "1", faults);
+    if let Some(cfl) = &cfl
+        && !(cfl.value > 0.0 && cfl.value <= 0.9)
+    {
+        faults.of(cfl, format!("must lie in (0, 0.9], got {:?}", cfl.value), "0.45 is a good value");
+    }
+    let snapshots = table.numbers("snapshots", "s", faults);
+    let every = table.number("snapshot_every", "s", faults);
+    table.finish(faults);
+
+    if let (Some(_), Some(every)) = (&snapshots, &every) {
+        faults.of(every, "snapshots and snapshot_every exclude each other", "remove one of the two");
+    }
+    let end = end?;
+    let mut times = Vec::new();
+    if let Some(given) = &snapshots {
+        for (number, &value) in given.value.iter().enumerate() {
+            if !(0.0..=end).contains(&value) {
+                let message =
+                    format!("snapshot {number} at {value:?} s lies outside the run, 0 to {end:?} s");
+                faults.of(given, message, "remove it, or make `end` later");
+            }
+        }
+        times.clone_from(&given.value);
+    } else if let Some(given) = &every {
+        let every = given.value;
+        if every <= 0.0 {
+            faults.of(given, format!("must be positive, got {every:?}"), "give an interval > 0 in s");
+        } else if end / every > MOST_SNAPSHOTS {
+            let message = format!("{every:?} s means more than {MOST_SNAPSHOTS} snapshots until {end:?} s");
+            faults.of(given, message, "give a longer interval");
+        } else {
+            times.extend((1..).map(|k| f64::from(k) * every).take_while(|time| *time < end));
+        }
+    }
+    Some(Time { end, cfl: cfl.map_or(0.45, |given| given.value), snapshots: resolve(times, end) })
+}
+
+/// Ascending, with 0 and `end`, without times that are one up to round-off.
+fn resolve(mut times: Vec<f64>, end: f64) -> Vec<f64> {
+    times.push(0.0);
+    times.sort_by(f64::total_cmp);
+    // `-0.0` would sort before and differ in print.
+    times.iter_mut().for_each(|time| *time += 0.0);
+    times.dedup_by(|later, earlier| *later - *earlier <= 1e-12 * end);
+    times.retain(|time| end - *time > 1e-12 * end);
+    times.push(end);
+    times
+}
+
+fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCase, Option<Given<Scheme>>) {
+    let mut coupling = CouplingCase {
+        scheme: Scheme::Riemann,
+        star: StarSolver::Exact,
+        kappa: Kappa::Off,
+        connect_timeout: 30.0,
+        patience: 600.0,
+    };
+    let default =
+        Given { value: Scheme::Riemann, path: "coupling.scheme".to_owned(), span: root.span.clone() };
+    if !root.has("coupling") {
+        root.table("coupling", faults);
+        return (coupling, Some(default));
+    }
+    let Some(mut table) = root.table("coupling", faults) else { return (coupling, None) };
+    let scheme = if table.has("scheme") {
+        table.choice("scheme", &Scheme::NAMES, faults)
+    } else {
+        table.raw("scheme");
+        Some(Given { span: table.span.clone(), ..default })
+    };
+    if let Some(scheme) = &scheme {
+        coupling.scheme = scheme.value;
+    }
+    if let Some(star) = table.choice("star", &StarSolver::NAMES, faults) {
+        coupling.star = star.value;
+    }
+    if let Some(kappa) = table.choice("kappa", &Kappa::NAMES, faults) {
+        coupling.kappa = kappa.value;
+        if kappa.value != Kappa::Off && scheme.as_ref().is_some_and(|given| given.value != Scheme::Weak) {
+            faults.of(&kappa, "only scheme = \"weak\" has factors kappa", "remove it, or take that scheme");
+        }
+    }
+    if let Some(seconds) = table.positive("connect_timeout", "s", faults) {
+        coupling.connect_timeout = seconds;
+    }
+    if let Some(seconds) = table.positive("patience", "s", faults) {
+        coupling.patience = seconds;
+    }
+    table.finish(faults);
+    (coupling, scheme)
+}
+
+fn probes(root: &mut Table<'_>, faults: &mut Faults) -> Vec<PlacedProbe> {
+    let mut probes: Vec<PlacedProbe> = Vec::new();
+    for mut table in root.tables("probe", faults) {
+        if !table.has("name") {
+            table.missing("name", "give `name = \"...\"`, it names the probe's datasets", faults);
+        }
+        let name = table.string("name", faults);
+        if let Some(name) = &name {
+            let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+            if name.value.is_empty() || !name.value.chars().all(plain) {
+                let message = format!("`{}` is no name for a probe", name.value);
+                faults.of(name, message, "use letters, digits, `_` and `-` only");
+            }
+            if probes.iter().any(|other| other.probe.name == name.value) {
+                let message = format!("another probe is called `{}`", name.value);
+                faults.of(name, message, "give every probe a name of its own");
+            }
+        }
+        let position = table.required_pair("position", "m, as [z, r]", faults);
+        if !table.has("medium") {
+            table.missing("medium", "give `medium = \"fluid\"` or \"solid\"", faults);
+        }
+        let medium = table.choice("medium", &Medium::NAMES, faults);
+        table.finish(faults);
+        if let (Some(name), Some(position), Some(medium)) = (name, position, medium) {
+            let probe = Probe { name: name.value.to_owned(), position: position.value, medium: medium.value };
+            probes.push(PlacedProbe { probe, position, medium });
+        }
+    }
+    probes
+}
+
+fn output(root: &mut Table<'_>, faults: &mut Faults) -> OutputCase {
+    let mut output = OutputCase {
+        directory: None,
+        fields: None,
+        compression: 4,
+        interface_cells: None,
+        interface_every: None,
+    };
+    let Some(mut table) = root.table("output", faults) else { return output };
+    if let Some(directory) = table.string("directory", faults) {
+        if directory.value.is_empty() {
+            faults.of(&directory, "is empty", "name a directory, or remove the key");
+        }
+        output.directory = Some(PathBuf::from(directory.value));
+    }
+    if let Some(given) = table.raw("fields") {
+        let allowed: Vec<&str> = FLUID_FIELDS
+            .into_iter()
+            .chain(SOLID_FIELDS.into_iter().filter(|field| !FLUID_FIELDS.contains(field)))
+            .collect();
+        let mut fields: Vec<String> = Vec::new();
+        for element in array(&given, "a list of field names", "quotes", faults).unwrap_or_default() {
+            match element.value.as_str() {
+                Some(name) if allowed.contains(&name) => {
+                    if fields.iter().all(|field| field != name) {
+                        fields.push(name.to_owned());
+                    }
+                }
+                Some(name) => {
+                    let help = suggest(name, allowed.iter().copied());
+                    faults.of(&element, format!("unknown field `{name}`"), help);
+                }
+                None => faults.of(&element, "must be a field's name in quotes", suggest("", allowed.clone())),
+            }
+        }
+        output.fields = Some(fields);
+    }
+    if let Some(level) = table.whole("compression", 0..=9, faults) {
+        output.compression = u8::try_from(level.value).unwrap_or(9);
+    }
+    output.interface_cells = table.whole("interface_cells", 1..=MOST_CELLS, faults).map(|given| given.value);
+    output.interface_every = table.positive("interface_every", "s", faults);
+    table.finish(faults);
+    output
+}
+
+/// The four sides of a `[....boundary]` table; `fixed` says what a side is that cannot be chosen, and why. Naming it
+/// as what it is does no harm.
+pub(super) fn boundaries<B: Copy + PartialEq>(
+    table: Option<Table<'_>>,
+    names: &[(&'static str, B)],
+    fixed: impl Fn(Side) -> Option<(&'static str, &'static str)>,
+    default: [B; 4],
+    periodic: B,
+    faults: &mut Faults,
+) -> [B; 4] {
+    let mut sides = default;
+    let Some(mut table) = table else { return sides };
+    let mut given: [Option<Given<B>>; 4] = [const { None }; 4];
+    for (key, side) in Side::NAMES {
+        if let Some((name, reason)) = fixed(side) {
+            if let Some(value) = table.raw(key).filter(|given| given.value.as_str() != Some(name)) {
+                faults.of(&value, reason, format!("remove `{key}`"));
+            }
+            continue;
+        }
+        given[index(side)] = table.choice(key, names, faults);
+    }
+    table.finish(faults);
+    for (side, given) in sides.iter_mut().zip(&given) {
+        if let Some(given) = given {
+            *side = given.value;
+        }
+    }
+    for [one, other] in [[Side::ZMin, Side::ZMax], [Side::RMin, Side::RMax]].map(|pair| pair.map(index)) {
+        for (here, there) in [(one, other), (other, one)] {
+            if let Some(value) = given[here].as_ref().filter(|given| given.value == periodic)
+                && sides[there] != periodic
+            {
+                let opposite = Side::NAMES[there].0;
+                let message = format!("the opposite side, {opposite}, is not periodic");
+                faults.of(value, message, "make both sides \"periodic\", or neither");
+            }
+        }
+    }
+    sides
+}
+
+/// A list of [time, value] with ascending times.
+pub(super) fn history(
+    table: &mut Table<'_>,
+    key: &'static str,
+    faults: &mut Faults,
+) -> Option<Given<Vec<[f64; 2]>>> {
+    let Some(given) = table.raw(key) else {
+        table.missing(key, format!("give `{key} = [[t, p], ...]` in s and Pa"), faults);
+        return None;
+    };
+    let elements = array(&given, "a list of [time, value]", "s and Pa", faults)?;
+    let rows: Vec<_> = elements.iter().map(|element| pair(element, "s and Pa", faults)).collect();
+    let value = rows.into_iter().collect::<Option<Vec<_>>>()?;
+    let given = Given { value, path: given.path, span: given.span };
+    if given.value.is_empty() {
+        faults.of(&given, "is empty", "give at least one [time, value]");
+        return None;
+    }
+    if let Some(two) = given.value.windows(2).find(|two| two[1][0] <= two[0][0]) {
+        let message = format!("times must ascend, got {:?} s after {:?} s", two[1][0], two[0][0]);
+        faults.of(&given, message, "put the rows in the order of time, each time once");
+        return None;
+    }
+    Some(given)
+}

@@ -1,0 +1,344 @@
+//! The `[fluid]` table.
+
+use coupler::Scheme;
+use fluid::{
+    Boundary, InitialCondition, Model, Phase, PhaseState, Pulse, PulseShape, Region, RiemannSolver, Shape,
+    StiffenedGas,
+};
+use mesh::{Geometry, Limiter, Side};
+
+use super::read::{Context, boundaries, history};
+use super::read_grid::{GridPlace, grid};
+use super::reader::{Faults, Given, Table, number, pair};
+use super::{FluidCase, GridCase, Inflow};
+
+/// The shapes of regions and pulses by name.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Sphere,
+    Box,
+    Plane,
+}
+
+/// Equations of state as far as they could be read, and the grid likewise.
+struct Setting {
+    liquid: Option<StiffenedGas>,
+    gas: Option<StiffenedGas>,
+    grid: Option<GridCase>,
+    geometry: Geometry,
+}
+
+impl Setting {
+    fn eos(&self, phase: Phase) -> Option<StiffenedGas> {
+        match phase {
+            Phase::Liquid => self.liquid,
+            Phase::Gas => self.gas,
+        }
+    }
+}
+
+pub(super) fn fluid(
+    mut table: Table<'_>,
+    context: Context,
+    faults: &mut Faults,
+) -> Option<(FluidCase, GridPlace)> {
+    let placed = grid(&mut table, context, faults);
+    let liquid = if table.has("liquid") {
+        table.table("liquid", faults).and_then(|table| stiffened_gas(table, None, faults))
+    } else {
+        table.table("liquid", faults);
+        table.missing("liquid", "write [fluid.liquid] with gamma and pi, for water 7.15 and 3e8", faults);
+        None
+    };
+    let air = StiffenedGas { gamma: 1.4, pi: 0.0 };
+    let gas = match table.table("gas", faults) {
+        Some(table) => stiffened_gas(table, Some(air), faults),
+        None => Some(air),
+    };
+    let setting =
+        Setting { liquid, gas, grid: placed.as_ref().map(|(grid, _)| *grid), geometry: context.geometry };
+    let initial = initial(&mut table, &setting, faults);
+    let boundary = sides(&mut table, context, faults);
+    let inflow = inflow(&mut table, boundary, liquid, faults);
+    let riemann = table.choice("riemann", &RiemannSolver::NAMES, faults);
+    let model = table.choice("model", &Model::NAMES, faults);
+    let limiter = table.choice("limiter", &Limiter::NAMES, faults);
+    table.finish(faults);
+    let (grid, place) = placed?;
+    let case = FluidCase {
+        grid,
+        liquid: liquid?,
+        gas: gas?,
+        initial: initial?,
+        boundary,
+        inflow,
+        riemann: riemann.map_or(RiemannSolver::Hllc, |given| given.value),
+        model: model.map_or(Model::SaurelAbgrall, |given| given.value),
+        limiter: limiter.map_or(Limiter::Mc, |given| given.value),
+    };
+    Some((case, place))
+}
+
+fn stiffened_gas(
+    mut table: Table<'_>,
+    default: Option<StiffenedGas>,
+    faults: &mut Faults,
+) -> Option<StiffenedGas> {
+    let mut value = |key, unit, default: Option<f64>, faults: &mut Faults| match default {
+        Some(default) if !table.has(key) => {
+            table.raw(key);
+            Some(Given { value: default, path: String::new(), span: 0..0 })
+        }
+        _ => table.required(key, unit, faults),
+    };
+    let gamma = value("gamma", "1", default.map(|eos| eos.gamma), faults);
+    let pi = value("pi", "Pa", default.map(|eos| eos.pi), faults);
+    table.finish(faults);
+    let (gamma, pi) = (gamma?, pi?);
+    let mut sound = true;
+    if gamma.value <= 1.0 {
+        let message = format!("must be greater than 1, got {:?}", gamma.value);
+        faults.of(&gamma, message, "the adiabatic exponent: 1.4 for air, 7.15 for water");
+        sound = false;
+    }
+    if pi.value < 0.0 {
+        let message = format!("must not be negative, got {:?} Pa", pi.value);
+        faults.of(&pi, message, "the stiffness: 0 for a gas, 3e8 Pa for water");
+        sound = false;
+    }
+    sound.then_some(StiffenedGas { gamma: gamma.value, pi: pi.value })
+}
+
+fn initial(table: &mut Table<'_>, setting: &Setting, faults: &mut Faults) -> Option<InitialCondition> {
+    let ambient = if table.has("ambient") {
+        table.table("ambient", faults).and_then(|mut table| {
+            let ambient = state(&mut table, Some(Phase::Liquid), setting, faults);
+            table.finish(faults);
+            ambient
+        })
+    } else {
+        table.table("ambient", faults);
+        table.missing("ambient", "write [fluid.ambient] with density and pressure", faults);
+        None
+    };
+    let regions: Vec<Option<Region>> =
+        table.tables("region", faults).into_iter().map(|table| region(table, setting, faults)).collect();
+    let pulses: Vec<Option<Pulse>> = table
+        .tables("pulse", faults)
+        .into_iter()
+        .map(|table| pulse(table, setting, ambient, faults))
+        .collect();
+    Some(InitialCondition {
+        ambient: ambient?,
+        regions: regions.into_iter().collect::<Option<_>>()?,
+        pulses: pulses.into_iter().collect::<Option<_>>()?,
+    })
+}
+
+/// A uniform state; its pressure must be one that its phase can have.
+fn state(
+    table: &mut Table<'_>,
+    default: Option<Phase>,
+    setting: &Setting,
+    faults: &mut Faults,
+) -> Option<PhaseState> {
+    let phase = if table.has("phase") || default.is_none() {
+        if !table.has("phase") {
+            table.missing("phase", "give `phase = \"gas\"` or \"liquid\"", faults);
+        }
+        table.choice("phase", &Phase::NAMES, faults).map(|given| given.value)
+    } else {
+        table.raw("phase");
+        default
+    };
+    let density = table.required_positive("density", "kg/m3", faults);
+    let pressure = table.required("pressure", "Pa", faults);
+    let velocity = table.pair("velocity", "m/s", faults).map_or([0.0; 2], |given| given.value);
+    let pressure = pressure?;
+    if let Some(eos) = phase.and_then(|phase| setting.eos(phase))
+        && pressure.value + eos.pi <= 0.0
+    {
+        let least = -eos.pi;
+        let message = format!(
+            "the equation of state needs p + pi > 0, got p = {:?} Pa with pi = {:?} Pa",
+            pressure.value, eos.pi
+        );
+        faults.of(&pressure, message, format!("give a pressure above {least:?} Pa"));
+        return None;
+    }
+    Some(PhaseState { phase: phase?, density: density?, pressure: pressure.value, velocity })
+}
+
+fn shape(table: &mut Table<'_>, names: &[(&'static str, Kind)], faults: &mut Faults) -> Option<Kind> {
+    if !table.has("shape") {
+        let all: Vec<String> = names.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        table.missing("shape", format!("give `shape = ` one of {}", all.join(", ")), faults);
+    }
+    table.choice("shape", names, faults).map(|given| given.value)
+}
+
+/// A sphere has its centre on the axis of axisymmetric geometry.
+fn on_axis(centre: &Given<[f64; 2]>, geometry: Geometry, faults: &mut Faults) {
+    if geometry == Geometry::Axisymmetric && centre.value[1] != 0.0 {
+        let message =
+            format!("a sphere in axisymmetric geometry must be on the axis, got r = {:?} m", centre.value[1]);
+        faults.of(centre, message, format!("write [{:?}, 0.0]", centre.value[0]));
+    }
+}
+
+fn region(mut table: Table<'_>, setting: &Setting, faults: &mut Faults) -> Option<Region> {
+    let state = state(&mut table, None, setting, faults);
+    let kind = shape(&mut table, &[("sphere", Kind::Sphere), ("box", Kind::Box)], faults)?;
+    let shape = if kind == Kind::Sphere {
+        let centre = table.required_pair("centre", "m, as [z, r]", faults);
+        let radius = table.required_positive("radius", "m", faults);
+        if let Some(centre) = &centre {
+            on_axis(centre, setting.geometry, faults);
+            if let Some(grid) = setting.grid.filter(|grid| !grid.contains(centre.value)) {
+                let [z, r] = centre.value;
+                let message = format!("the centre ({z:?}, {r:?}) m is outside the fluid");
+                faults.of(centre, message, extent(&grid));
+            }
+        }
+        centre.zip(radius).map(|(centre, radius)| Shape::Sphere { centre: centre.value, radius })
+    } else {
+        let (z, r) = (table.range("z", faults), table.range("r", faults));
+        if let (Some(z), Some(r), Some(grid)) = (&z, &r, setting.grid) {
+            for (range, domain) in [(z, grid.z), (r, grid.r)] {
+                let [low, high] = range.value;
+                if high <= domain[0] || low >= domain[1] {
+                    let message = format!("the box [{low:?}, {high:?}] m lies outside the fluid");
+                    faults.of(range, message, extent(&grid));
+                }
+            }
+        }
+        z.zip(r).map(|(z, r)| Shape::Box { z: z.value, r: r.value })
+    };
+    table.finish(faults);
+    Some(Region { shape: shape?, state: state? })
+}
+
+fn extent(grid: &GridCase) -> String {
+    let ([z0, z1], [r0, r1]) = (grid.z, grid.r);
+    format!("the fluid is z = {z0:?} to {z1:?} m, r = {r0:?} to {r1:?} m")
+}
+
+fn pulse(
+    mut table: Table<'_>,
+    setting: &Setting,
+    ambient: Option<PhaseState>,
+    faults: &mut Faults,
+) -> Option<Pulse> {
+    let kind = shape(&mut table, &[("sphere", Kind::Sphere), ("plane", Kind::Plane)], faults)?;
+    let centre = centre(&mut table, kind, faults);
+    let width = table.required_positive("width", "m", faults);
+    let amplitude = table.required("amplitude", "Pa", faults);
+    let shape = if kind == Kind::Sphere {
+        if let Some(centre) = &centre {
+            on_axis(centre, setting.geometry, faults);
+        }
+        Some(PulseShape::Sphere)
+    } else {
+        let given = table.pair("direction", "1", faults);
+        let faulty = given.is_none() && table.has("direction");
+        let direction = given.map(|given| unit(&given, setting.geometry, faults));
+        (!faulty).then_some(PulseShape::Plane { direction })
+    };
+    table.finish(faults);
+    let (amplitude, centre) = (amplitude?, centre?);
+    if let (Some(ambient), Some(liquid)) = (ambient, setting.liquid) {
+        let lowest = ambient.pressure + amplitude.value;
+        if lowest + liquid.pi <= 0.0 {
+            let message =
+                format!("the pressure at the pulse's centre would be {lowest:?} Pa, where p + pi > 0 fails");
+            faults.of(&amplitude, message, "give a smaller amplitude");
+        }
+    }
+    Some(Pulse { shape: shape?, centre: centre.value, width: width?, amplitude: amplitude.value })
+}
+
+/// `[z, r]`, or for a plane only z.
+fn centre(table: &mut Table<'_>, kind: Kind, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
+    let Some(given) = table.raw("centre") else {
+        table.missing("centre", "give `centre = [z, r]` in m", faults);
+        return None;
+    };
+    let value = if kind == Kind::Plane && !given.value.is_array() {
+        number(&given, "m", faults).map(|z| [z, 0.0])
+    } else {
+        pair(&given, "m, as [z, r]", faults)
+    };
+    Some(Given { value: value?, path: given.path, span: given.span })
+}
+
+/// The direction at length one; a direction that has it already stays as it is, to the last bit.
+fn unit(given: &Given<[f64; 2]>, geometry: Geometry, faults: &mut Faults) -> [f64; 2] {
+    let [z, r] = given.value;
+    let length = z.hypot(r);
+    if length == 0.0 {
+        faults.of(given, "has no length", "give [1.0, 0.0] for up, [-1.0, 0.0] for down");
+    }
+    if geometry == Geometry::Axisymmetric && r != 0.0 {
+        let message = format!("a plane wave in axisymmetric geometry goes along z, got [{z:?}, {r:?}]");
+        faults.of(given, message, "give [1.0, 0.0] or [-1.0, 0.0], or take geometry = \"planar\"");
+    }
+    if (length - 1.0).abs() < 1e-14 { [z, r] } else { [z / length, r / length] }
+}
+
+fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Boundary; 4] {
+    let z_min = match context.scheme {
+        Some(Scheme::Rigid) => Boundary::Wall,
+        Some(Scheme::None) | None => Boundary::NonReflecting,
+        Some(Scheme::Riemann | Scheme::Weak) => Boundary::Interface,
+    };
+    let r_min = match context.geometry {
+        Geometry::Axisymmetric => Boundary::Axis,
+        Geometry::Planar => Boundary::Wall,
+    };
+    let fixed = |side| match (side, context.scheme) {
+        (Side::ZMin, Some(Scheme::Riemann | Scheme::Weak)) => {
+            Some(("interface", "z_min of the fluid is the interface; only scheme = \"none\" leaves it free"))
+        }
+        (Side::ZMin, Some(Scheme::Rigid)) => {
+            Some(("wall", "z_min of the fluid is the rigid wall; only scheme = \"none\" leaves it free"))
+        }
+        (Side::RMin, _) if context.geometry == Geometry::Axisymmetric => {
+            Some(("axis", "r_min is the axis in axisymmetric geometry"))
+        }
+        _ => None,
+    };
+    let default = [z_min, Boundary::NonReflecting, r_min, Boundary::NonReflecting];
+    let table = table.table("boundary", faults);
+    boundaries(table, &Boundary::NAMES, fixed, default, Boundary::Periodic, faults)
+}
+
+fn inflow(
+    table: &mut Table<'_>,
+    boundary: [Boundary; 4],
+    liquid: Option<StiffenedGas>,
+    faults: &mut Faults,
+) -> Option<Inflow> {
+    let wanted = boundary.contains(&Boundary::Inflow);
+    let (path, span) = (table.path_of("inflow"), table.span.clone());
+    let Some(mut inflow) = table.table("inflow", faults) else {
+        if wanted && !table.has("inflow") {
+            let help = "write [fluid.inflow] and below it `pressure = [[t, p], ...]` in s and Pa";
+            faults.at(&path, &span, "a side is an \"inflow\" and its pressure history is missing", help);
+        }
+        return None;
+    };
+    if !wanted {
+        let help = "make a side \"inflow\" under [fluid.boundary], or remove the table";
+        faults.at(&path, &inflow.span, "no side is an \"inflow\"", help);
+    }
+    let pressure = history(&mut inflow, "pressure", faults);
+    inflow.finish(faults);
+    let pressure = pressure?;
+    if let Some(eos) = liquid
+        && let Some(row) = pressure.value.iter().find(|row| row[1] + eos.pi <= 0.0)
+    {
+        let message = format!("the equation of state needs p + pi > 0, got p = {:?} Pa", row[1]);
+        faults.of(&pressure, message, format!("give pressures above {:?} Pa", -eos.pi));
+    }
+    Some(Inflow { pressure: pressure.value })
+}

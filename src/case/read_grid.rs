@@ -1,0 +1,84 @@
+//! Domain and cells of a side.
+
+use mesh::{BLOCK, Geometry};
+
+use super::GridCase;
+use super::read::Context;
+use super::reader::{Faults, Given, Table};
+
+/// More cells than this along one direction are a mistake.
+pub(super) const MOST_CELLS: usize = 1 << 20;
+/// More levels than this are a mistake.
+const MOST_LEVELS: usize = 20;
+
+/// Where a side's ranges stand, for what is found out when both sides are known.
+pub(super) struct GridPlace {
+    pub z: Given<[f64; 2]>,
+    pub r: Given<[f64; 2]>,
+}
+
+/// Domain and cells of a side.
+pub(super) fn grid(
+    table: &mut Table<'_>,
+    context: Context,
+    faults: &mut Faults,
+) -> Option<(GridCase, GridPlace)> {
+    let z = table.range("z", faults);
+    let mut r = table.range("r", faults);
+    if let Some(given) = &r
+        && context.geometry == Geometry::Axisymmetric
+        && given.value[0] != 0.0
+    {
+        let start = given.value[0];
+        let message = if start < 0.0 {
+            format!("axisymmetric geometry has no negative r, got {start:?} m")
+        } else {
+            format!("an axisymmetric domain must start at the axis r = 0, got {start:?} m")
+        };
+        faults.of(given, message, "start at r = 0.0, or take geometry = \"planar\"");
+        r = None;
+    }
+    let cells = table.whole_pair("cells", 1..=MOST_CELLS, faults);
+    let levels = table.whole("levels", 0..=MOST_LEVELS, faults);
+    let levels = match levels {
+        Some(given) => Some(given.value),
+        // Present and faulty, or absent: then there is one level.
+        None => (!table.has("levels")).then_some(0),
+    };
+    let (cells, levels) = (cells?, levels?);
+    if !fits(&cells, levels, faults) {
+        return None;
+    }
+    let (z, r) = (z?, r?);
+    Some((GridCase { z: z.value, r: r.value, cells: cells.value, levels }, GridPlace { z, r }))
+}
+
+/// Whether the finest grid is a whole number of blocks and not absurdly large.
+fn fits(cells: &Given<[usize; 2]>, levels: usize, faults: &mut Faults) -> bool {
+    let finest = cells.value.map(|cells| cells << levels);
+    let formula = format!("{} x {} cells (cells * 2^levels)", finest[0], finest[1]);
+    if finest.iter().any(|cells| *cells > MOST_CELLS) {
+        let message = format!("the finest grid has {formula}, more than {MOST_CELLS} along one direction");
+        faults.of(cells, message, "take fewer cells or levels");
+        return false;
+    }
+    if finest.iter().all(|cells| cells.is_multiple_of(BLOCK)) {
+        return true;
+    }
+    let step = BLOCK >> levels.min(BLOCK.ilog2() as usize);
+    let nearest = cells.value.map(|cells| ((cells + step / 2) / step).max(1) * step);
+    let mut help = format!(
+        "the nearest that is: cells = [{}, {}], finest {} x {}",
+        nearest[0],
+        nearest[1],
+        nearest[0] << levels,
+        nearest[1] << levels
+    );
+    let whole = |levels: &usize| cells.value.iter().all(|cells| (cells << levels).is_multiple_of(BLOCK));
+    if let Some(levels) = (levels..=MOST_LEVELS).find(whole) {
+        help += &format!("; or levels = {levels} with the cells as they are");
+    }
+    let message = format!("the finest grid has {formula}, no whole number of blocks of {BLOCK} x {BLOCK}");
+    faults.of(cells, message, help);
+    false
+}

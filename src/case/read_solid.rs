@@ -1,0 +1,208 @@
+//! The `[solid]` table.
+
+use coupler::Scheme;
+use mesh::{Geometry, Limiter, Side};
+use solid::{Boundary, InitialStress, Material, MaterialError, PotentialPulse};
+use toml::de::DeValue;
+
+use super::SolidCase;
+use super::error::suggest;
+use super::read::{Context, boundaries};
+use super::read_grid::{GridPlace, grid};
+use super::reader::{Faults, Table, describe};
+
+pub(super) fn solid(
+    mut table: Table<'_>,
+    context: Context,
+    faults: &mut Faults,
+) -> Option<(SolidCase, GridPlace)> {
+    let placed = grid(&mut table, context, faults);
+    let material = material(&mut table, faults);
+    let initial_stress = table.choice("initial_stress", &InitialStress::NAMES, faults);
+    let boundary = sides(&mut table, context, faults);
+    let limiter = table.choice("limiter", &Limiter::NAMES, faults);
+    let pulses: Vec<Option<PotentialPulse>> =
+        table.tables("pulse", faults).into_iter().map(|table| pulse(table, context, faults)).collect();
+    table.finish(faults);
+    let (grid, place) = placed?;
+    let case = SolidCase {
+        grid,
+        material: material?,
+        initial_stress: initial_stress.map_or(InitialStress::Uniaxial, |given| given.value),
+        boundary,
+        limiter: limiter.map_or(Limiter::Mc, |given| given.value),
+        pulses: pulses.into_iter().collect::<Option<_>>()?,
+    };
+    Some((case, place))
+}
+
+/// `material = "name"`, or a table with density and one pair of moduli or speeds.
+fn material(table: &mut Table<'_>, faults: &mut Faults) -> Option<Material> {
+    if !table.has("material") {
+        let help = "give `material = \"structural-steel\"` or another name of `cav materials`, \
+                    or a table [solid.material]";
+        table.missing("material", help, faults);
+    }
+    let given = table.raw("material")?;
+    match given.value {
+        DeValue::String(name) => {
+            let found = Material::by_name(name);
+            if found.is_none() {
+                let library = Material::library();
+                let help = suggest(name, library.iter().map(Material::name));
+                let help = format!("{help}; or a table [solid.material]");
+                faults.of(&given, format!("unknown material `{name}`"), help);
+            }
+            found
+        }
+        DeValue::Table(_) => {
+            let table = table.table("material", faults)?;
+            custom(table, faults)
+        }
+        other => {
+            let message = format!("must be a material's name or a table, got {}", describe(other));
+            faults.of(&given, message, "give a name in quotes; `cav materials` lists them");
+            None
+        }
+    }
+}
+
+fn custom(mut table: Table<'_>, faults: &mut Faults) -> Option<Material> {
+    const PAIRS: [[&str; 2]; 3] = [["c1", "c2"], ["young", "poisson"], ["lambda", "mu"]];
+    let span = table.span.clone();
+    let name = table.string("name", faults);
+    let density = table.required("density", "kg/m3", faults);
+    let yield_strength = table.number("yield_strength", "Pa", faults);
+    let named: Vec<[&str; 2]> =
+        PAIRS.into_iter().filter(|pair| pair.iter().any(|key| table.has(key))).collect();
+    let numbers = [
+        table.number("c1", "m/s", faults),
+        table.number("c2", "m/s", faults),
+        table.number("young", "Pa", faults),
+        table.number("poisson", "1", faults),
+        table.number("lambda", "Pa", faults),
+        table.number("mu", "Pa", faults),
+    ];
+    let exactly = "give exactly one pair: c1 and c2, or young and poisson, or lambda and mu";
+    let path = table.path.clone();
+    let mut wrong = false;
+    match named.as_slice() {
+        [] => {
+            faults.at(&path, &span, "neither speeds nor moduli are given", exactly);
+            wrong = true;
+        }
+        [pair] => {
+            for key in pair {
+                if !table.has(key) {
+                    table.missing(key, exactly, faults);
+                    wrong = true;
+                }
+            }
+        }
+        several => {
+            let list = several.iter().map(|pair| pair.join("/")).collect::<Vec<_>>().join(" and ");
+            faults.at(&path, &span, format!("{list} are given together"), exactly);
+            wrong = true;
+        }
+    }
+    table.finish(faults);
+    if wrong {
+        return None;
+    }
+    let density = density?;
+    let places: Vec<(String, std::ops::Range<usize>)> = numbers
+        .iter()
+        .flatten()
+        .chain(&yield_strength)
+        .map(|given| (given.path.clone(), given.span.clone()))
+        .chain([(density.path.clone(), density.span.clone())])
+        .collect();
+    let density = density.value;
+    let [c1, c2, young, poisson, lambda, mu] = numbers;
+    let built = match (c1.zip(c2), young.zip(poisson), lambda.zip(mu)) {
+        (Some((c1, c2)), None, None) => Material::from_speeds(density, c1.value, c2.value),
+        (None, Some((young, poisson)), None) => Material::from_young(density, young.value, poisson.value),
+        (None, None, Some((lambda, mu))) => Material::from_lame(density, lambda.value, mu.value),
+        _ => return None,
+    };
+    let built = built.and_then(|material| match &yield_strength {
+        Some(given) => material.with_yield_strength(given.value),
+        None => Ok(material),
+    });
+    match built {
+        Ok(material) => {
+            let name = name.map_or("custom", |given| given.value);
+            let material = material.named(name, "the case file");
+            Some(from_library(&material).unwrap_or(material))
+        }
+        Err(error) => {
+            refuse(&path, &places, &error, faults);
+            None
+        }
+    }
+}
+
+/// The library's entry, where name and numbers are its.
+fn from_library(material: &Material) -> Option<Material> {
+    let known = Material::by_name(material.name())?;
+    (known.clone().named(known.name(), material.source()) == *material).then_some(known)
+}
+
+/// Reports what is wrong with a material's numbers, at the one that is meant.
+fn refuse(
+    path: &str,
+    places: &[(String, std::ops::Range<usize>)],
+    error: &MaterialError,
+    faults: &mut Faults,
+) {
+    let (key, help) = match error {
+        MaterialError::NotPositive { name, unit, .. } => (*name, format!("give a number > 0 in {unit}")),
+        MaterialError::PoissonOutOfRange(_) => ("poisson", "0.25 to 0.35 for most metals".to_owned()),
+        MaterialError::NegativeCompression { .. } => {
+            ("c1", "c1 is the faster, dilatational wave; a solid resists compression".to_owned())
+        }
+        MaterialError::NegativeLambda { .. } => ("lambda", "a solid resists compression".to_owned()),
+    };
+    let path = format!("{path}.{key}");
+    // The number that is at fault may be a derived one; then the first that was given stands for all.
+    if let Some((path, span)) = places.iter().find(|(at, _)| *at == path).or(places.first()) {
+        faults.at(path, span, error.to_string(), help);
+    }
+}
+
+fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Boundary; 4] {
+    let coupled = matches!(context.scheme, Some(Scheme::Riemann | Scheme::Weak));
+    let z_max = if coupled { Boundary::Interface } else { Boundary::Free };
+    let r_min = match context.geometry {
+        Geometry::Axisymmetric => Boundary::Axis,
+        Geometry::Planar => Boundary::Symmetry,
+    };
+    let fixed = |side| match side {
+        Side::ZMax if coupled => {
+            Some(("interface", "z_max of the solid is the interface; only scheme = \"none\" leaves it free"))
+        }
+        Side::RMin if context.geometry == Geometry::Axisymmetric => {
+            Some(("axis", "r_min is the axis in axisymmetric geometry"))
+        }
+        _ => None,
+    };
+    let default = [Boundary::NonReflecting, z_max, r_min, Boundary::NonReflecting];
+    let table = table.table("boundary", faults);
+    boundaries(table, &Boundary::NAMES, fixed, default, Boundary::Periodic, faults)
+}
+
+fn pulse(mut table: Table<'_>, context: Context, faults: &mut Faults) -> Option<PotentialPulse> {
+    let centre = table.required_pair("centre", "m, as [z, r]", faults);
+    let width = table.required_positive("width", "m", faults);
+    let amplitude = table.required("amplitude", "m2", faults);
+    table.finish(faults);
+    if let Some(centre) = &centre
+        && context.geometry == Geometry::Axisymmetric
+        && centre.value[1] != 0.0
+    {
+        let message =
+            format!("a spherical wave must be centred on the axis, got r = {:?} m", centre.value[1]);
+        faults.of(centre, message, format!("write [{:?}, 0.0]", centre.value[0]));
+    }
+    Some(PotentialPulse { centre: centre?.value, width: width?, amplitude: amplitude?.value })
+}

@@ -1,0 +1,359 @@
+//! Reading TOML tables key by key, so that every fault of a file is found in one go.
+//!
+//! A [`Table`] hands out the values of the keys it is asked for and remembers the keys; what is left over at the end
+//! is an unknown key, and the keys asked for are the valid names.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{CaseError, suggest};
+
+/// A value with the key it stands under and its place in the text.
+#[derive(Clone, Debug)]
+pub(super) struct Given<T> {
+    pub value: T,
+    pub path: String,
+    pub span: Range<usize>,
+}
+
+/// The faults found so far.
+#[derive(Default)]
+pub(super) struct Faults(pub Vec<CaseError>);
+
+impl Faults {
+    /// Records a fault at a place of the text.
+    pub fn at(
+        &mut self,
+        path: &str,
+        span: &Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        self.0.push(CaseError {
+            path: path.to_owned(),
+            message: message.into(),
+            help: Some(help.into()),
+            span: Some(span.clone()),
+        });
+    }
+
+    /// Records a fault of a value that was read.
+    pub fn of<T>(&mut self, given: &Given<T>, message: impl Into<String>, help: impl Into<String>) {
+        self.at(&given.path, &given.span, message, help);
+    }
+}
+
+/// A TOML table being read. `None` from a getter means "absent" or "present but faulty"; the fault is recorded then.
+pub(super) struct Table<'a> {
+    entries: &'a DeTable<'a>,
+    pub path: String,
+    pub span: Range<usize>,
+    asked: Vec<&'static str>,
+}
+
+impl<'a> Table<'a> {
+    pub fn root(document: &'a Spanned<DeTable<'a>>) -> Self {
+        Self { entries: document.get_ref(), path: String::new(), span: 0..0, asked: Vec::new() }
+    }
+
+    /// The path of one of its keys.
+    pub fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// Whether the key is there, whatever its value.
+    pub fn has(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
+    /// The value of a key as it stands.
+    pub fn raw(&mut self, key: &'static str) -> Option<Given<&'a DeValue<'a>>> {
+        self.asked.push(key);
+        let value = self.entries.get(key)?;
+        Some(Given { value: value.get_ref(), path: self.path_of(key), span: value.span() })
+    }
+
+    /// Records that a key is missing.
+    pub fn missing(&self, key: &str, help: impl Into<String>, faults: &mut Faults) {
+        let what = if self.path.is_empty() { "the case" } else { "its table" };
+        faults.at(&self.path_of(key), &self.span, format!("`{key}` is missing from {what}"), help);
+    }
+
+    /// A sub-table, `[path.key]`.
+    pub fn table(&mut self, key: &'static str, faults: &mut Faults) -> Option<Self> {
+        let given = self.raw(key)?;
+        Self::from_value(given, faults)
+    }
+
+    fn from_value(given: Given<&'a DeValue<'a>>, faults: &mut Faults) -> Option<Self> {
+        if let DeValue::Table(entries) = given.value {
+            Some(Self { entries, path: given.path, span: given.span, asked: Vec::new() })
+        } else {
+            let help = format!("write it as a table: [{}] and its keys below", given.path);
+            wrong_type(&given, "a table", help, faults);
+            None
+        }
+    }
+
+    /// The elements of an array of tables, `[[path.key]]`.
+    pub fn tables(&mut self, key: &'static str, faults: &mut Faults) -> Vec<Self> {
+        let Some(given) = self.raw(key) else { return Vec::new() };
+        let DeValue::Array(array) = given.value else {
+            let help = format!("write each as [[{}]] and its keys below", given.path);
+            wrong_type(&given, "an array of tables", help, faults);
+            return Vec::new();
+        };
+        array
+            .iter()
+            .enumerate()
+            .filter_map(|(index, element)| {
+                let path = format!("{}.{index}", given.path);
+                Self::from_value(Given { value: element.get_ref(), path, span: element.span() }, faults)
+            })
+            .collect()
+    }
+
+    /// A finite number; integers count.
+    pub fn number(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<f64>> {
+        let given = self.raw(key)?;
+        let value = number(&given, unit, faults)?;
+        Some(Given { value, path: given.path, span: given.span })
+    }
+
+    /// A finite number that must be there.
+    pub fn required(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<f64>> {
+        if !self.has(key) {
+            self.missing(key, format!("give `{key} = ...` in {unit}"), faults);
+        }
+        self.number(key, unit, faults)
+    }
+
+    /// A positive number; a default makes it optional.
+    pub fn positive(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<f64> {
+        let given = self.number(key, unit, faults)?;
+        if given.value > 0.0 {
+            return Some(given.value);
+        }
+        let got = given.value;
+        faults.of(&given, format!("must be positive, got {got:?}"), format!("give a number > 0 in {unit}"));
+        None
+    }
+
+    /// A positive number that must be there.
+    pub fn required_positive(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<f64> {
+        if !self.has(key) {
+            self.missing(key, format!("give `{key} = ...` in {unit}"), faults);
+        }
+        self.positive(key, unit, faults)
+    }
+
+    /// A list of finite numbers.
+    pub fn numbers(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<Vec<f64>>> {
+        let given = self.raw(key)?;
+        let elements = array(&given, "a list of numbers", unit, faults)?;
+        let values: Vec<Option<f64>> = elements.iter().map(|e| number(e, unit, faults)).collect();
+        let value = values.into_iter().collect::<Option<Vec<f64>>>()?;
+        Some(Given { value, path: given.path, span: given.span })
+    }
+
+    /// Two finite numbers, `[a, b]`.
+    pub fn pair(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
+        let given = self.raw(key)?;
+        let value = pair(&given, unit, faults)?;
+        Some(Given { value, path: given.path, span: given.span })
+    }
+
+    /// Two finite numbers that must be there.
+    pub fn required_pair(
+        &mut self,
+        key: &'static str,
+        unit: &str,
+        faults: &mut Faults,
+    ) -> Option<Given<[f64; 2]>> {
+        if !self.has(key) {
+            self.missing(key, format!("give `{key} = [..., ...]` in {unit}"), faults);
+        }
+        self.pair(key, unit, faults)
+    }
+
+    /// A range `[a, b]` with a < b, in metres.
+    pub fn range(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
+        let given = self.required_pair(key, "m", faults)?;
+        let [low, high] = given.value;
+        if low < high {
+            return Some(given);
+        }
+        let help =
+            format!("give the smaller bound first: {key} = [{:?}, {:?}]", high.min(low), high.max(low));
+        faults.of(&given, format!("must increase, got [{low:?}, {high:?}] m"), help);
+        None
+    }
+
+    /// A whole number within a range.
+    pub fn whole(
+        &mut self,
+        key: &'static str,
+        allowed: std::ops::RangeInclusive<usize>,
+        faults: &mut Faults,
+    ) -> Option<Given<usize>> {
+        let given = self.raw(key)?;
+        let value = whole(&given, &allowed, faults)?;
+        Some(Given { value, path: given.path, span: given.span })
+    }
+
+    /// Two whole numbers within a range, that must be there.
+    pub fn whole_pair(
+        &mut self,
+        key: &'static str,
+        allowed: std::ops::RangeInclusive<usize>,
+        faults: &mut Faults,
+    ) -> Option<Given<[usize; 2]>> {
+        let Some(given) = self.raw(key) else {
+            self.missing(key, format!("give `{key} = [along z, along r]`, whole numbers"), faults);
+            return None;
+        };
+        let elements = array(&given, "two whole numbers", "cells along z and r", faults)?;
+        let [z, r] = elements.as_slice() else {
+            let message = format!("must be two whole numbers, got {}", elements.len());
+            faults.of(&given, message, format!("give `{key} = [along z, along r]`"));
+            return None;
+        };
+        let (z, r) = (whole(z, &allowed, faults), whole(r, &allowed, faults));
+        Some(Given { value: [z?, r?], path: given.path, span: given.span })
+    }
+
+    /// A string.
+    pub fn string(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<&'a str>> {
+        let given = self.raw(key)?;
+        if let DeValue::String(value) = given.value {
+            Some(Given { value, path: given.path, span: given.span })
+        } else {
+            wrong_type(&given, "a string", "put it in quotes".to_owned(), faults);
+            None
+        }
+    }
+
+    /// One of a closed set of names.
+    pub fn choice<T: Copy>(
+        &mut self,
+        key: &'static str,
+        names: &[(&'static str, T)],
+        faults: &mut Faults,
+    ) -> Option<Given<T>> {
+        let given = self.raw(key)?;
+        let allowed = || names.iter().map(|(name, _)| *name);
+        let DeValue::String(text) = given.value else {
+            wrong_type(&given, "a name in quotes", suggest("", allowed()), faults);
+            return None;
+        };
+        let Some((_, value)) = names.iter().find(|(name, _)| *name == text.as_ref()) else {
+            faults.of(&given, format!("unknown name `{text}`"), suggest(text, allowed()));
+            return None;
+        };
+        Some(Given { value: *value, path: given.path, span: given.span })
+    }
+
+    /// Refuses every key that nothing asked for.
+    pub fn finish(self, faults: &mut Faults) {
+        for key in self.entries.keys() {
+            let name = key.get_ref().as_ref();
+            if !self.asked.contains(&name) {
+                let path = self.path_of(name);
+                let allowed = self.asked.iter().copied();
+                faults.at(&path, &key.span(), format!("unknown key `{name}`"), suggest(name, allowed));
+            }
+        }
+    }
+}
+
+/// What a TOML value is called in a message, with the value where it is short.
+pub(super) fn describe(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => format!("the string \"{text}\""),
+        DeValue::Integer(number) => format!("the whole number {number}"),
+        DeValue::Float(number) => format!("the number {number}"),
+        DeValue::Boolean(value) => format!("{value}"),
+        DeValue::Datetime(value) => format!("the date {value}"),
+        DeValue::Array(_) => "an array".to_owned(),
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+pub(super) fn wrong_type(given: &Given<&DeValue<'_>>, expected: &str, help: String, faults: &mut Faults) {
+    faults.of(given, format!("must be {expected}, got {}", describe(given.value)), help);
+}
+
+/// The elements of an array, each with its own path and place.
+pub(super) fn array<'a>(
+    given: &Given<&'a DeValue<'a>>,
+    expected: &str,
+    unit: &str,
+    faults: &mut Faults,
+) -> Option<Vec<Given<&'a DeValue<'a>>>> {
+    let DeValue::Array(elements) = given.value else {
+        wrong_type(given, expected, format!("write [..., ...] with values in {unit}"), faults);
+        return None;
+    };
+    let element = |(index, element): (usize, &'a Spanned<DeValue<'a>>)| Given {
+        value: element.get_ref(),
+        path: format!("{}.{index}", given.path),
+        span: element.span(),
+    };
+    Some(elements.iter().enumerate().map(element).collect())
+}
+
+/// A finite number; integers count.
+pub(super) fn number(given: &Given<&DeValue<'_>>, unit: &str, faults: &mut Faults) -> Option<f64> {
+    let value = match given.value {
+        DeValue::Float(number) => number.as_str().parse::<f64>().ok(),
+        DeValue::Integer(number) => {
+            i64::from_str_radix(number.as_str(), number.radix()).ok().map(|n| n as f64)
+        }
+        _ => {
+            let help = format!("give a number without quotes, in {unit}");
+            wrong_type(given, "a number", help, faults);
+            return None;
+        }
+    };
+    match value {
+        Some(value) if value.is_finite() => Some(value),
+        _ => {
+            let message = format!("must be finite, got {}", describe(given.value));
+            faults.of(given, message, format!("give a finite number in {unit}"));
+            None
+        }
+    }
+}
+
+/// Two finite numbers.
+pub(super) fn pair(given: &Given<&DeValue<'_>>, unit: &str, faults: &mut Faults) -> Option<[f64; 2]> {
+    let elements = array(given, "two numbers", unit, faults)?;
+    let [first, second] = elements.as_slice() else {
+        let message = format!("must be two numbers, got {}", elements.len());
+        faults.of(given, message, format!("write [..., ...] with values in {unit}"));
+        return None;
+    };
+    let (first, second) = (number(first, unit, faults), number(second, unit, faults));
+    Some([first?, second?])
+}
+
+fn whole(
+    given: &Given<&DeValue<'_>>,
+    allowed: &std::ops::RangeInclusive<usize>,
+    faults: &mut Faults,
+) -> Option<usize> {
+    let help = format!("give a whole number from {} to {}", allowed.start(), allowed.end());
+    let DeValue::Integer(number) = given.value else {
+        wrong_type(given, "a whole number", help, faults);
+        return None;
+    };
+    let value = usize::from_str_radix(number.as_str(), number.radix()).ok();
+    if let Some(value) = value.filter(|value| allowed.contains(value)) {
+        return Some(value);
+    }
+    let message = format!("must be from {} to {}, got {number}", allowed.start(), allowed.end());
+    faults.of(given, message, help);
+    None
+}
