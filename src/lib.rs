@@ -1,1 +1,2 @@
 //! cav
+pub mod output;
