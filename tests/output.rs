@@ -1,5 +1,7 @@
 //! The files of a run: what is written is read back, and survives a kill.
 
+#![allow(clippy::unwrap_used)]
+
 #[path = "output/history.rs"]
 mod history;
 #[path = "output/kill.rs"]

@@ -46,6 +46,7 @@ fn merge_into(whole: &mut Map<String, Value>, part: &Map<String, Value>) {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use serde_json::json;
 
