@@ -1,0 +1,25 @@
+//! Text attributes of HDF5 objects.
+
+use hdf5::Location;
+use hdf5::types::VarLenUnicode;
+
+/// Attaches `value` to an object as the text attribute `name`; one that exists is overwritten.
+pub(super) fn set_text(location: &Location, name: &str, value: &str) -> hdf5::Result<()> {
+    let text: VarLenUnicode =
+        value.parse().map_err(|_| hdf5::Error::from(format!("attribute {name} holds a zero byte")))?;
+    if location.attr_names()?.iter().any(|existing| existing == name) {
+        location.delete_attr(name)?;
+    }
+    location.new_attr::<VarLenUnicode>().create(name)?.write_scalar(&text)
+}
+
+/// Attaches all of `attributes`, pairs of name and value.
+pub(super) fn set_texts(location: &Location, attributes: &[(&str, &str)]) -> hdf5::Result<()> {
+    attributes.iter().try_for_each(|(name, value)| set_text(location, name, value))
+}
+
+/// The text attribute `name`, or `None` where there is none or it is not a text.
+pub(super) fn text(location: &Location, name: &str) -> Option<String> {
+    let value: VarLenUnicode = location.attr(name).ok()?.read_scalar().ok()?;
+    Some(value.as_str().to_owned())
+}

@@ -1,0 +1,326 @@
+//! Named series over time, buffered in memory and written in batches: `fluid.h5` and `solid.h5`.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use hdf5::{Dataset, File};
+use ndarray::ArrayView2;
+
+use super::hdf5_attributes::{set_text, set_texts};
+use super::{OutputError, safe_file};
+
+/// Shortest time between two batches that [`HistoryFile::flush_if_due`] writes.
+const FLUSH_INTERVAL: Duration = Duration::from_secs(1);
+/// Largest share of the wall time that [`HistoryFile::flush_if_due`] spends.
+const FLUSH_SHARE: f64 = 0.02;
+/// Values per chunk of a dataset, 32 KiB: small enough that a short history stays a small file.
+const CHUNK_VALUES: usize = 4096;
+
+/// One column of a series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Column<'a> {
+    /// Name of the dataset within the group; a `/` in it makes a group.
+    pub name: &'a str,
+    /// SI unit, as `kg/m3`; `1` for a pure number.
+    pub unit: &'a str,
+    /// What it is, in a few words.
+    pub description: &'a str,
+    /// Values per row: 1 gives a dataset of shape (rows,), more gives (rows, width).
+    pub width: usize,
+}
+
+/// A series of a [`HistoryFile`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SeriesId(usize);
+
+/// A file of named series in time and of arrays that do not change.
+///
+/// Rows are buffered until [`flush`](Self::flush) or [`flush_if_due`](Self::flush_if_due) writes them. A batch goes
+/// into a copy that is renamed over the file, so the file on disk always holds whole batches, and all series of a
+/// batch together. Datasets are not compressed: compressed chunks would move with every batch and leave holes.
+#[derive(Debug)]
+pub struct HistoryFile {
+    path: PathBuf,
+    series: Vec<Series>,
+    arrays: Vec<StaticArray>,
+    last_flush: Instant,
+    last_cost: Duration,
+    /// Whether anything changed since the last batch.
+    pending: bool,
+}
+
+#[derive(Debug)]
+struct Series {
+    group: String,
+    columns: Vec<OwnedColumn>,
+    /// Values per row, all columns together.
+    width: usize,
+    /// Rows in the file.
+    written: usize,
+    /// Whether the datasets exist in the file.
+    created: bool,
+    /// Rows not yet in the file.
+    buffer: Vec<f64>,
+}
+
+#[derive(Debug)]
+struct OwnedColumn {
+    path: String,
+    unit: String,
+    description: String,
+    width: usize,
+}
+
+#[derive(Debug)]
+struct StaticArray {
+    path: String,
+    unit: String,
+    description: String,
+    values: Vec<f64>,
+}
+
+impl HistoryFile {
+    /// Makes the file, empty but for `attributes` (name, value) of its root. An existing one is replaced.
+    pub fn create(path: &Path, attributes: &[(&str, &str)]) -> Result<Self, OutputError> {
+        safe_file::replace(path, |temporary| {
+            let make = || -> hdf5::Result<()> {
+                let file = File::create(temporary)?;
+                set_texts(&file, attributes)?;
+                file.close()
+            };
+            make().map_err(OutputError::hdf5(path, "create"))
+        })?;
+        Ok(Self::at(path))
+    }
+
+    /// Opens a file written before; [`add_series`](Self::add_series) then continues the series it finds there.
+    pub fn open(path: &Path) -> Result<Self, OutputError> {
+        File::open(path).map_err(OutputError::hdf5(path, "open"))?;
+        Ok(Self::at(path))
+    }
+
+    fn at(path: &Path) -> Self {
+        Self {
+            path: path.to_path_buf(),
+            series: Vec::new(),
+            arrays: Vec::new(),
+            last_flush: Instant::now(),
+            last_cost: Duration::ZERO,
+            pending: false,
+        }
+    }
+
+    /// Adds the series whose rows are `columns` side by side, as datasets of `group` (`""` or `"/"` is the root).
+    ///
+    /// Where the datasets exist already (after [`open`](Self::open)), new rows follow those that are there.
+    pub fn add_series(&mut self, group: &str, columns: &[Column<'_>]) -> Result<SeriesId, OutputError> {
+        let columns: Vec<OwnedColumn> = columns
+            .iter()
+            .map(|column| OwnedColumn {
+                path: absolute(group, column.name),
+                unit: column.unit.to_owned(),
+                description: column.description.to_owned(),
+                width: column.width,
+            })
+            .collect();
+        let written = self.rows_on_file(&columns)?;
+        self.pending = true;
+        self.series.push(Series {
+            group: absolute(group, ""),
+            width: columns.iter().map(|column| column.width).sum(),
+            columns,
+            written: written.unwrap_or(0),
+            created: written.is_some(),
+            buffer: Vec::new(),
+        });
+        Ok(SeriesId(self.series.len() - 1))
+    }
+
+    /// Sets the array `path`, which does not change in time; it is written with the next batch.
+    pub fn put(&mut self, path: &str, unit: &str, description: &str, values: &[f64]) {
+        self.pending = true;
+        self.arrays.push(StaticArray {
+            path: absolute("", path),
+            unit: unit.to_owned(),
+            description: description.to_owned(),
+            values: values.to_vec(),
+        });
+    }
+
+    /// Adds one row: the values of all columns, one column after the other.
+    pub fn push(&mut self, id: SeriesId, row: &[f64]) -> Result<(), OutputError> {
+        let series = &mut self.series[id.0];
+        if row.len() != series.width {
+            return Err(OutputError::Length {
+                path: self.path.clone(),
+                what: format!("a row of the series in {}", series.group),
+                found: row.len(),
+                expected: series.width,
+            });
+        }
+        series.buffer.extend_from_slice(row);
+        self.pending = true;
+        Ok(())
+    }
+
+    /// Rows of a series, in the file and in the buffer.
+    pub fn rows(&self, id: SeriesId) -> usize {
+        let series = &self.series[id.0];
+        series.written + series.buffered_rows()
+    }
+
+    /// Forgets the rows from `rows` on, as a restart from an earlier time needs; the file follows with the next batch.
+    pub fn truncate(&mut self, id: SeriesId, rows: usize) {
+        let series = &mut self.series[id.0];
+        let kept = rows.saturating_sub(series.written);
+        series.buffer.truncate(kept * series.width);
+        series.written = series.written.min(rows);
+        self.pending = true;
+    }
+
+    /// Whether a batch is due: a second after the last one at the earliest, and late enough that a batch that costs as
+    /// much as the last one stays under 2 % of the wall time.
+    pub fn is_flush_due(&self) -> bool {
+        let elapsed = self.last_flush.elapsed();
+        elapsed >= FLUSH_INTERVAL && self.last_cost.as_secs_f64() < FLUSH_SHARE * elapsed.as_secs_f64()
+    }
+
+    /// Writes a batch if one is due; says whether it did.
+    pub fn flush_if_due(&mut self) -> Result<bool, OutputError> {
+        let due = self.is_flush_due();
+        if due {
+            self.flush()?;
+        }
+        Ok(due)
+    }
+
+    /// Writes everything that is buffered. After an error the buffer is as before, and the file too.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        if !self.pending {
+            return Ok(());
+        }
+        let start = Instant::now();
+        safe_file::update(&self.path, u64::MAX, |copy| {
+            self.write_batch(copy).map_err(OutputError::hdf5(&self.path, "write a batch to"))
+        })?;
+        for series in &mut self.series {
+            series.written += series.buffered_rows();
+            series.buffer.clear();
+            series.created = true;
+        }
+        self.arrays.clear();
+        self.pending = false;
+        self.last_flush = Instant::now();
+        self.last_cost = start.elapsed();
+        Ok(())
+    }
+
+    fn write_batch(&self, copy: &Path) -> hdf5::Result<()> {
+        let file = File::open_rw(copy)?;
+        for array in &self.arrays {
+            if file.link_exists(&array.path) {
+                file.unlink(&array.path)?;
+            }
+            make_parents(&file, &array.path)?;
+            let dataset =
+                file.new_dataset_builder().with_data(&array.values[..]).create(array.path.as_str())?;
+            describe(&dataset, &array.unit, &array.description)?;
+        }
+        for series in &self.series {
+            series.write(&file)?;
+        }
+        file.close()
+    }
+
+    /// Rows that the datasets of `columns` have in the file; `None` where none of them exists.
+    fn rows_on_file(&self, columns: &[OwnedColumn]) -> Result<Option<usize>, OutputError> {
+        let file = File::open(&self.path).map_err(OutputError::hdf5(&self.path, "open"))?;
+        let mut rows = Vec::new();
+        for column in columns {
+            let Ok(dataset) = file.dataset(&column.path) else { continue };
+            let shape = dataset.shape();
+            if shape.get(1).copied().unwrap_or(1) != column.width || !dataset.is_resizable() {
+                let what = format!("{} has shape {shape:?}, not rows of {}", column.path, column.width);
+                return Err(OutputError::Mismatch { path: self.path.clone(), what });
+            }
+            rows.push(shape[0]);
+        }
+        match rows.first() {
+            None => Ok(None),
+            Some(&first) if rows.len() == columns.len() && rows.iter().all(|&n| n == first) => {
+                Ok(Some(first))
+            }
+            Some(_) => {
+                let what = format!("the datasets beside {} are missing or unequally long", columns[0].path);
+                Err(OutputError::Mismatch { path: self.path.clone(), what })
+            }
+        }
+    }
+}
+
+impl Series {
+    fn buffered_rows(&self) -> usize {
+        self.buffer.len() / self.width.max(1)
+    }
+
+    /// Writes the buffered rows into the datasets, which are made where they do not exist.
+    fn write(&self, file: &File) -> hdf5::Result<()> {
+        let new_rows = self.buffered_rows();
+        let rows = self.written..self.written + new_rows;
+        let mut offset = 0;
+        for column in &self.columns {
+            let dataset = if self.created { file.dataset(&column.path)? } else { column.create(file)? };
+            let mut values = Vec::with_capacity(new_rows * column.width);
+            for row in self.buffer.chunks_exact(self.width) {
+                values.extend_from_slice(&row[offset..offset + column.width]);
+            }
+            if column.width == 1 {
+                dataset.resize(rows.end)?;
+                dataset.write_slice(&values[..], rows.clone())?;
+            } else {
+                dataset.resize((rows.end, column.width))?;
+                let view = ArrayView2::from_shape((new_rows, column.width), &values)?;
+                dataset.write_slice(view, ndarray::s![rows.clone(), ..])?;
+            }
+            offset += column.width;
+        }
+        Ok(())
+    }
+}
+
+impl OwnedColumn {
+    fn create(&self, file: &File) -> hdf5::Result<Dataset> {
+        make_parents(file, &self.path)?;
+        let builder = file.new_dataset::<f64>();
+        let chunk_rows = (CHUNK_VALUES / self.width.max(1)).max(1);
+        let dataset = if self.width == 1 {
+            builder.chunk((chunk_rows,)).shape((0..,)).create(self.path.as_str())?
+        } else {
+            builder.chunk((chunk_rows, self.width)).shape((0.., self.width)).create(self.path.as_str())?
+        };
+        describe(&dataset, &self.unit, &self.description)?;
+        Ok(dataset)
+    }
+}
+
+/// The path from the root of `name` in `group`.
+fn absolute(group: &str, name: &str) -> String {
+    let group = group.trim_matches('/');
+    let name = name.trim_matches('/');
+    if group.is_empty() { format!("/{name}") } else { format!("/{group}/{name}") }
+}
+
+/// Makes the groups that `path` lies in.
+fn make_parents(file: &File, path: &str) -> hdf5::Result<()> {
+    for (end, _) in path.match_indices('/').skip(1) {
+        if !file.link_exists(&path[..end]) {
+            file.create_group(&path[..end])?;
+        }
+    }
+    Ok(())
+}
+
+fn describe(dataset: &Dataset, unit: &str, description: &str) -> hdf5::Result<()> {
+    set_text(dataset, "units", unit)?;
+    set_text(dataset, "description", description)
+}

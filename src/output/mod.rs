@@ -1,0 +1,31 @@
+//! What a run leaves behind: snapshots for ParaView and PyVista, histories, a summary, and the progress shown meanwhile.
+//!
+//! The module knows nothing of solvers or of case files; it takes names, units and slices. Every file is brought up to
+//! date in a copy that is then renamed over it ([`safe_file`]), so that a process killed at any moment leaves readable
+//! files, and a reader that has one open is not disturbed.
+//!
+//! | module | writes |
+//! |---|---|
+//! | [`vtkhdf`] | `fluid.vtkhdf`, `solid.vtkhdf`: cell fields over time |
+//! | [`history`] | `fluid.h5`, `solid.h5`: named series over time |
+//! | [`join`] | `history.h5`: both sides' histories under one roof |
+//! | [`summary`] | `fluid.json`, `solid.json`, `summary.json` |
+//! | [`run_directory`] | the directory itself: made, kept aside, refused or replaced |
+//! | [`progress`] | a bar or plain lines on standard error |
+
+pub mod error;
+mod hdf5_attributes;
+pub mod history;
+pub mod join;
+pub mod progress;
+pub mod run_directory;
+pub mod safe_file;
+pub mod summary;
+pub mod vtkhdf;
+
+pub use error::OutputError;
+pub use history::{Column, HistoryFile, SeriesId};
+pub use join::{Join, join_histories};
+pub use progress::{Progress, ProgressLine};
+pub use run_directory::RunDirectory;
+pub use vtkhdf::{FieldSpec, QuadMesh, SeriesWriter, Storage};

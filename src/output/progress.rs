@@ -1,0 +1,303 @@
+//! How far a run is: a bar on a terminal, else a plain line every few seconds, always on standard error.
+
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::{Deserialize, Serialize};
+
+/// Time between two updates of the bar.
+const BAR_INTERVAL: Duration = Duration::from_millis(100);
+/// Time between two plain lines.
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
+/// Time between two plain lines when more was asked for.
+const VERBOSE_LINE_INTERVAL: Duration = Duration::from_secs(1);
+/// Wall time in seconds over which the speed is averaged for the estimate of the time left.
+const SPEED_MEMORY: f64 = 10.0;
+/// Positions of the bar.
+const BAR_STEPS: u64 = 1000;
+
+/// The state of a run after a step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ProgressLine {
+    /// Simulated time in s.
+    pub time: f64,
+    /// Steps done.
+    pub step: u64,
+    /// Length of the last step in s.
+    pub dt: f64,
+    /// The side that limits the step.
+    pub limited_by: String,
+    /// Cells of both sides.
+    pub cells: u64,
+    /// Wall time since the start in s.
+    pub wall: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Tagged {
+    progress: ProgressLine,
+}
+
+impl ProgressLine {
+    /// As one line of JSON, without line end: what a side's process tells the launcher.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(&Tagged { progress: self.clone() }).expect("numbers and a text can be written")
+    }
+
+    /// From a line made by [`to_json`](Self::to_json); `None` for any other line.
+    pub fn from_json(line: &str) -> Option<Self> {
+        serde_json::from_str::<Tagged>(line).ok().map(|tagged| tagged.progress)
+    }
+}
+
+/// Lets through one call per interval: a side's process asks it before it tells the launcher of a step.
+#[derive(Debug)]
+pub struct Throttle {
+    interval: Duration,
+    last: Option<Instant>,
+}
+
+impl Throttle {
+    /// One call per `interval`.
+    pub fn new(interval: Duration) -> Self {
+        Self { interval, last: None }
+    }
+
+    /// Whether the interval has passed since this last said yes; the first time it says yes.
+    pub fn is_due(&mut self) -> bool {
+        self.is_due_at(Instant::now())
+    }
+
+    fn is_due_at(&mut self, now: Instant) -> bool {
+        let due = self.last.is_none_or(|last| now.duration_since(last) >= self.interval);
+        if due {
+            self.last = Some(now);
+        }
+        due
+    }
+}
+
+/// Shows how far a run is.
+#[derive(Debug)]
+pub struct Progress {
+    end_time: f64,
+    display: Display,
+    throttle: Throttle,
+    speed: Speed,
+}
+
+#[derive(Debug)]
+enum Display {
+    Nothing,
+    Lines,
+    Bar(ProgressBar),
+}
+
+impl Progress {
+    /// For a run to the simulated time `end_time` in s. `quiet` shows nothing; `verbosity` > 0 shows plain lines, and more
+    /// of them, also on a terminal, so that they go between the lines of a log.
+    pub fn new(end_time: f64, quiet: bool, verbosity: u8) -> Self {
+        let (display, interval) = if quiet {
+            (Display::Nothing, LINE_INTERVAL)
+        } else if verbosity > 0 {
+            (Display::Lines, VERBOSE_LINE_INTERVAL)
+        } else if std::io::stderr().is_terminal() {
+            (Display::Bar(bar()), BAR_INTERVAL)
+        } else {
+            (Display::Lines, LINE_INTERVAL)
+        };
+        Self { end_time, display, throttle: Throttle::new(interval), speed: Speed::default() }
+    }
+
+    /// Takes notice of a step; shows it if it is time to.
+    pub fn update(&mut self, line: &ProgressLine) {
+        self.speed.update(line.wall, line.time);
+        if matches!(self.display, Display::Nothing) || !self.throttle.is_due() {
+            return;
+        }
+        let text = describe(line, self.end_time, self.speed.seconds_to(self.end_time - line.time));
+        match &self.display {
+            Display::Nothing => {}
+            Display::Lines => eprintln!("{:3.0} %  {text}", 100.0 * self.fraction(line)),
+            Display::Bar(bar) => {
+                bar.set_position((self.fraction(line) * BAR_STEPS as f64) as u64);
+                bar.set_message(text);
+            }
+        }
+    }
+
+    /// Shows a message without disturbing the bar.
+    pub fn message(&self, text: &str) {
+        match &self.display {
+            Display::Nothing => {}
+            Display::Lines => eprintln!("{text}"),
+            Display::Bar(bar) => bar.suspend(|| eprintln!("{text}")),
+        }
+    }
+
+    /// Takes the bar away and shows a last message.
+    pub fn finish(&self, text: &str) {
+        if let Display::Bar(bar) = &self.display {
+            bar.finish_and_clear();
+        }
+        self.message(text);
+    }
+
+    fn fraction(&self, line: &ProgressLine) -> f64 {
+        if self.end_time > 0.0 { (line.time / self.end_time).clamp(0.0, 1.0) } else { 1.0 }
+    }
+}
+
+fn bar() -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {wide_msg}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::with_draw_target(Some(BAR_STEPS), ProgressDrawTarget::stderr()).with_style(style)
+}
+
+/// Simulated time, step, step length and who limits it, cells and the time left, in one line.
+fn describe(line: &ProgressLine, end_time: f64, left: Option<f64>) -> String {
+    let left = left.map_or_else(|| "?".to_owned(), clock);
+    format!(
+        "t = {} of {}  step {}  Δt = {} ({})  {} cells  {} left",
+        engineering(line.time, "s"),
+        engineering(end_time, "s"),
+        line.step,
+        engineering(line.dt, "s"),
+        line.limited_by,
+        line.cells,
+        left
+    )
+}
+
+/// A number with its unit, the prefix chosen so that 1 to 999 stand before the point: `12.35 µs`.
+pub fn engineering(value: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 9] = [
+        (1e9, "G"),
+        (1e6, "M"),
+        (1e3, "k"),
+        (1.0, ""),
+        (1e-3, "m"),
+        (1e-6, "µ"),
+        (1e-9, "n"),
+        (1e-12, "p"),
+        (1e-15, "f"),
+    ];
+    // From the value as it will be rounded, so that 999.999 ns become 1.00 µs.
+    let found = PREFIXES.iter().find(|(factor, _)| value.abs() / factor >= 0.99995);
+    let (factor, prefix) = found.unwrap_or(&(1.0, ""));
+    let scaled = value / factor;
+    let decimals = if scaled == 0.0 || scaled.abs() >= 99.995 { 1 } else { 2 };
+    format!("{scaled:.decimals$} {prefix}{unit}")
+}
+
+/// A duration as `7 s`, `3:07` or `2:03:07`.
+fn clock(seconds: f64) -> String {
+    let whole = seconds.max(0.0).round() as u64;
+    match (whole / 3600, whole / 60 % 60, whole % 60) {
+        (0, 0, s) => format!("{s} s"),
+        (0, m, s) => format!("{m}:{s:02}"),
+        (h, m, s) => format!("{h}:{m:02}:{s:02}"),
+    }
+}
+
+/// Simulated time per wall time, averaged over the last seconds: the step length changes much in a collapse.
+#[derive(Debug, Default)]
+struct Speed {
+    last: Option<(f64, f64)>,
+    mean: Option<f64>,
+}
+
+impl Speed {
+    fn update(&mut self, wall: f64, time: f64) {
+        let (last_wall, last_time) = *self.last.get_or_insert((wall, time));
+        let elapsed = wall - last_wall;
+        // Too short a piece of wall time would be mostly noise of the clock.
+        if elapsed < 0.05 {
+            return;
+        }
+        let now = (time - last_time) / elapsed;
+        let weight = 1.0 - (-elapsed / SPEED_MEMORY).exp();
+        self.mean = Some(self.mean.map_or(now, |mean| mean + weight * (now - mean)));
+        self.last = Some((wall, time));
+    }
+
+    /// Wall seconds for a piece of simulated time; `None` while the speed is not known.
+    fn seconds_to(&self, time: f64) -> Option<f64> {
+        self.mean.filter(|&mean| mean > 0.0).map(|mean| time.max(0.0) / mean)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn line() -> ProgressLine {
+        ProgressLine {
+            time: 1.25e-5,
+            step: 340,
+            dt: 3.1e-8,
+            limited_by: "fluid".to_owned(),
+            cells: 131_072,
+            wall: 10.0,
+        }
+    }
+
+    #[test]
+    fn a_line_survives_the_way_through_json_and_other_lines_are_no_progress() {
+        let text = line().to_json();
+        assert!(!text.contains('\n'));
+        assert_eq!(ProgressLine::from_json(&text), Some(line()));
+        assert_eq!(ProgressLine::from_json("{\"time\": 1.0}"), None);
+        assert_eq!(ProgressLine::from_json("step 3"), None);
+    }
+
+    #[test]
+    fn the_line_says_time_step_limit_cells_and_time_left() {
+        let text = describe(&line(), 6.57e-5, Some(185.0));
+        assert_eq!(
+            text,
+            "t = 12.50 µs of 65.70 µs  step 340  Δt = 31.00 ns (fluid)  131072 cells  3:05 left"
+        );
+    }
+
+    #[test]
+    fn prefixes_change_at_a_thousand() {
+        let cases = [
+            (0.0, "0.0 s"),
+            (1e-6, "1.00 µs"),
+            (999.96e-9, "1.00 µs"),
+            (999.4e-9, "999.4 ns"),
+            (-2.5e8, "-250.0 Ms"),
+            (1e-30, "0.00 s"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(engineering(value, "s"), text);
+        }
+    }
+
+    #[test]
+    fn the_time_left_follows_a_change_of_speed() {
+        let mut speed = Speed::default();
+        assert_eq!(speed.seconds_to(1.0), None);
+        for second in 0..=20 {
+            speed.update(f64::from(second), 2.0 * f64::from(second));
+        }
+        assert!((speed.seconds_to(10.0).unwrap() - 5.0).abs() < 1e-9);
+        for second in 1..=60 {
+            speed.update(20.0 + f64::from(second), 40.0 + f64::from(second));
+        }
+        let left = speed.seconds_to(10.0).unwrap();
+        assert!((left - 10.0).abs() < 0.1, "half the speed, twice the time: {left}");
+    }
+
+    #[test]
+    fn a_throttle_lets_one_call_through_per_interval() {
+        let mut throttle = Throttle::new(Duration::from_secs(2));
+        let start = Instant::now();
+        let due: Vec<bool> =
+            (0..6).map(|second| throttle.is_due_at(start + Duration::from_secs(second))).collect();
+        assert_eq!(due, [true, false, true, false, true, false]);
+    }
+}

@@ -1,0 +1,435 @@
+//! Cell fields on a changing mesh of quadrilaterals over time, as ParaView, VTK and PyVista read them.
+//!
+//! VTKHDF 2.2, `UnstructuredGrid` with `Steps`: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/>.
+//! One entry of `NumberOfPoints`, `NumberOfCells` and `NumberOfConnectivityIds` per *mesh*; a snapshot on the mesh of the
+//! one before repeats that one's offsets and stores its fields only.
+
+use std::path::{Path, PathBuf};
+
+use hdf5::types::FixedAscii;
+use hdf5::{Dataset, File, Group, H5Type};
+use ndarray::ArrayView2;
+
+use super::hdf5_attributes::{set_text, set_texts, text};
+use super::{OutputError, safe_file};
+
+/// Cells (or points) per chunk, 64 KiB of a scalar field.
+const CHUNK_ROWS: usize = 8192;
+/// Steps per chunk of the small datasets that have one entry per step or mesh.
+const CHUNK_STEPS: usize = 64;
+/// VTK's number of the quadrilateral cell type.
+const VTK_QUAD: u8 = 9;
+/// Above this length in bytes a file is extended in place instead of in a copy: copying then costs more than writing.
+const COPY_LIMIT: u64 = 256 << 20;
+
+/// How the values of a field are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Storage {
+    /// As they are.
+    #[default]
+    F64,
+    /// As whole numbers from 0 to 255, for levels and flags.
+    U8,
+}
+
+/// A field on cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FieldSpec<'a> {
+    /// Name of the dataset.
+    pub name: &'a str,
+    /// 1 for a scalar, 3 for a vector (z, r, 0).
+    pub components: usize,
+    /// SI unit, as `kg/m3`; `1` for a pure number.
+    pub unit: &'a str,
+    /// What it is, in a few words.
+    pub description: &'a str,
+    /// How it is stored.
+    pub storage: Storage,
+}
+
+/// A mesh of quadrilaterals in the plane of a section: x is the axial coordinate z, y the radial coordinate r.
+#[derive(Debug, Clone, Copy)]
+pub struct QuadMesh<'a> {
+    /// Coordinates, x y z of one point after the other; the third is 0.
+    pub points: &'a [f64],
+    /// Points of each cell, counted around it.
+    pub quads: &'a [[usize; 4]],
+}
+
+/// A file of snapshots, open only while one is appended.
+#[derive(Debug)]
+pub struct SeriesWriter {
+    path: PathBuf,
+    fields: Vec<Field>,
+    end: End,
+    /// The mesh of the last snapshot, if this writer wrote it.
+    mesh_id: Option<u64>,
+    copy_limit: u64,
+}
+
+#[derive(Debug)]
+struct Field {
+    name: String,
+    components: usize,
+    storage: Storage,
+}
+
+/// Where the datasets end: all counts are of what the first `steps` snapshots need.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct End {
+    steps: usize,
+    /// Start of the last mesh in each dataset.
+    last: Offsets,
+    /// End of the last mesh, so the start of the next.
+    next: Offsets,
+    /// Rows of each cell field.
+    field_rows: usize,
+}
+
+/// Positions of a mesh in the datasets that hold all meshes.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Offsets {
+    meshes: usize,
+    points: usize,
+    cells: usize,
+    connectivity: usize,
+}
+
+impl SeriesWriter {
+    /// Makes the file without snapshots; an existing one is replaced.
+    ///
+    /// `compression` is the deflate level, 0 to 9; 0 stores the values as they are. `attributes` (name, value) go to
+    /// the root of the file.
+    pub fn create(
+        path: &Path,
+        fields: &[FieldSpec<'_>],
+        compression: u8,
+        attributes: &[(&str, &str)],
+    ) -> Result<Self, OutputError> {
+        safe_file::replace(path, |temporary| {
+            create_datasets(temporary, fields, compression, attributes)
+                .map_err(OutputError::hdf5(path, "create"))
+        })?;
+        let fields = fields
+            .iter()
+            .map(|field| Field {
+                name: field.name.to_owned(),
+                components: field.components,
+                storage: field.storage,
+            })
+            .collect();
+        Ok(Self {
+            path: path.to_path_buf(),
+            fields,
+            end: End::default(),
+            mesh_id: None,
+            copy_limit: COPY_LIMIT,
+        })
+    }
+
+    /// Opens a file written before, to append to its snapshots. The fields and their order are the file's.
+    pub fn open(path: &Path) -> Result<Self, OutputError> {
+        let read = || -> hdf5::Result<(Vec<Field>, End)> {
+            let root = File::open(path)?.group("VTKHDF")?;
+            let steps: i64 = root.group("Steps")?.attr("NSteps")?.read_scalar()?;
+            let order = text(&root, "FieldOrder").ok_or("the order of the fields is missing")?;
+            let fields =
+                order.split(' ').map(|name| Field::read(&root, name)).collect::<hdf5::Result<_>>()?;
+            Ok((fields, End::read(&root, steps.max(0) as usize)?))
+        };
+        let (fields, end) = read().map_err(OutputError::hdf5(path, "open as a series of snapshots"))?;
+        Ok(Self { path: path.to_path_buf(), fields, end, mesh_id: None, copy_limit: COPY_LIMIT })
+    }
+
+    /// Number of snapshots.
+    pub fn steps(&self) -> usize {
+        self.end.steps
+    }
+
+    /// Forgets the snapshots from number `steps` on, as a restart from an earlier time needs.
+    pub fn truncate(&mut self, steps: usize) -> Result<(), OutputError> {
+        if steps >= self.end.steps {
+            return Ok(());
+        }
+        let end = safe_file::update(&self.path, self.copy_limit, |path| {
+            let shorten = || -> hdf5::Result<End> {
+                let file = File::open_rw(path)?;
+                let root = file.group("VTKHDF")?;
+                let end = End::read(&root, steps)?;
+                for name in STEP_DATASETS {
+                    set_rows(&root.group("Steps")?.dataset(name)?, steps)?;
+                }
+                write_step_count(&root, steps)?;
+                drop(root);
+                file.close()?;
+                Ok(end)
+            };
+            shorten().map_err(OutputError::hdf5(&self.path, "shorten"))
+        })?;
+        self.end = end;
+        self.mesh_id = None;
+        Ok(())
+    }
+
+    /// Appends a snapshot: the values of each field in the order given to [`create`](Self::create), one cell after the other.
+    ///
+    /// A `mesh_id` equal to that of the snapshot before says that the mesh is the same; it is then not stored again.
+    pub fn append(
+        &mut self,
+        time: f64,
+        mesh: &QuadMesh<'_>,
+        mesh_id: u64,
+        values: &[&[f64]],
+    ) -> Result<(), OutputError> {
+        self.check_lengths(mesh, values)?;
+        let is_new_mesh = self.mesh_id != Some(mesh_id);
+        let end = self.end.after(mesh, is_new_mesh);
+        safe_file::update(&self.path, self.copy_limit, |path| {
+            let write = || -> hdf5::Result<()> {
+                let file = File::open_rw(path)?;
+                let root = file.group("VTKHDF")?;
+                if is_new_mesh {
+                    write_mesh(&root, mesh, &end)?;
+                }
+                for (field, values) in self.fields.iter().zip(values) {
+                    field.append(&root, values, self.end.field_rows)?;
+                }
+                // What readers go by comes last, once the data it points to are in the file.
+                file.flush()?;
+                self.write_step(&root, time, &end)?;
+                drop(root);
+                file.close()
+            };
+            write().map_err(OutputError::hdf5(&self.path, "append a snapshot to"))
+        })?;
+        self.end = end;
+        self.mesh_id = Some(mesh_id);
+        Ok(())
+    }
+
+    fn check_lengths(&self, mesh: &QuadMesh<'_>, values: &[&[f64]]) -> Result<(), OutputError> {
+        let cells = mesh.quads.len();
+        let check = |what: String, found, expected| {
+            if found == expected {
+                return Ok(());
+            }
+            Err(OutputError::Length { path: self.path.clone(), what, found, expected })
+        };
+        check("the list of fields".to_owned(), values.len(), self.fields.len())?;
+        check("the last point".to_owned(), mesh.points.len() % 3, 0)?;
+        debug_assert!(
+            mesh.quads.iter().flatten().all(|&point| point < mesh.points.len() / 3),
+            "points exist"
+        );
+        for (field, values) in self.fields.iter().zip(values) {
+            check(format!("field {}", field.name), values.len(), cells * field.components)?;
+        }
+        Ok(())
+    }
+
+    /// Enters the snapshot that `end` ends with into the list of steps.
+    fn write_step(&self, root: &Group, time: f64, end: &End) -> hdf5::Result<()> {
+        let steps = root.group("Steps")?;
+        let at = end.steps - 1;
+        append_rows(&steps.dataset("Values")?, &[time], at)?;
+        append_rows(&steps.dataset("PartOffsets")?, &[end.last.meshes as i64], at)?;
+        append_rows(&steps.dataset("NumberOfParts")?, &[1i64], at)?;
+        append_rows(&steps.dataset("PointOffsets")?, &[end.last.points as i64], at)?;
+        append_rows(&steps.dataset("CellOffsets")?, &[end.last.cells as i64], at)?;
+        append_rows(&steps.dataset("ConnectivityIdOffsets")?, &[end.last.connectivity as i64], at)?;
+        let offsets = steps.group("CellDataOffsets")?;
+        for field in &self.fields {
+            append_rows(&offsets.dataset(&field.name)?, &[self.end.field_rows as i64], at)?;
+        }
+        write_step_count(root, end.steps)
+    }
+}
+
+/// Datasets of the group `Steps` with one row per snapshot; those of `CellDataOffsets` come besides.
+const STEP_DATASETS: [&str; 6] =
+    ["Values", "PartOffsets", "NumberOfParts", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"];
+
+impl End {
+    /// The end after one more snapshot.
+    fn after(&self, mesh: &QuadMesh<'_>, is_new_mesh: bool) -> Self {
+        let mut end = *self;
+        end.steps += 1;
+        end.field_rows += mesh.quads.len();
+        if is_new_mesh {
+            end.last = self.next;
+            end.next.meshes += 1;
+            end.next.points += mesh.points.len() / 3;
+            end.next.cells += mesh.quads.len();
+            end.next.connectivity += 4 * mesh.quads.len();
+        }
+        end
+    }
+
+    /// The end of the first `steps` snapshots of a file, from what the last of them points to.
+    fn read(root: &Group, steps: usize) -> hdf5::Result<Self> {
+        if steps == 0 {
+            return Ok(Self::default());
+        }
+        let entry = |group: &Group, name: &str, row: usize| -> hdf5::Result<usize> {
+            let values: Vec<i64> = group.dataset(name)?.read_raw()?;
+            let value = values.get(row).ok_or_else(|| format!("{name} has no entry {row}"))?;
+            Ok((*value).max(0) as usize)
+        };
+        let of_steps = root.group("Steps")?;
+        let last = Offsets {
+            meshes: entry(&of_steps, "PartOffsets", steps - 1)?,
+            points: entry(&of_steps, "PointOffsets", steps - 1)?,
+            cells: entry(&of_steps, "CellOffsets", steps - 1)?,
+            connectivity: entry(&of_steps, "ConnectivityIdOffsets", steps - 1)?,
+        };
+        let cells = entry(root, "NumberOfCells", last.meshes)?;
+        let next = Offsets {
+            meshes: last.meshes + 1,
+            points: last.points + entry(root, "NumberOfPoints", last.meshes)?,
+            cells: last.cells + cells,
+            connectivity: last.connectivity + entry(root, "NumberOfConnectivityIds", last.meshes)?,
+        };
+        let data = of_steps.group("CellDataOffsets")?;
+        let field_rows = match data.member_names()?.first() {
+            Some(name) => entry(&data, name, steps - 1)? + cells,
+            None => 0,
+        };
+        Ok(Self { steps, last, next, field_rows })
+    }
+}
+
+impl Field {
+    fn read(root: &Group, name: &str) -> hdf5::Result<Self> {
+        let dataset = root.group("CellData")?.dataset(name)?;
+        let components = dataset.shape().get(1).copied().unwrap_or(1);
+        let storage = if dataset.dtype()?.is::<u8>() { Storage::U8 } else { Storage::F64 };
+        Ok(Self { name: name.to_owned(), components, storage })
+    }
+
+    fn append(&self, root: &Group, values: &[f64], row: usize) -> hdf5::Result<()> {
+        let dataset = root.group("CellData")?.dataset(&self.name)?;
+        match self.storage {
+            Storage::F64 => append_rows(&dataset, values, row),
+            Storage::U8 => {
+                let rounded: Vec<u8> = values.iter().map(|value| value.round() as u8).collect();
+                append_rows(&dataset, &rounded, row)
+            }
+        }
+    }
+}
+
+fn create_datasets(
+    path: &Path,
+    fields: &[FieldSpec<'_>],
+    compression: u8,
+    attributes: &[(&str, &str)],
+) -> hdf5::Result<()> {
+    let file = File::create(path)?;
+    set_texts(&file, attributes)?;
+    let root = file.create_group("VTKHDF")?;
+    root.new_attr_builder().with_data(&[2i64, 2]).create("Version")?;
+    // Readers of VTK 9.2 and 9.3 want the type as a text of fixed length.
+    let kind = FixedAscii::<16>::from_ascii("UnstructuredGrid").map_err(|e| e.to_string())?;
+    root.new_attr::<FixedAscii<16>>().create("Type")?.write_scalar(&kind)?;
+    let order: Vec<&str> = fields.iter().map(|field| field.name).collect();
+    set_text(&root, "FieldOrder", &order.join(" "))?;
+
+    for name in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"] {
+        create_dataset::<i64>(&root, name, 0, CHUNK_STEPS, 0)?;
+    }
+    create_dataset::<f64>(&root, "Points", 3, CHUNK_ROWS, compression)?;
+    create_dataset::<i64>(&root, "Connectivity", 0, 4 * CHUNK_ROWS, compression)?;
+    create_dataset::<i64>(&root, "Offsets", 0, CHUNK_ROWS, compression)?;
+    create_dataset::<u8>(&root, "Types", 0, CHUNK_ROWS, compression)?;
+
+    let data = root.create_group("CellData")?;
+    for field in fields {
+        let columns = if field.components == 1 { 0 } else { field.components };
+        let dataset = match field.storage {
+            Storage::F64 => create_dataset::<f64>(&data, field.name, columns, CHUNK_ROWS, compression)?,
+            Storage::U8 => create_dataset::<u8>(&data, field.name, columns, CHUNK_ROWS, compression)?,
+        };
+        set_text(&dataset, "units", field.unit)?;
+        set_text(&dataset, "description", field.description)?;
+    }
+
+    let steps = root.create_group("Steps")?;
+    steps.new_attr::<i64>().create("NSteps")?.write_scalar(&0)?;
+    create_dataset::<f64>(&steps, "Values", 0, CHUNK_STEPS, 0)?;
+    for name in ["PartOffsets", "NumberOfParts", "PointOffsets"] {
+        create_dataset::<i64>(&steps, name, 0, CHUNK_STEPS, 0)?;
+    }
+    // One column per kind of topology, and an unstructured grid has one.
+    for name in ["CellOffsets", "ConnectivityIdOffsets"] {
+        create_dataset::<i64>(&steps, name, 1, CHUNK_STEPS, 0)?;
+    }
+    let offsets = steps.create_group("CellDataOffsets")?;
+    for field in fields {
+        create_dataset::<i64>(&offsets, field.name, 0, CHUNK_STEPS, 0)?;
+    }
+    file.close()
+}
+
+/// Makes an empty dataset that grows in its rows: of shape (rows,) for `columns` = 0, else (rows, columns).
+fn create_dataset<T: H5Type>(
+    group: &Group,
+    name: &str,
+    columns: usize,
+    chunk_rows: usize,
+    compression: u8,
+) -> hdf5::Result<Dataset> {
+    let mut builder = group.new_dataset::<T>();
+    if compression > 0 {
+        builder = builder.shuffle().deflate(compression.min(9));
+    }
+    match columns {
+        0 => builder.chunk((chunk_rows,)).shape((0..,)).create(name),
+        _ => builder.chunk((chunk_rows, columns)).shape((0.., columns)).create(name),
+    }
+}
+
+/// Writes `values` from row `row` on and ends the dataset with them.
+fn append_rows<T: H5Type>(dataset: &Dataset, values: &[T], row: usize) -> hdf5::Result<()> {
+    match dataset.shape().get(1).copied() {
+        None => {
+            let end = row + values.len();
+            dataset.resize(end)?;
+            dataset.write_slice(values, row..end)
+        }
+        Some(columns) => {
+            let rows = values.len() / columns.max(1);
+            dataset.resize((row + rows, columns))?;
+            dataset.write_slice(
+                ArrayView2::from_shape((rows, columns), values)?,
+                ndarray::s![row..row + rows, ..],
+            )
+        }
+    }
+}
+
+/// Cuts a dataset down to `rows` rows.
+fn set_rows(dataset: &Dataset, rows: usize) -> hdf5::Result<()> {
+    match dataset.shape().get(1).copied() {
+        None => dataset.resize(rows),
+        Some(columns) => dataset.resize((rows, columns)),
+    }
+}
+
+fn write_mesh(root: &Group, mesh: &QuadMesh<'_>, end: &End) -> hdf5::Result<()> {
+    let cells = mesh.quads.len();
+    let start = end.last;
+    append_rows(&root.dataset("NumberOfPoints")?, &[(mesh.points.len() / 3) as i64], start.meshes)?;
+    append_rows(&root.dataset("NumberOfCells")?, &[cells as i64], start.meshes)?;
+    append_rows(&root.dataset("NumberOfConnectivityIds")?, &[4 * cells as i64], start.meshes)?;
+    append_rows(&root.dataset("Points")?, mesh.points, start.points)?;
+    let connectivity: Vec<i64> = mesh.quads.iter().flatten().map(|&point| point as i64).collect();
+    append_rows(&root.dataset("Connectivity")?, &connectivity, start.connectivity)?;
+    // Each mesh has one offset more than cells, so those of the earlier meshes fill one row more apiece.
+    let offsets: Vec<i64> = (0..=cells).map(|cell| 4 * cell as i64).collect();
+    append_rows(&root.dataset("Offsets")?, &offsets, start.cells + start.meshes)?;
+    append_rows(&root.dataset("Types")?, &vec![VTK_QUAD; cells], start.cells)
+}
+
+fn write_step_count(root: &Group, steps: usize) -> hdf5::Result<()> {
+    root.group("Steps")?.attr("NSteps")?.write_scalar(&(steps as i64))
+}
