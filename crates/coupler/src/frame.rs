@@ -130,6 +130,8 @@ impl FrameHeader {
     pub const STOP_TERMINATE: u32 = 2;
     /// No frame of this sender follows.
     pub const LAST: u32 = 4;
+    /// Both sides write a snapshot at the end of this step.
+    pub const SNAPSHOT: u32 = 8;
 
     /// An empty frame of this kind, to be completed by struct update.
     pub fn new(kind: FrameKind) -> Self {

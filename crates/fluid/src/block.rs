@@ -59,8 +59,8 @@ impl<const N: usize> BlockScratch<N> {
 }
 
 /// What one block tells of its step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct BlockReport {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BlockReport<const N: usize> {
     pub extremes: Extremes,
     /// Cells that fell back to first order.
     pub fallbacks: u32,
@@ -69,6 +69,21 @@ pub(crate) struct BlockReport {
     pub floor_energy: f64,
     /// What came in through each side of the domain: mass, axial momentum, energy (per radian).
     pub inflow: [[f64; 3]; 4],
+    /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
+    pub wall_pressure: [f64; N],
+}
+
+impl<const N: usize> Default for BlockReport<N> {
+    fn default() -> Self {
+        Self {
+            extremes: Extremes::default(),
+            fallbacks: 0,
+            floored: 0,
+            floor_energy: 0.0,
+            inflow: [[0.0; 3]; 4],
+            wall_pressure: [0.0; N],
+        }
+    }
 }
 
 /// Assembles a block with its ghosts and reconstructs it: primitive variables in `cells`, limited
@@ -101,7 +116,7 @@ pub(crate) fn step_block<const N: usize>(
     slot: usize,
     new: &mut [f64],
     scratch: &mut BlockScratch<N>,
-) -> BlockReport {
+) -> BlockReport<N> {
     let stride = Padded::<N>::STRIDE;
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);
@@ -194,6 +209,11 @@ pub(crate) fn step_block<const N: usize>(
                 report.floored += 1;
                 report.floor_energy += added * ctx.mesh.volume(id, j);
             }
+        }
+    }
+    if ctx.mesh.touches(slot, Side::ZMin) {
+        for (j, pressure) in report.wall_pressure.iter_mut().enumerate() {
+            *pressure = scratch.z_faces.pressure[Padded::<N>::index(-1, j as isize)];
         }
     }
     report.inflow = boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces, &scratch.face_weight);

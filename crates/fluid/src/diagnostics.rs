@@ -1,6 +1,6 @@
 //! Numbers that are read off the fluid's state.
 
-use mesh::{GHOSTS, Geometry, Padded, Side, limited_differences};
+use mesh::{GHOSTS, Geometry, Padded, limited_differences};
 
 use crate::block::{BlockScratch, StepContext, reconstruct};
 use crate::state::conserved::{COUNT, ENERGY, MOMENTUM_Z, PHI, RHO};
@@ -106,7 +106,7 @@ impl<const N: usize> FluidSolver<N> {
     pub fn axis(&self) -> AxisState {
         let mut state = AxisState { jet_tip_z: f64::NAN, jet_velocity: f64::NAN };
         let mut before: Option<(f64, f64)> = None;
-        for slot in self.mesh.blocks_along(Side::RMin) {
+        for &slot in &self.axis_blocks {
             let id = self.mesh.tree().leaves()[slot];
             for i in 0..N {
                 let z = self.mesh.centre(id, i, 0)[0];
@@ -132,7 +132,7 @@ impl<const N: usize> FluidSolver<N> {
     /// Cell means of the pressure along z_min.
     pub fn wall_pressures(&self) -> WallPressures {
         let mut pressures = WallPressures { axis: f64::NAN, anywhere: f64::NEG_INFINITY };
-        for (first, slot) in self.mesh.blocks_along(Side::ZMin).into_iter().enumerate() {
+        for (first, &slot) in self.wall_blocks.iter().enumerate() {
             for j in 0..N {
                 let pressure = self.cell(slot, 0, j).pressure;
                 if first + j == 0 {

@@ -1,7 +1,7 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
 use coupler::{TraceRow, WallRegister};
-use mesh::{Padded, Side};
+use mesh::Padded;
 
 use crate::block::{BlockScratch, reconstruct};
 use crate::rows::{half_step, rates};
@@ -16,7 +16,7 @@ impl<const N: usize> FluidSolver<N> {
     /// The outer radius of each face on the wall, ascending, m; the first one begins at the domain's r_min.
     pub fn wall_edges(&self) -> Vec<f64> {
         let mut edges = Vec::with_capacity(self.wall.len());
-        for slot in self.mesh.blocks_along(Side::ZMin) {
+        for &slot in &self.wall_blocks {
             let id = self.mesh.tree().leaves()[slot];
             let h_r = self.mesh.widths(id.level)[1];
             edges.extend((0..N).map(|j| self.mesh.centre(id, 0, j)[1] + 0.5 * h_r));
@@ -32,7 +32,7 @@ impl<const N: usize> FluidSolver<N> {
     /// - `dt`: the step about to be made: a cell that falls back to first order in it has no slope and no rate.
     /// - `row`: gives the place to write one [`TraceRow`] of a face.
     pub fn write_trace(&self, dt: f64, mut put: impl FnMut(TraceRow, usize, f64)) {
-        for slot in self.mesh.blocks_along(Side::ZMin) {
+        for &slot in &self.wall_blocks {
             let first = self.wall_first[slot];
             let id = self.mesh.tree().leaves()[slot];
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
@@ -90,7 +90,7 @@ impl<const N: usize> FluidSolver<N> {
 
     /// Cell means next to the wall: pressure and normal velocity, face by face; what the weak scheme exchanges.
     pub fn wall_cells(&self, mut put: impl FnMut(usize, f64, f64)) {
-        for slot in self.mesh.blocks_along(Side::ZMin) {
+        for &slot in &self.wall_blocks {
             for j in 0..N {
                 let cell = self.cell(slot, 0, j);
                 put(self.wall_first[slot] + j, cell.pressure, cell.v_z);

@@ -67,10 +67,13 @@ pub struct FluidSolver<const N: usize> {
     pub(crate) boundaries: Boundaries,
     pub(crate) state: Field,
     next: Field,
-    reports: Vec<BlockReport>,
+    reports: Vec<BlockReport<N>>,
     pub(crate) scratch: ScratchPool<BlockScratch<N>>,
     pub(crate) wall: Vec<WallState>,
     pub(crate) wall_first: Vec<usize>,
+    /// Slots of the blocks along z_min and along r_min, in order.
+    pub(crate) wall_blocks: Vec<usize>,
+    pub(crate) axis_blocks: Vec<usize>,
     pub(crate) time: f64,
     steps: u64,
     fixups: Fixups,
@@ -136,6 +139,8 @@ impl<const N: usize> FluidSolver<N> {
             scratch: ScratchPool::new(BlockScratch::new),
             wall: vec![WallState::default(); faces],
             wall_first,
+            wall_blocks: mesh.blocks_along(Side::ZMin),
+            axis_blocks: mesh.blocks_along(Side::RMin),
             time: 0.0,
             steps: 0,
             fixups: Fixups::default(),
@@ -275,6 +280,14 @@ impl<const N: usize> FluidSolver<N> {
             extremes.speed_z = speeds.iter().fold(0.0, |m, s| m.max(s[0]));
             extremes.speed_r = speeds.iter().fold(0.0, |m, s| m.max(s[1]));
             extremes.phi = maximum(self.state.component(slot, crate::state::conserved::PHI));
+        }
+    }
+
+    /// Mean pressure of the last step on each face of z_min, in the order of r, Pa.
+    pub fn wall_face_pressures(&self, pressures: &mut Vec<f64>) {
+        pressures.clear();
+        for slot in &self.wall_blocks {
+            pressures.extend_from_slice(&self.reports[*slot].wall_pressure);
         }
     }
 

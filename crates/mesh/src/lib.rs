@@ -23,7 +23,6 @@ mod reduce;
 pub use domain::{Domain, Mesh, MeshError};
 pub use field::Field;
 pub use geometry::{Geometry, Side};
-<<<<<<< HEAD
 pub use limiter::{Limiter, limited_differences};
 pub use padded::{GHOSTS, Padded};
 pub use parallel::{ScratchPool, for_each_block};
@@ -31,9 +30,4 @@ pub use quadtree::{BlockId, Neighbour, Offset, Quadtree};
 pub use reduce::maximum;
 
 /// Cells along one side of a block, unless a test chooses otherwise.
-=======
-pub use limiter::Limiter;
-
-/// Cells along each direction of a block.
->>>>>>> case
 pub const BLOCK: usize = 16;

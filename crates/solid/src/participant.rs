@@ -4,7 +4,7 @@ use coupler::{
     CommonRefinement, FluidTrace, InterfaceStar, RegisterRow, SolidTrace, StarSolver, TraceRow,
     acoustic_star, exact_star,
 };
-use mesh::{Geometry, Padded, Side};
+use mesh::{Geometry, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
 use crate::rows::rates;
@@ -62,7 +62,7 @@ impl<const N: usize> SolidSolver<N> {
     /// The outer radius of each face of the surface, ascending, m; the first one begins at the domain's r_min.
     pub fn surface_edges(&self) -> Vec<f64> {
         let mut edges = Vec::with_capacity(self.surface.len());
-        for slot in self.mesh.blocks_along(Side::ZMax) {
+        for &slot in &self.surface_blocks {
             let id = self.mesh.tree().leaves()[slot];
             let h_r = self.mesh.widths(id.level)[1];
             edges.extend((0..N).map(|j| self.mesh.centre(id, 0, j)[1] + 0.5 * h_r));
@@ -152,7 +152,7 @@ impl<const N: usize> SolidSolver<N> {
     ) {
         self.refine(interface, edges);
         let mut cells = Vec::with_capacity(self.surface.len());
-        for slot in self.mesh.blocks_along(Side::ZMax) {
+        for &slot in &self.surface_blocks {
             cells.extend((0..N).map(|j| self.state.component(slot, V_Z)[j * N + N - 1]));
         }
         let velocity = |k: usize| cells[interface.refinement.sub_faces()[k].second];
@@ -174,7 +174,7 @@ impl<const N: usize> SolidSolver<N> {
     /// The own traces on the surface at the middle of a step of length `dt`, face by face.
     pub fn traces_at_mid_step(&self, dt: f64, traces: &mut Vec<SurfaceTrace>) {
         traces.clear();
-        for slot in self.mesh.blocks_along(Side::ZMax) {
+        for &slot in &self.surface_blocks {
             let id = self.mesh.tree().leaves()[slot];
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
             self.scratch.with(|scratch| {

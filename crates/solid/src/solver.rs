@@ -56,6 +56,8 @@ pub struct SolidSolver<const N: usize> {
     pub(crate) scratch: ScratchPool<BlockScratch<N>>,
     pub(crate) surface: Vec<SurfaceState>,
     pub(crate) surface_first: Vec<usize>,
+    /// Slots of the blocks along z_max, in order.
+    pub(crate) surface_blocks: Vec<usize>,
     time: f64,
     steps: u64,
     ledger: BoundaryLedger,
@@ -99,6 +101,7 @@ impl<const N: usize> SolidSolver<N> {
             scratch: ScratchPool::new(BlockScratch::new),
             surface: vec![SurfaceState::default(); faces],
             surface_first,
+            surface_blocks: mesh.blocks_along(Side::ZMax),
             time: 0.0,
             steps: 0,
             ledger: BoundaryLedger::default(),

@@ -1,0 +1,99 @@
+//! What can go wrong in a run, and the exit code it means.
+
+use coupler::{CouplerError, Fault};
+
+use crate::case::CaseErrors;
+use crate::output::OutputError;
+
+/// The end of a run other than by completion.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The case is bad.
+    #[error("{0}")]
+    Case(#[from] CaseErrors),
+    /// The run directory cannot be used.
+    #[error(transparent)]
+    Directory(OutputError),
+    /// The fluid failed.
+    #[error(transparent)]
+    Fluid(#[from] fluid::FluidError),
+    /// The solid failed.
+    #[error(transparent)]
+    Solid(#[from] solid::SolidError),
+    /// The time step collapsed.
+    #[error(
+        "the time step collapsed to {dt:.3e} s at t = {time:.6e} s (step {step}), limited by the {limited_by}; \
+         the solution has most likely gone bad: look at the last snapshot, try a smaller time.cfl"
+    )]
+    TimeStepCollapsed {
+        /// The step's length, s.
+        dt: f64,
+        /// Time, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// "fluid" or "solid".
+        limited_by: &'static str,
+    },
+    /// The peer or the way to it failed.
+    #[error(transparent)]
+    Coupler(#[from] CouplerError),
+    /// One of the launched processes ended otherwise than it should.
+    #[error("the {side} (process {pid}) {what}; {log} in the run directory says more")]
+    Child {
+        /// "fluid" or "solid".
+        side: &'static str,
+        /// Its process.
+        pid: u32,
+        /// How it ended.
+        what: String,
+        /// Name of the log.
+        log: &'static str,
+        /// The exit code to pass on.
+        code: u8,
+    },
+    /// Output could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A thread pool or a process could not be started.
+    #[error("cannot start {what}: {source}")]
+    Start {
+        /// What.
+        what: String,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// SIGINT.
+    #[error("interrupted: both sides stopped after the current step, what was computed is written")]
+    Interrupted,
+    /// SIGTERM.
+    #[error("terminated: both sides stopped after the current step, what was computed is written")]
+    Terminated,
+}
+
+impl RunError {
+    /// The process's exit code, see `docs/command-line.md`.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Case(_) | Self::Directory(_) => 2,
+            Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
+            Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
+            Self::Coupler(_) | Self::Start { .. } => 4,
+            Self::Output(_) => 5,
+            Self::Child { code, .. } => *code,
+            Self::Interrupted => 130,
+            Self::Terminated => 143,
+        }
+    }
+
+    /// What the peer is told of it.
+    pub fn fault(&self) -> Fault {
+        match self {
+            Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => Fault::Numerical,
+            Self::Output(_) | Self::Directory(_) => Fault::Output,
+            Self::Coupler(_) => Fault::Protocol,
+            Self::Interrupted | Self::Terminated => Fault::Stopped,
+            Self::Case(_) | Self::Child { .. } | Self::Start { .. } => Fault::Other,
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The run: from a case to a run directory, in one process or in two.
+//!
+//! | module | is |
+//! |---|---|
+//! | [`setup`] | a case made into solvers |
+//! | [`schedule`] | when to stop, when to write, and so how long a step may be |
+//! | [`fluid_side`], [`solid_side`] | one side's part of the step loop |
+//! | [`fluid_record`], [`solid_record`] | what each side writes |
+//! | [`drive`] | the step loop of a side alone, of both in one process, of one of two processes |
+//! | [`launch`] | `cav run`: two processes started and watched |
+//! | [`stop`] | signals, and a launcher that is gone |
+//! | [`error`] | what can go wrong, and the exit code it means |
+
+pub mod collapse;
+pub mod drive;
+pub mod error;
+pub mod fluid_record;
+pub mod fluid_side;
+pub mod launch;
+pub mod record;
+pub mod schedule;
+pub mod setup;
+pub mod solid_record;
+pub mod solid_side;
+pub mod stop;
+
+pub use error::RunError;
+pub use launch::{Options, run};

@@ -1,0 +1,81 @@
+//! A case made into solvers.
+
+use fluid::{FluidError, FluidSetup, FluidSolver, PressureHistory};
+use mesh::{BLOCK, Domain};
+use solid::{ElasticState, InitialStress, PotentialPulse, SolidError, SolidSetup, SolidSolver};
+
+use crate::case::{Case, FluidCase, GridCase, SolidCase};
+
+fn domain(case: &Case, grid: &GridCase) -> Domain {
+    Domain { geometry: case.geometry, z: grid.z, r: grid.r }
+}
+
+/// The setup of a case's fluid.
+pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
+    FluidSetup {
+        domain: domain(case, &fluid.grid),
+        coarsest: fluid.grid.cells,
+        levels: fluid.grid.levels as u8,
+        liquid: fluid.liquid,
+        gas: fluid.gas,
+        model: fluid.model,
+        riemann: fluid.riemann,
+        limiter: fluid.limiter,
+        boundaries: fluid.boundary,
+        inflow: fluid.inflow.as_ref().and_then(|inflow| PressureHistory::new(inflow.pressure.clone())),
+    }
+}
+
+/// A case's fluid, filled with its initial condition.
+pub fn fluid_solver(case: &Case, fluid: &FluidCase) -> Result<FluidSolver<BLOCK>, FluidError> {
+    FluidSolver::new(&fluid_setup(case, fluid), &fluid.initial)
+}
+
+/// The setup of a case's solid.
+pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
+    SolidSetup {
+        domain: domain(case, &solid.grid),
+        coarsest: solid.grid.cells,
+        levels: solid.grid.levels as u8,
+        density: solid.material.density(),
+        c1: solid.material.c1(),
+        c2: solid.material.c2(),
+        yield_strength: solid.material.yield_strength().unwrap_or(f64::INFINITY),
+        limiter: solid.limiter,
+        boundaries: solid.boundary,
+    }
+}
+
+/// A case's solid: the stress that carries the fluid's ambient pressure, and its pulses.
+pub fn solid_solver(case: &Case, solid: &SolidCase) -> Result<SolidSolver<BLOCK>, SolidError> {
+    let pressure = case.fluid.as_ref().map_or(0.0, |fluid| fluid.initial.ambient.pressure);
+    let setup = solid_setup(case, solid);
+    let (lambda, mu) = (solid.material.lambda(), solid.material.mu());
+    SolidSolver::new(setup, |point| {
+        let mut state = ElasticState { stress_zz: -pressure, ..ElasticState::default() };
+        if solid.initial_stress == InitialStress::Hydrostatic {
+            (state.stress_rr, state.stress_phiphi) = (-pressure, -pressure);
+        }
+        for pulse in &solid.pulses {
+            add_pulse(pulse, point, lambda, mu, &mut state);
+        }
+        state
+    })
+}
+
+/// Adds the stress of the displacement u = ∇(Φ exp(−R²/a²)), R the distance to the centre on the axis.
+///
+/// With g = exp(−R²/a²) and the distances (ζ, r): u_z,z = Φ g (4ζ²/a⁴ − 2/a²) and so on, u_r/r = −2Φg/a².
+fn add_pulse(pulse: &PotentialPulse, [z, r]: [f64; 2], lambda: f64, mu: f64, state: &mut ElasticState) {
+    let (zeta, a2) = (z - pulse.centre[0], pulse.width * pulse.width);
+    let r = r - pulse.centre[1];
+    let g = pulse.amplitude * (-(zeta * zeta + r * r) / a2).exp();
+    let axial = g * (4.0 * zeta * zeta / (a2 * a2) - 2.0 / a2);
+    let radial = g * (4.0 * r * r / (a2 * a2) - 2.0 / a2);
+    let hoop = -2.0 * g / a2;
+    let dilatation = lambda * (axial + radial + hoop);
+    state.stress_zz += dilatation + 2.0 * mu * axial;
+    state.stress_rr += dilatation + 2.0 * mu * radial;
+    state.stress_phiphi += dilatation + 2.0 * mu * hoop;
+    state.stress_zr += 2.0 * mu * g * 4.0 * zeta * r / (a2 * a2);
+}
