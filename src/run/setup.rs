@@ -2,7 +2,7 @@
 
 use fluid::{FluidError, FluidSetup, FluidSolver, PressureHistory};
 use mesh::{BLOCK, Domain};
-use solid::{ElasticState, InitialStress, PotentialPulse, SolidError, SolidSetup, SolidSolver};
+use solid::{ElasticState, InitialStress, PotentialPulse, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
 
 use crate::case::{Case, FluidCase, GridCase, SolidCase};
 
@@ -37,9 +37,11 @@ pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
         domain: domain(case, &solid.grid),
         coarsest: solid.grid.cells,
         levels: solid.grid.levels as u8,
-        density: solid.material.density(),
-        c1: solid.material.c1(),
-        c2: solid.material.c2(),
+        speeds: WaveSpeeds {
+            density: solid.material.density(),
+            c1: solid.material.c1(),
+            c2: solid.material.c2(),
+        },
         yield_strength: solid.material.yield_strength().unwrap_or(f64::INFINITY),
         limiter: solid.limiter,
         boundaries: solid.boundary,

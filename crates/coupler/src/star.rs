@@ -261,9 +261,8 @@ mod tests {
         SolidTrace { pressure, velocity, impedance }
     }
 
-    /// Water at p0 that hits steel, both at p0 or the steel free of stress up to 1e5 Pa: speed U towards the
-    /// wall, p0, P of the steel, then p*, v* towards the steel, rho*. Computed independently with 40 digits,
-    /// printed to 15.
+    /// Water that meets steel at rest: its speed towards the wall, its pressure, P of the steel, then p*, v*
+    /// towards the steel and rho*. Computed independently with 40 digits, printed to 15.
     const IMPACT: [[f64; 6]; 8] = [
         [1.0, 1e5, 1e5, 1522155.22674801, 0.030438663300972, 1000.66144043524],
         [50.0, 1e5, 1e5, 75893853.8799865, 1.62223050982378, 1031.86247522241],

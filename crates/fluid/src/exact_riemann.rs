@@ -14,8 +14,8 @@
 //! in ln P (each f_K is, as its two derivatives show). So a Newton step in P ends at or below the root and
 //! one in ln P at or above it, from wherever they start: two bounds per evaluation. The iterate taken between
 //! them is the Newton step in P^θ, with θ in (0, 1] such that G is linear in P^θ to second order. It
-//! converges cubically, and in one step for two rarefactions of one gas. Where it leaves the bounds the
-//! Newton step that cannot overshoot replaces it, so convergence is certain.
+//! converges cubically, and in one step for two rarefactions of one gas. Where it leaves the bounds it is set
+//! on the bound, from which the Newton steps narrow them again, so convergence is certain.
 
 use crate::eos::{StiffenedGas, ln_pressure_ratio};
 
@@ -273,8 +273,7 @@ fn first_guess(left: &Side, right: &Side, du: f64) -> f64 {
     let z_low = low.rho * low.sound_speed();
     let z_high = high.rho * high.sound_speed();
     let floor = -left.pi.min(right.pi);
-    // Linear solution (Toro 2009, sect. 9.3) in increments on the lower pressure, so that equal states return
-    // it.
+    // Linear solution (Toro 2009, sect. 9.3) in increments on the lower pressure: equal states return it.
     let acoustic = low.p + (z_low * (high.p - low.p) - (z_low * z_high) * du) / (z_low + z_high);
     let fallback = if low.p > floor { low.p } else { high.p };
     // Far below both states the tangent says nothing.
@@ -283,8 +282,7 @@ fn first_guess(left: &Side, right: &Side, du: f64) -> f64 {
 
 /// One step of the iteration, in ln P.
 ///
-/// The Newton step in P^θ, kept within the bounds that the Newton steps in P and ln P are; see the file's
-/// head.
+/// The Newton step in P^θ, kept within the bounds that the Newton steps in P and ln P are: see above.
 ///
 /// - `x`: G/(P G'). `theta`: 1 + P G''/G', in (0, 1] but for round-off. `shifted`: P, Pa.
 /// - `lowest`, `highest`: bounds of the root so far, Pa; narrowed.
@@ -299,8 +297,7 @@ fn newton_power_step(x: f64, theta: f64, shifted: f64, lowest: &mut f64, highest
     let power = if theta * x < 1.0 { (-theta * x).ln_1p() / theta } else { f64::NEG_INFINITY };
     let candidate = shifted * power.exp();
     if candidate < *lowest {
-        // No bound from below is known yet where it is that of the vacuum; then down with ln P, which cannot
-        // overshoot.
+        // The vacuum is no useful bound; then down with ln P, which cannot overshoot.
         if *lowest > VACUUM_PRESSURE { (*lowest / shifted).ln() } else { -x }
     } else if candidate > *highest {
         (*highest / shifted).ln()
@@ -379,8 +376,8 @@ fn sample_left(side: &Side, star: &Star, u_star: f64, rho_star: f64, offset: f64
     } else if xi >= wave.tail {
         Sample { rho: rho_star, u: u_star, p: star.p, of_left: true, in_fan: false }
     } else {
-        // Toro (2009) eq. 4.56: with y = (xi - head)/c, the sound speed falls to c (1 - (gamma - 1)/(gamma +
-        // 1) y).
+        // Toro (2009) eq. 4.56: behind the head the sound speed falls by (gamma - 1)/(gamma + 1) of xi -
+        // head.
         let gamma = side.gamma;
         let ahead = xi - wave.head;
         let ln_c = (-(gamma - 1.0) / (gamma + 1.0) * ahead / side.sound_speed()).ln_1p();

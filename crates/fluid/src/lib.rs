@@ -3,6 +3,8 @@
 //! The algorithm of a step reads in one place, `block.rs`: assemble a block with its ghosts, limited
 //! differences, half-step predictor, outer states, one Riemann problem per face, wall fluxes, update.
 
+#![forbid(unsafe_code)]
+
 mod block;
 mod boundary;
 mod diagnostics;

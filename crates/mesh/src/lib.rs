@@ -11,6 +11,8 @@
 //! block can be advanced in parallel from the old field into the new one without locks or `unsafe`, and
 //! both time levels are at hand for what needs them.
 
+#![forbid(unsafe_code)]
+
 mod domain;
 mod field;
 mod geometry;

@@ -2,6 +2,7 @@
 
 use mesh::{Mesh, Padded, Side};
 
+use crate::riemann::{Outward, star_interface};
 use crate::rows::{Elasticity, FaceRows, Reconstruction};
 use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
 use crate::{Boundary, ElasticState};
@@ -98,11 +99,12 @@ impl Boundaries {
     ) {
         for (j, state) in surface.iter().enumerate() {
             let k = Padded::<N>::index(N as isize - 1, j as isize);
-            let [_, v_t, _, s_nt] = cells.face_state(k, 1.0);
-            faces.v_n[k] = state.velocity;
-            faces.s_nn[k] = -state.pressure;
-            faces.s_nt[k] = 0.0;
-            faces.v_t[k] = v_t - s_nt / elasticity.z2;
+            let trace = cells.face_state(k, 1.0);
+            let face = star_interface(trace, Outward::High, state.velocity, -state.pressure, elasticity.z2);
+            faces.v_n[k] = face.v_n;
+            faces.s_nn[k] = face.sigma_nn;
+            faces.s_nt[k] = face.sigma_nt;
+            faces.v_t[k] = face.v_t;
         }
     }
 }

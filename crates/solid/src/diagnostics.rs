@@ -4,7 +4,7 @@ use mesh::{Geometry, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
 use crate::state::component::COUNT;
-use crate::{ElasticState, SolidSolver, von_mises};
+use crate::{ElasticState, SolidSolver, von_mises, yield_function};
 
 /// The largest von Mises stress and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +64,7 @@ impl<const N: usize> SolidSolver<N> {
         for j in 0..N {
             for i in 0..N {
                 let w = self.cell(slot, i, j);
-                let stress = von_mises(w.stress_zz, w.stress_rr, w.stress_phiphi, w.stress_zr);
+                let stress = von_mises(w.stress_zz, w.stress_zr, w.stress_rr, w.stress_phiphi);
                 if stress > peak.stress {
                     peak = MisesPeak { stress, position: self.mesh.centre(id, i, j) };
                 }
@@ -86,7 +86,7 @@ impl<const N: usize> SolidSolver<N> {
     ///
     /// The elastic energy per volume is tr(σ)²/(18K) + s:s/(4μ) with the deviator s and the bulk modulus K.
     pub fn totals(&self) -> Totals {
-        let (density, mu) = (self.setup.density, self.elasticity.mu);
+        let (density, mu) = (self.setup.speeds.density, self.elasticity.mu);
         let bulk = self.elasticity.lambda + 2.0 / 3.0 * mu;
         let mut totals = Totals::default();
         for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
@@ -147,14 +147,14 @@ impl<const N: usize> SolidSolver<N> {
             for j in 0..N {
                 for i in 0..N {
                     let w = self.cell(slot, i, j);
-                    let mises = von_mises(w.stress_zz, w.stress_rr, w.stress_phiphi, w.stress_zr);
+                    let mises = von_mises(w.stress_zz, w.stress_zr, w.stress_rr, w.stress_phiphi);
                     snapshot.velocity.extend([w.v_z, w.v_r, 0.0]);
                     snapshot.stress_zz.push(w.stress_zz);
                     snapshot.stress_zr.push(w.stress_zr);
                     snapshot.stress_rr.push(w.stress_rr);
                     snapshot.stress_phiphi.push(w.stress_phiphi);
                     snapshot.von_mises.push(mises);
-                    snapshot.yield_function.push(mises - self.setup.yield_strength);
+                    snapshot.yield_function.push(yield_function(mises, self.setup.yield_strength));
                     snapshot.level.push(f64::from(id.level));
                 }
             }

@@ -2,16 +2,21 @@
 //!
 //! The algorithm of a step reads in one place, `block.rs`.
 
+#![forbid(unsafe_code)]
+
 mod block;
 mod boundary;
 mod diagnostics;
+pub mod eigen;
 mod error;
 mod material;
 mod options;
 mod participant;
+pub mod riemann;
 mod rows;
 mod solver;
 mod state;
+mod yield_criterion;
 
 pub use boundary::SurfaceState;
 pub use diagnostics::{MisesPeak, Snapshot, Totals};
@@ -19,10 +24,7 @@ pub use error::SolidError;
 pub use material::{Material, MaterialError};
 pub use options::{Boundary, InitialStress, PotentialPulse};
 pub use participant::{Interface, SurfaceTrace};
+pub use riemann::WaveSpeeds;
 pub use solver::{BoundaryLedger, SolidSetup, SolidSolver};
 pub use state::ElasticState;
-
-/// x
-pub fn von_mises(zz: f64, rr: f64, pp: f64, zr: f64) -> f64 {
-    (0.5 * ((zz - rr) * (zz - rr) + (zz - pp) * (zz - pp) + (rr - pp) * (rr - pp)) + 3.0 * zr * zr).sqrt()
-}
+pub use yield_criterion::{von_mises, yield_function};

@@ -2,7 +2,9 @@
 
 use mesh::maximum;
 
-/// Constants of an isotropic material as the update needs them.
+use crate::riemann::{FaceState, WaveSpeeds, star};
+
+/// Constants of an isotropic material as the kernels need them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Elasticity {
     /// 1/ρ̄, m³/kg.
@@ -20,16 +22,14 @@ pub(crate) struct Elasticity {
 }
 
 impl Elasticity {
-    pub fn new(density: f64, c1: f64, c2: f64) -> Self {
-        let mu = density * c2 * c2;
-        let p_modulus = density * c1 * c1;
+    pub fn new(speeds: WaveSpeeds) -> Self {
         Self {
-            inverse_density: 1.0 / density,
-            p_modulus,
-            lambda: p_modulus - 2.0 * mu,
-            mu,
-            z1: density * c1,
-            z2: density * c2,
+            inverse_density: 1.0 / speeds.density,
+            p_modulus: speeds.p_modulus(),
+            lambda: speeds.lambda(),
+            mu: speeds.shear_modulus(),
+            z1: speeds.z1(),
+            z2: speeds.z2(),
         }
     }
 }
@@ -145,12 +145,6 @@ fn predict_body(
     }
 }
 
-/// Star velocity and stress of one pair of waves (P or S) of impedance `z` between two states.
-#[inline(always)]
-fn meet(v_l: f64, s_l: f64, v_r: f64, s_r: f64, z: f64, inverse_z: f64) -> (f64, f64) {
-    (0.5 * ((v_l + v_r) + (s_r - s_l) * inverse_z), 0.5 * ((s_l + s_r) + (v_r - v_l) * z))
-}
-
 /// Rows of star states at faces, indexed by the cell on the lower side of the face.
 #[derive(Clone, Debug)]
 pub(crate) struct FaceRows {
@@ -181,9 +175,9 @@ pub(crate) struct Reconstruction<'a> {
 impl Reconstruction<'_> {
     /// The state on the lower (`sign` = −1) or upper (+1) face of cell `k`.
     #[inline(always)]
-    pub fn face_state(&self, k: usize, sign: f64) -> [f64; 4] {
+    pub fn face_state(&self, k: usize, sign: f64) -> FaceState {
         let at = |c: usize| self.half[c][k] + 0.5 * sign * self.differences[c][k];
-        [at(0), at(1), at(2), at(3)]
+        FaceState { v_n: at(0), v_t: at(1), sigma_nn: at(2), sigma_nt: at(3) }
     }
 }
 
@@ -228,16 +222,12 @@ fn faces_body(
     s_nn: &mut [f64],
     s_nt: &mut [f64],
 ) {
-    let (inverse_z1, inverse_z2) = (1.0 / elasticity.z1, 1.0 / elasticity.z2);
     for k in 0..n {
-        let [vn_l, vt_l, nn_l, nt_l] = lower.face_state(k, 1.0);
-        let [vn_r, vt_r, nn_r, nt_r] = upper.face_state(k, -1.0);
-        let (velocity, stress) = meet(vn_l, nn_l, vn_r, nn_r, elasticity.z1, inverse_z1);
-        v_n[k] = velocity;
-        s_nn[k] = stress;
-        let (velocity, stress) = meet(vt_l, nt_l, vt_r, nt_r, elasticity.z2, inverse_z2);
-        v_t[k] = velocity;
-        s_nt[k] = stress;
+        let face = star(lower.face_state(k, 1.0), upper.face_state(k, -1.0), elasticity.z1, elasticity.z2);
+        v_n[k] = face.v_n;
+        v_t[k] = face.v_t;
+        s_nn[k] = face.sigma_nn;
+        s_nt[k] = face.sigma_nt;
     }
 }
 

@@ -6,7 +6,7 @@ use crate::block::{BlockReport, BlockScratch, StepContext, step_block};
 use crate::boundary::{Boundaries, SurfaceState};
 use crate::rows::Elasticity;
 use crate::state::component::COUNT;
-use crate::{Boundary, ElasticState, SolidError};
+use crate::{Boundary, ElasticState, SolidError, WaveSpeeds};
 
 /// Everything that defines a solid.
 #[derive(Clone, Debug)]
@@ -17,12 +17,8 @@ pub struct SolidSetup {
     pub coarsest: [usize; 2],
     /// Levels of refinement: the finest grid has `coarsest · 2^levels` cells.
     pub levels: u8,
-    /// Density ρ̄, kg/m³.
-    pub density: f64,
-    /// Speed of dilatation waves c₁, m/s.
-    pub c1: f64,
-    /// Speed of shear waves c₂, m/s.
-    pub c2: f64,
+    /// Density and wave speeds.
+    pub speeds: WaveSpeeds,
     /// Yield strength Y₀, Pa; infinite if none is known.
     pub yield_strength: f64,
     /// The slope limiter.
@@ -93,7 +89,7 @@ impl<const N: usize> SolidSolver<N> {
             }
         }
         let mut solver = Self {
-            elasticity: Elasticity::new(setup.density, setup.c1, setup.c2),
+            elasticity: Elasticity::new(setup.speeds),
             boundaries: Boundaries::new(kinds, along),
             reports: vec![BlockReport::default(); mesh.blocks()],
             next: state.clone(),
@@ -147,7 +143,7 @@ impl<const N: usize> SolidSolver<N> {
     pub fn time_step_limit(&self, cfl: f64) -> f64 {
         self.mesh.tree().leaves().iter().fold(f64::INFINITY, |limit, id| {
             let [h_z, h_r] = self.mesh.widths(id.level);
-            limit.min(cfl * h_z.min(h_r) / self.setup.c1)
+            limit.min(cfl * h_z.min(h_r) / self.setup.speeds.c1)
         })
     }
 
@@ -230,7 +226,7 @@ impl<const N: usize> SolidSolver<N> {
             let report = &mut self.reports[slot];
             for k in 0..N * N {
                 let [_, _, zz, zr, rr, pp] = std::array::from_fn(|c| self.state.component(slot, c)[k]);
-                let mises = crate::von_mises(zz, rr, pp, zr);
+                let mises = crate::von_mises(zz, zr, rr, pp);
                 let squared = mises * mises;
                 report.mises_squared =
                     report.mises_squared.max(if squared < f64::MAX { squared } else { f64::INFINITY });

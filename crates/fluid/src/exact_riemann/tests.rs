@@ -179,8 +179,8 @@ const EXTREME: [Case; 13] = [
     ),
 ];
 
-/// Points (x, rho, u, p, left of the contact) of the profile at time t of a case of `REFERENCE`, jump at x0:
-/// 12 digits.
+/// A case of `REFERENCE`, time t, initial jump at x0, points (x, rho, u, p, left of the contact) to 12
+/// digits.
 type Profile = (usize, f64, f64, &'static [(f64, f64, f64, f64, bool)]);
 const PROFILES: [Profile; 6] = [
     (
@@ -255,7 +255,7 @@ const PROFILES: [Profile; 6] = [
     ),
 ];
 
-/// Largest relative error of p and of the densities, and that of u by the larger of |u*| and the lower sound speed.
+/// Relative errors of p, u (by the larger of |u*| and the lower sound speed) and both densities.
 fn errors(case: &Case, star: &Star) -> [f64; 4] {
     let [p, u, rho_left, rho_right] = case.star;
     let c = case.left.sound_speed().min(case.right.sound_speed());
@@ -370,8 +370,7 @@ impl Random {
     }
 }
 
-/// f(p) as Toro (2009) eqs. 4.6 and 4.7 have it, and its slope, at p + pi = `shifted`: not in the solver's
-/// form.
+/// f(p) and its slope at p + pi = `shifted`, as Toro (2009) eqs. 4.6 and 4.7 have them, not the solver.
 fn plain_curve(side: &Side, p: f64, shifted: f64) -> (f64, f64) {
     let (base, gamma) = (side.p + side.pi, side.gamma);
     if p > side.p {
