@@ -141,6 +141,14 @@ impl SeriesWriter {
         Ok(Self { path: path.to_path_buf(), fields, end, mesh_id: None, copy_limit: COPY_LIMIT })
     }
 
+    /// Sets the length in bytes above which the file is extended in place, 256 MiB if not set. In place a kill within the
+    /// few milliseconds in which HDF5 updates its indices may spoil the file; in a copy it cannot.
+    #[must_use]
+    pub fn with_copy_limit(mut self, bytes: u64) -> Self {
+        self.copy_limit = bytes;
+        self
+    }
+
     /// Number of snapshots.
     pub fn steps(&self) -> usize {
         self.end.steps
@@ -151,7 +159,7 @@ impl SeriesWriter {
         if steps >= self.end.steps {
             return Ok(());
         }
-        let end = safe_file::update(&self.path, self.copy_limit, |path| {
+        let end = self.update(|path| {
             let shorten = || -> hdf5::Result<End> {
                 let file = File::open_rw(path)?;
                 let root = file.group("VTKHDF")?;
@@ -184,7 +192,7 @@ impl SeriesWriter {
         self.check_lengths(mesh, values)?;
         let is_new_mesh = self.mesh_id != Some(mesh_id);
         let end = self.end.after(mesh, is_new_mesh);
-        safe_file::update(&self.path, self.copy_limit, |path| {
+        self.update(|path| {
             let write = || -> hdf5::Result<()> {
                 let file = File::open_rw(path)?;
                 let root = file.group("VTKHDF")?;
@@ -205,6 +213,14 @@ impl SeriesWriter {
         self.end = end;
         self.mesh_id = Some(mesh_id);
         Ok(())
+    }
+
+    /// Changes the file: a copy that replaces it, or, when it is long and nobody reads it just then, the file itself.
+    fn update<T>(&self, change: impl FnOnce(&Path) -> Result<T, OutputError>) -> Result<T, OutputError> {
+        let is_long = std::fs::metadata(&self.path).is_ok_and(|file| file.len() > self.copy_limit);
+        // A reader that has the file open holds a lock on it, under which HDF5 refuses to write.
+        let is_read = is_long && File::open_rw(&self.path).is_err();
+        safe_file::update(&self.path, if is_read { u64::MAX } else { self.copy_limit }, change)
     }
 
     fn check_lengths(&self, mesh: &QuadMesh<'_>, values: &[&[f64]]) -> Result<(), OutputError> {
