@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A picture of a run: numerical schlieren in the fluid above, von Mises stress in the solid below.
 
-    python3 scripts/picture.py RUN_DIR OUT.png [--time T]
+    python3 scripts/picture.py RUN_DIR OUT.png [--time T] [--reach MM]
 
 Shows the snapshot nearest to the time T in seconds; without --time the one with the highest von Mises stress. Both
 sides are mirrored about the axis of symmetry. Needs h5py and matplotlib (scripts/requirements.txt).
@@ -18,7 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.tri import Triangulation
 
 MILLI = 1e3  # mm per m
@@ -170,7 +170,7 @@ def colour_bar(figure, axes, drawn, label, extend):
     bar.ax.tick_params(width=0.5, length=2.5)
 
 
-def picture(run, out, time):
+def picture(run, out, time, reach):
     fluid = Series(run / "fluid.vtkhdf")
     solid = Series(run / "solid.vtkhdf") if (run / "solid.vtkhdf").exists() else None
     if time is not None:
@@ -187,8 +187,17 @@ def picture(run, out, time):
     if solid is not None:
         solid_step = nearest(solid.times, time)
         panels.append((solid.boxes(solid_step), "solid"))
-    reach = max(b[:, 3].max() for b, _ in panels)
-    heights = [b[:, 1].max() - b[:, 0].min() for b, _ in panels]
+    widest = max(b[:, 3].max() for b, _ in panels)
+    bottoms, tops = [b[:, 0].min() for b, _ in panels], [b[:, 1].max() for b, _ in panels]
+    if reach is None:
+        reach = widest
+    else:
+        # A little higher than deep: the bubble stands off the wall, the stress is greatest near it.
+        reach = min(reach, widest)
+        tops[0] = min(tops[0], bottoms[0] + 1.2 * reach)
+        if solid is not None:
+            bottoms[1] = max(bottoms[1], tops[1] - reach)
+    heights = [high - low for low, high in zip(bottoms, tops)]
 
     # The panels by hand, so that a millimetre is as long along z as along r and the panels touch at the wall.
     left, right, bottom, top = 0.75, 1.0, 0.5, 0.42  # inches
@@ -213,7 +222,8 @@ def picture(run, out, time):
     if solid is not None:
         stress = solid.field("von_mises", solid_step)
         solid_boxes = panels[1][0]
-        drawn = draw_cells(all_axes[1], solid_boxes, stress / 1e6, "inferno", Normalize(0.0, stress.max() / 1e6))
+        # A power below one lifts the waves, which are weak beside the maximum, out of the dark.
+        drawn = draw_cells(all_axes[1], solid_boxes, stress / 1e6, "inferno", PowerNorm(0.6, 0.0, stress.max() / 1e6))
         colour_bar(figure, all_axes[1], drawn, "von Mises stress / MPa", "neither")
         at = int(np.argmax(stress))
         z, r = solid_boxes[at, :2].mean(), solid_boxes[at, 2:].mean()
@@ -221,8 +231,10 @@ def picture(run, out, time):
         place = f"{wall - z:.2g} mm below the wall" + ("" if solid_boxes[at, 2] <= 0 else f", {r:.2g} mm off axis")
         title += f"    max. von Mises stress {prefixed(stress.max(), 'Pa')}, {place}"
 
-    for axes, (b, name), is_top in zip(all_axes, panels, [True, False]):
-        axes.set(xlim=(-reach, reach), ylim=(b[:, 0].min(), b[:, 1].max()), ylabel=r"$z$ / mm")
+    for axes, (_, name), low, high in zip(all_axes, panels, bottoms, tops):
+        is_top = name == "fluid"
+        axes.set(xlim=(-reach, reach), ylim=(low, high), ylabel=r"$z$ / mm")
+        axes.yaxis.set_label_coords(-0.45 / (2 * reach * scale), 0.5)
         axes.axvline(0.0, color=GREY, linewidth=0.5, dashes=(8, 3, 1.5, 3))
         box = dict(boxstyle="square,pad=0.25", facecolor="white", edgecolor="none", alpha=0.85)
         axes.text(0.015, 0.97 if is_top else 0.03, name, transform=axes.transAxes, va="top" if is_top else "bottom",
@@ -249,10 +261,11 @@ def main():
     parser.add_argument("run", type=Path, metavar="RUN_DIR", help="directory of the run")
     parser.add_argument("out", type=Path, metavar="OUT.png", help="picture to write; .pdf and .svg work as well")
     parser.add_argument("--time", type=float, metavar="T", help="simulated time in s (default: highest von Mises stress)")
+    parser.add_argument("--reach", type=float, metavar="MM", help="show only so many mm about the axis and the wall")
     arguments = parser.parse_args()
     if not (arguments.run / "fluid.vtkhdf").exists():
         sys.exit(f"{arguments.run} holds no fluid.vtkhdf: is it the directory of a run?")
-    picture(arguments.run, arguments.out, arguments.time)
+    picture(arguments.run, arguments.out, arguments.time, arguments.reach)
 
 
 if __name__ == "__main__":
