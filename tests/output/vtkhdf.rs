@@ -192,3 +192,24 @@ fn a_file_that_cannot_be_made_or_is_gone_is_named() {
     assert!(matches!(error, OutputError::Io { .. }) && error.to_string().contains("--out"), "{error}");
     assert!(SeriesWriter::open(&path).is_err());
 }
+
+#[test]
+fn a_long_file_is_extended_in_place_unless_somebody_reads_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("fluid.vtkhdf");
+    let inode = || std::os::unix::fs::MetadataExt::ino(&std::fs::metadata(&path).unwrap());
+    let squares = Squares::new(3, 3);
+    let mut writer = SeriesWriter::create(&path, &FIELDS, 1, &[]).unwrap().with_copy_limit(0);
+    let first = inode();
+    append(&mut writer, &squares, 0).unwrap();
+    assert_eq!(inode(), first, "in place");
+
+    let reader = File::open(&path).unwrap();
+    append(&mut writer, &squares, 0).unwrap();
+    assert_ne!(inode(), first, "in a copy");
+    assert_eq!(step_count(&reader.group("VTKHDF").unwrap()), 1, "the reader is not disturbed");
+    drop(reader);
+    for step in 0..2 {
+        check_step(&File::open(&path).unwrap().group("VTKHDF").unwrap(), step, &squares);
+    }
+}
