@@ -11,7 +11,7 @@ pub(crate) mod component {
     /// Shear stress σ_zr.
     pub const S_ZR: usize = 3;
     /// Hoop stress σ_φφ; out of plane in planar geometry.
-    pub const S_PP: usize = 5;
+    pub const S_PHIPHI: usize = 5;
     /// How many.
     pub const COUNT: usize = 6;
 }
