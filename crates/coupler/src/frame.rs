@@ -220,6 +220,15 @@ impl<'a> Frame<'a> {
         if found == expected { Ok(()) } else { Err(CouplerError::KindMismatch { expected, found }) }
     }
 
+    /// An error unless the frame has this many rows of this many faces.
+    pub fn require_shape(&self, fields: usize, count: usize) -> Result<(), CouplerError> {
+        if self.header.fields == fields as u64 && self.header.count == count as u64 {
+            return Ok(());
+        }
+        let found = self.payload.len();
+        Err(CouplerError::LengthMismatch { fields: fields as u64, count: count as u64, found })
+    }
+
     /// Field `k` of all faces, length `count`.
     ///
     /// # Panics
