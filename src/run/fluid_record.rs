@@ -185,7 +185,7 @@ impl FluidRecord {
             for side in 0..4 {
                 row.extend([ledger.mass[side], ledger.momentum[side], ledger.energy[side]]);
             }
-            row.push(fixups.floor_energy);
+            row.extend([fixups.floor_energy, ledger.wall_impulse, ledger.wall_work]);
             self.history.push(self.conservation, &row)?;
         }
         for probe in &self.probes {
@@ -338,7 +338,7 @@ const STEP_COLUMNS: [Column<'static>; 13] = [
     column("fixups/floor_energy", "J/rad", "energy that the floor added so far (planar: J/m)"),
 ];
 
-const CONSERVATION_COLUMNS: [Column<'static>; 17] = [
+const CONSERVATION_COLUMNS: [Column<'static>; 19] = [
     column("time", "s", "time"),
     column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
     column("momentum_z", "N s/rad", "axial momentum in the domain"),
@@ -360,6 +360,12 @@ const CONSERVATION_COLUMNS: [Column<'static>; 17] = [
     column("momentum_in_r_max", "N s/rad", "the same through r_max"),
     column("energy_in_r_max", "J/rad", "the same through r_max"),
     column("energy_from_floor", "J/rad", "energy that the pressure floor added"),
+    column(
+        "interface_impulse",
+        "N s/rad",
+        "impulse of p* on the interface: minus the solid's momentum_in_z_max",
+    ),
+    column("interface_work", "J/rad", "work of p* on the fluid: minus the solid's energy_in_z_max"),
 ];
 
 const PROBE_COLUMNS: [Column<'static>; 6] = [

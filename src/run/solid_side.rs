@@ -1,6 +1,6 @@
 //! The solid's part of the step loop: it answers the fluid's trace with what the wall did.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use coupler::{FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme, StarSolver, TraceRow};
 use mesh::BLOCK;
@@ -168,6 +168,7 @@ impl SolidSide {
         };
         let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
         let (weak, first) = (self.scheme == Scheme::Weak, solver.steps() == 0);
+        let mut filled = Duration::ZERO;
         link.send(header, |payload| {
             let put =
                 |row: RegisterRow, face: usize, value: f64| payload[row as usize * faces + face] = value;
@@ -176,8 +177,10 @@ impl SolidSide {
             } else if !first {
                 interface.write_register(put);
             }
+            filled = start.elapsed();
         })?;
-        self.clock.computing += start.elapsed();
+        // What comes after the frame is filled is the exchange.
+        self.clock.computing += filled;
         Ok(())
     }
 
