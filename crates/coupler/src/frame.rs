@@ -130,6 +130,8 @@ impl FrameHeader {
     pub const STOP_TERMINATE: u32 = 2;
     /// No frame of this sender follows.
     pub const LAST: u32 = 4;
+    /// Set by the link: longer than all before, so its memory is new and the sender wants to know that it was read.
+    pub(crate) const GROWN: u32 = 1 << 31;
 
     /// An empty frame of this kind, to be completed by struct update.
     pub fn new(kind: FrameKind) -> Self {
