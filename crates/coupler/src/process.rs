@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use iceoryx2::config::Config;
 use iceoryx2::port::SendError;
 
-use crate::domain::{Domain, remove_dead};
+use crate::domain::{Domain, Presence, remove_dead};
 use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader, FrameKind};
 use crate::link::{Conversation, Link, LinkCounters, Participant};
@@ -71,6 +71,8 @@ pub struct ProcessLink {
     unread: u64,
     /// The peer died or left: nothing more to say to it.
     parted: bool,
+    /// Last, so that it is given up after the ports.
+    _presence: Presence,
 }
 
 impl std::fmt::Debug for ProcessLink {
@@ -101,6 +103,7 @@ impl ProcessLink {
         } = endpoint;
         check_run_id(&run_id)?;
         let config = domain.config()?;
+        let presence = Presence::enter(&domain)?;
         let removed = remove_dead(&config)?;
         if removed > 0 {
             tracing::info!(removed, "cleared away participants that were killed");
@@ -142,6 +145,7 @@ impl ProcessLink {
             longest: None,
             unread: 0,
             parted: false,
+            _presence: presence,
         };
         // Before the hello: whoever hears it may rely on this side taking part in full.
         link.ports.attach()?;

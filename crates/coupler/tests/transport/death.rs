@@ -69,6 +69,21 @@ fn a_participant_killed_while_it_waits_for_its_peer_does_not_hinder_the_next() {
 }
 
 #[test]
+fn participants_killed_at_any_moment_of_their_start_do_not_hinder_the_next() {
+    let scene = Scene::new();
+    for milliseconds in 0..12 {
+        let (fluid, solid) = scene.start_pair(ENDLESS);
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        fluid.kill();
+        solid.kill();
+    }
+    let (fluid, solid) = scene.start_pair("--steps 10");
+    fluid.end().assert_done();
+    solid.end().assert_done();
+    scene.assert_clean();
+}
+
+#[test]
 fn sending_to_a_dead_peer_fails_and_leaving_it_does_not_hang() {
     let scene = Scene::new();
     let mut solid = scene.start("solid", "--steps 10 --sleep-ms 60000");
