@@ -132,6 +132,8 @@ impl FrameHeader {
     pub const LAST: u32 = 4;
     /// Both sides write a snapshot at the end of this step.
     pub const SNAPSHOT: u32 = 8;
+    /// Set by the link: longer than all before, so its memory is new and the sender wants to know that it was read.
+    pub(crate) const GROWN: u32 = 1 << 31;
 
     /// An empty frame of this kind, to be completed by struct update.
     pub fn new(kind: FrameKind) -> Self {
