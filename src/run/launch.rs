@@ -63,7 +63,7 @@ pub fn run(case: &Case, options: &Options, stop: &Stop) -> Result<PathBuf, RunEr
         progress.message(&format!("warning: {warning}"));
     }
     let result = if coupled && !options.in_process {
-        two_processes(case, options, &directory, stop, &mut progress)
+        two_processes(options, &directory, stop, &mut progress)
     } else {
         let threads = thread_pool(options.threads)?;
         let mut on_step = |line: &ProgressLine| progress.update(line);
@@ -165,7 +165,6 @@ pub fn new_run_id() -> String {
 }
 
 fn two_processes(
-    case: &Case,
     options: &Options,
     directory: &RunDirectory,
     stop: &Stop,
@@ -223,7 +222,7 @@ fn two_processes(
         // A killed process leaves its shared memory to whoever comes next: to us.
         clean_up_dead(&coupler::Domain::default())?;
     }
-    verdict(case, &sides)
+    verdict(&sides)
 }
 
 fn start(
@@ -295,7 +294,7 @@ fn forward(side: &mut Side, signal: Signal) {
 }
 
 /// What the ends of both processes mean together: the cause, not its consequence on the other side.
-fn verdict(_case: &Case, sides: &[Side]) -> Result<(), RunError> {
+fn verdict(sides: &[Side]) -> Result<(), RunError> {
     if let Some(side) = sides.iter().find(|side| side.signal.is_some()) {
         let signal = side.signal.unwrap_or(0);
         let what = format!("was killed by signal {signal}; the other side ended, what it had is written");
@@ -350,7 +349,10 @@ pub fn run_side(
         drive::joined(case, joining, directory, stop, &mut on_step)
     });
     if !child && path.exists() {
-        conclude(&RunDirectory::open(&path).map_err(RunError::Directory)?)?;
+        let directory = RunDirectory::open(&path).map_err(RunError::Directory)?;
+        // Both sides do this, one after the other: the last one finds both parts.
+        let _turn = directory.wait_for_lock()?;
+        conclude(&directory)?;
     }
     result
 }
