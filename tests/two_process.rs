@@ -116,7 +116,8 @@ fn processes_of(out: &Path) -> Vec<(u32, String)> {
     for entry in fs::read_dir("/proc").expect("proc").flatten() {
         let Ok(pid) = entry.file_name().to_string_lossy().parse::<u32>() else { continue };
         let line = fs::read(entry.path().join("cmdline")).unwrap_or_default();
-        let words: Vec<String> = line.split(|b| *b == 0).map(|w| String::from_utf8_lossy(w).into_owned()).collect();
+        let words: Vec<String> =
+            line.split(|b| *b == 0).map(|w| String::from_utf8_lossy(w).into_owned()).collect();
         let is_zombie = fs::read_to_string(entry.path().join("stat")).is_ok_and(|s| s.contains(") Z "));
         if words.first().is_some_and(|w| w.ends_with("cav")) && words.contains(&wanted) && !is_zombie {
             found.push((pid, words[1].clone()));
@@ -210,7 +211,8 @@ fn runs_side_by_side_do_not_meet() {
     let second = workshop.run("second", &["-q", "--set", "fluid.ambient.pressure=2e7"]);
     assert!(second.status.success(), "{}", text(&second));
     assert!(first.wait().expect("ends").success());
-    let peaks = ["first", "second"].map(|name| summary(&workshop.out(name))["wall_pressure_peak"].as_f64().unwrap());
+    let peaks =
+        ["first", "second"].map(|name| summary(&workshop.out(name))["wall_pressure_peak"].as_f64().unwrap());
     assert!(peaks[0] > 1.5 * peaks[1], "{peaks:?}");
 }
 
@@ -227,8 +229,7 @@ fn by_hand_in_two_terminals() {
     assert_eq!(summary["completed"], true);
     assert!(summary["von_mises_peak"].is_number() && summary["wall_pressure_peak"].is_number());
     assert!(workshop.run("reference", &["-q"]).status.success());
-    let (hand, launched) =
-        (workshop.out("hand/history.h5"), workshop.out("reference/history.h5"));
+    let (hand, launched) = (workshop.out("hand/history.h5"), workshop.out("reference/history.h5"));
     assert!(datasets(&hand) == datasets(&launched), "by hand and launched differ");
 }
 
@@ -242,7 +243,12 @@ fn another_case_is_refused() {
     for output in [&fluid, &solid] {
         assert_eq!(output.status.code(), Some(4), "{}", text(output));
     }
-    assert!(text(&fluid).contains("case") && text(&solid).contains("case"), "{}{}", text(&fluid), text(&solid));
+    assert!(
+        text(&fluid).contains("case") && text(&solid).contains("case"),
+        "{}{}",
+        text(&fluid),
+        text(&solid)
+    );
 }
 
 fn an_absent_peer_is_named() {
@@ -304,7 +310,8 @@ fn an_interrupt_stops_both_sides(kind: &str, code: i32) {
     assert_eq!(summary["completed"], false);
     // Both sides stopped at the same step.
     let history = datasets(&workshop.out("stopped/history.h5"));
-    let length = |wanted: &str| history.iter().find(|(name, _)| name == wanted).map(|(_, values)| values.len());
+    let length =
+        |wanted: &str| history.iter().find(|(name, _)| name == wanted).map(|(_, values)| values.len());
     assert_eq!(length("/time"), length("/solid/time"));
     assert_eq!(length("/time"), summary["steps"].as_u64().map(|steps| steps as usize + 1));
 }
@@ -315,7 +322,11 @@ fn a_numerical_failure_is_told() {
     let more = ["--set", "time.cfl=0.9", "--set", "fluid.limiter=none", "--set", "solid.limiter=none"];
     let output = workshop.run("failed", &[&more[..], &LONG].concat());
     assert_eq!(output.status.code(), Some(3), "{}", text(&output));
-    assert!(text(&output).contains("not physical") || text(&output).contains("not finite"), "{}", text(&output));
+    assert!(
+        text(&output).contains("not physical") || text(&output).contains("not finite"),
+        "{}",
+        text(&output)
+    );
     assert_eq!(summary(&workshop.out("failed"))["completed"], false);
 }
 
