@@ -23,7 +23,10 @@ const SAMPLE_SECONDS: f64 = 0.15;
 /// Courant number of the steps.
 const CFL: f64 = 0.45;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// Whatever stops a measurement; it passes between threads.
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+fn main() -> Result<(), Failure> {
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     println!("## One thread\n");
     println!(
@@ -35,9 +38,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("| solver | one thread, ns per cell and step | two threads | speed-up |");
     println!("|---|---|---|---|");
     for solver in [fluid_hllc(Limiter::Minmod), solid_with(Limiter::Minmod)] {
-        let cost = |threads| -> Result<Cost, Box<dyn std::error::Error>> {
-            pool(threads)?.install(|| measure::<16>(solver, 512))
-        };
+        let cost =
+            |threads| -> Result<Cost, Failure> { pool(threads)?.install(|| measure::<16>(solver, 512)) };
         let (one, two) = (cost(1)?.nanoseconds, cost(2)?.nanoseconds);
         println!("| {} | {one:.1} | {two:.1} | {:.2} |", solver.name(), one / two);
     }
@@ -75,7 +77,7 @@ impl Solver {
     }
 }
 
-fn all_solvers() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+fn all_solvers() -> Result<(), Failure> {
     for solver in [
         fluid_hllc(Limiter::Minmod),
         fluid_hllc(Limiter::Mc),
@@ -112,10 +114,7 @@ struct Cost {
     ratio: f64,
 }
 
-fn measure<const N: usize>(
-    solver: Solver,
-    cells: usize,
-) -> Result<Cost, Box<dyn std::error::Error + Send + Sync>> {
+fn measure<const N: usize>(solver: Solver, cells: usize) -> Result<Cost, Failure> {
     match solver {
         Solver::Fluid(riemann, limiter) => {
             let mut fluid = fluid_near_a_wall::<N>(cells, riemann, limiter)?;
@@ -134,13 +133,8 @@ fn measure<const N: usize>(
     }
 }
 
-type StepResult = Result<(), Box<dyn std::error::Error + Send + Sync>>;
-
 /// Times `step`, and the calibration kernel before each sample.
-fn sample(
-    cells: usize,
-    mut step: impl FnMut() -> StepResult,
-) -> Result<Cost, Box<dyn std::error::Error + Send + Sync>> {
+fn sample(cells: usize, mut step: impl FnMut() -> Result<(), Failure>) -> Result<Cost, Failure> {
     let start = Instant::now();
     for _ in 0..WARM_UP {
         step()?;
