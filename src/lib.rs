@@ -1,6 +1,6 @@
 //! A bubble collapses near an elastic solid: cases, runs, output.
 
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod case;
 pub mod output;

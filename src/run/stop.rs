@@ -71,7 +71,9 @@ impl Stop {
                 return Err(CouplerError::Interrupted { reason: "the launcher is gone".to_owned() });
             }
             if !connected.load(Ordering::Relaxed) && stop.flags() != 0 {
-                return Err(CouplerError::Interrupted { reason: "asked to stop while waiting for the peer".to_owned() });
+                return Err(CouplerError::Interrupted {
+                    reason: "asked to stop while waiting for the peer".to_owned(),
+                });
             }
             Ok(())
         })

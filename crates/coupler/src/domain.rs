@@ -1,6 +1,6 @@
 //! Where iceoryx2 keeps its objects, who may see them, and how the dead are cleared away.
 
-use std::fs::{self, DirBuilder};
+use std::fs::{self, DirBuilder, File};
 use std::io::ErrorKind;
 use std::os::unix::fs::{DirBuilderExt, MetadataExt};
 use std::path::{Path, PathBuf};
@@ -59,11 +59,64 @@ impl Domain {
     }
 }
 
+/// Held by every participant for as long as it may have shared objects; the system lets go of it if it is killed.
+#[derive(Debug)]
+pub(crate) struct Presence {
+    _shared_lock: File,
+}
+
+impl Presence {
+    /// Enters the domain. Whoever finds it deserted sweeps it: iceoryx2 knows the dead by their node, and cannot know
+    /// those killed while that was being made.
+    pub(crate) fn enter(domain: &Domain) -> Result<Self, CouplerError> {
+        let refuse = |error: std::io::Error| CouplerError::BadRoot {
+            path: domain.root.clone(),
+            reason: format!("cannot be locked: {error}"),
+        };
+        make_private(&domain.root)?;
+        let root = File::open(&domain.root).map_err(refuse)?;
+        if root.try_lock().is_ok() {
+            sweep(domain);
+            root.unlock().map_err(refuse)?;
+        }
+        root.lock_shared().map_err(refuse)?;
+        Ok(Self { _shared_lock: root })
+    }
+}
+
+/// Removes everything in the domain but the management file. What cannot be removed is in nobody's way.
+fn sweep(domain: &Domain) {
+    for entry in fs::read_dir(&domain.root).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let removed = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+        if let Err(error) = removed {
+            tracing::debug!(path = %path.display(), %error, "not swept");
+        }
+    }
+    for entry in fs::read_dir("/dev/shm").into_iter().flatten().flatten() {
+        if entry.file_name().to_str().is_some_and(|name| is_swept(&domain.prefix, name)) {
+            // Another user's object of that name cannot be removed, and need not be.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// iceoryx2's names are the prefix, 40 hexadecimal digits, `_`, the rest; so `a_` does not claim those of `a_b_`.
+fn is_swept(prefix: &str, name: &str) -> bool {
+    let digits = name.strip_prefix(prefix).and_then(|rest| rest.split_once('_')).map(|(digits, _)| digits);
+    let ours =
+        digits.is_some_and(|digits| digits.len() == 40 && digits.bytes().all(|b| b.is_ascii_hexdigit()));
+    ours && !name.ends_with(".global_mgmt")
+}
+
 /// Removes what participants of this domain left behind when they were killed. Safe at any time: the living keep theirs.
 ///
 /// - returns: how many dead participants were cleared away.
 pub fn clean_up_dead(domain: &Domain) -> Result<usize, CouplerError> {
-    remove_dead(&domain.config()?)
+    let config = domain.config()?;
+    let removed = remove_dead(&config)?;
+    Presence::enter(domain)?;
+    Ok(removed)
 }
 
 pub(crate) fn remove_dead(config: &Config) -> Result<usize, CouplerError> {
@@ -133,6 +186,15 @@ mod tests {
         let error = make_private(&root).expect_err("a link leads elsewhere");
         assert!(error.to_string().contains("not a directory"), "{error}");
         fs::remove_file(&root).unwrap();
+    }
+
+    #[test]
+    fn only_objects_of_exactly_this_prefix_are_swept() {
+        let hash = "0354a209029e7d094a819e2d4030ea331e6caaf0";
+        assert!(is_swept("cav_", &format!("cav_{hash}_1.data")));
+        assert!(!is_swept("cav_", &format!("cav_b_{hash}_1.data")));
+        assert!(!is_swept("cav_", &format!("cav_{hash}_node.0_10_0.global_mgmt")));
+        assert!(!is_swept("cav_", "cav_notes_1.txt"));
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub enum CouplerError {
     },
     /// The operating system or iceoryx2 refused a resource.
     #[error(
-        "{what} failed: {cause}; see whether /dev/shm is full and whether another version runs under this name"
+        "{what} failed: {cause}; see whether the other side was killed meanwhile, whether /dev/shm is full, and whether both sides are of the same build"
     )]
     SharedMemory {
         /// What was being done.

@@ -132,6 +132,8 @@ impl FrameHeader {
     pub const LAST: u32 = 4;
     /// Both sides write a snapshot at the end of this step.
     pub const SNAPSHOT: u32 = 8;
+    /// Set by the link: longer than all before, so its memory is new and the sender wants to know that it was read.
+    pub(crate) const GROWN: u32 = 1 << 31;
 
     /// An empty frame of this kind, to be completed by struct update.
     pub fn new(kind: FrameKind) -> Self {
@@ -218,6 +220,15 @@ impl<'a> Frame<'a> {
     pub fn require(&self, expected: FrameKind) -> Result<(), CouplerError> {
         let found = FrameKind::try_from(self.header.kind)?;
         if found == expected { Ok(()) } else { Err(CouplerError::KindMismatch { expected, found }) }
+    }
+
+    /// An error unless the frame has this many rows of this many faces.
+    pub fn require_shape(&self, fields: usize, count: usize) -> Result<(), CouplerError> {
+        if self.header.fields == fields as u64 && self.header.count == count as u64 {
+            return Ok(());
+        }
+        let found = self.payload.len();
+        Err(CouplerError::LengthMismatch { fields: fields as u64, count: count as u64, found })
     }
 
     /// Field `k` of all faces, length `count`.

@@ -1,9 +1,8 @@
 //! The shared memory services of one run: a pair of data and event channels each way.
 
+use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
-
-use std::sync::Arc;
 
 use iceoryx2::config::Config;
 use iceoryx2::identifiers::UniqueNodeId;
@@ -27,6 +26,8 @@ use crate::watch::{PeerWatch, is_alive};
 const FRAME_EVENT: EventId = EventId::new(1);
 /// The peer's notifier went away in good order, or was cleared away after its death.
 const GONE_EVENTS: [EventId; 2] = [EventId::new(2), EventId::new(3)];
+/// A frame in new memory was read.
+const READ_EVENT: EventId = EventId::new(4);
 /// Opening may collide with the peer creating or removing the same service.
 const OPEN_RETRY: Duration = Duration::from_secs(1);
 
@@ -47,12 +48,13 @@ pub(crate) struct Ports {
     _node: Node<Ipc>,
 }
 
-/// Why a wait on the listener ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Wake {
-    Frame,
-    PeerGone,
-    TimeOut,
+/// What a wait on the listener brought.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Wake {
+    /// Nothing came in time, or the peer's notifier went away: time to look whether it lives.
+    pub(crate) look_around: bool,
+    /// So many frames in new memory were read.
+    pub(crate) read: u64,
 }
 
 impl Ports {
@@ -130,18 +132,31 @@ impl Ports {
         self.data_out.dynamic_config().number_of_subscribers() > 0
     }
 
+    /// Connects to the peer's sending end, without which its frames would only be kept up to the first.
+    pub(crate) fn attach(&self) -> Result<(), CouplerError> {
+        self.subscriber.has_samples().map(|_| ()).map_err(failed("connecting to the peer"))
+    }
+
+    /// Tells the peer that its frame in new memory was read.
+    pub(crate) fn confirm_read(&self) {
+        if let Err(error) = self.notifier.notify_with_custom_event_id(READ_EVENT) {
+            tracing::debug!(%error, "the peer could not be told that its frame was read");
+        }
+    }
+
     /// Blocks until an event or the time-out.
     pub(crate) fn wait(&self, timeout: Duration) -> Wake {
-        let mut gone = false;
-        let woken =
-            self.listener.timed_wait(|activation| gone |= GONE_EVENTS.contains(&activation.id), timeout);
-        match woken {
-            _ if gone => Wake::PeerGone,
-            Ok(0) => Wake::TimeOut,
-            Ok(_) => Wake::Frame,
-            // A signal handler ran. The caller looks around as after a time-out.
-            Err(_) => Wake::TimeOut,
-        }
+        let mut wake = Wake::default();
+        let woken = self.listener.timed_wait(
+            |activation| {
+                wake.look_around |= GONE_EVENTS.contains(&activation.id);
+                wake.read += if activation.id == READ_EVENT { activation.count } else { 0 };
+            },
+            timeout,
+        );
+        // An error is a signal handler that ran meanwhile.
+        wake.look_around |= !matches!(woken, Ok(1..));
+        wake
     }
 }
 

@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 use iceoryx2::config::Config;
 use iceoryx2::port::SendError;
 
-use crate::domain::{Domain, remove_dead};
+use crate::domain::{Domain, Presence, remove_dead};
 use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader, FrameKind};
 use crate::link::{Conversation, Link, LinkCounters, Participant};
-use crate::ports::{Ports, Wake, failed, pid_of};
-use crate::watch::{PeerWatch, SLICE};
+use crate::ports::{Ports, failed, pid_of};
+use crate::watch::{LINGER, PeerWatch, SLICE};
 
 /// Asked about ten times a second while a participant waits; its error ends the wait.
 pub type Interrupt = Box<dyn FnMut() -> Result<(), CouplerError> + Send>;
@@ -55,8 +55,8 @@ impl Endpoint {
 
 /// One end of a link between two processes (or threads).
 ///
-/// Dropping it says goodbye. That blocks until the peer has taken the last frame, for ten seconds at most, and not at all
-/// if the peer is dead.
+/// Dropping it says goodbye. That may block until the peer has read the last frame, for ten seconds at most, and not if
+/// the peer is dead.
 pub struct ProcessLink {
     ports: Ports,
     config: Config,
@@ -65,8 +65,14 @@ pub struct ProcessLink {
     peer_pid: u32,
     patience: Duration,
     interrupt: Option<Interrupt>,
+    /// Length of the longest frame sent.
+    longest: Option<usize>,
+    /// Frames in new memory that the peer has not confirmed.
+    unread: u64,
     /// The peer died or left: nothing more to say to it.
     parted: bool,
+    /// Last, so that it is given up after the ports.
+    _presence: Presence,
 }
 
 impl std::fmt::Debug for ProcessLink {
@@ -97,6 +103,7 @@ impl ProcessLink {
         } = endpoint;
         check_run_id(&run_id)?;
         let config = domain.config()?;
+        let presence = Presence::enter(&domain)?;
         let removed = remove_dead(&config)?;
         if removed > 0 {
             tracing::info!(removed, "cleared away participants that were killed");
@@ -127,7 +134,21 @@ impl ProcessLink {
 
         let mut talk = Conversation::new(name.peer(), case_hash);
         talk.peer_pid = Some(peer_pid);
-        let mut link = Self { ports, config, watch, talk, peer_pid, patience, interrupt, parted: false };
+        let mut link = Self {
+            ports,
+            config,
+            watch,
+            talk,
+            peer_pid,
+            patience,
+            interrupt,
+            longest: None,
+            unread: 0,
+            parted: false,
+            _presence: presence,
+        };
+        // Before the hello: whoever hears it may rely on this side taking part in full.
+        link.ports.attach()?;
         link.send(hello, |_| {})?;
         link.receive(|frame| frame.require(FrameKind::Hello))??;
         Ok(link)
@@ -157,23 +178,37 @@ impl ProcessLink {
             if self.has_frame()? {
                 return Ok(());
             }
-            match self.ports.wait(SLICE) {
-                Wake::Frame => {}
-                Wake::PeerGone | Wake::TimeOut => {
-                    ask(&mut self.interrupt)?;
-                    if !self.watch.is_peer_alive() {
-                        // Its last frame may have come since the look above.
-                        return if self.has_frame()? { Ok(()) } else { Err(self.lost()) };
-                    }
-                    if start.elapsed() >= self.patience {
-                        return Err(CouplerError::PeerSilent {
-                            peer: self.talk.peer,
-                            pid: self.peer_pid,
-                            step: self.talk.step,
-                            waited: start.elapsed(),
-                        });
-                    }
-                }
+            if !self.sleep() {
+                continue;
+            }
+            ask(&mut self.interrupt)?;
+            if !self.watch.is_peer_alive() {
+                // Its last frame may have come since the look above.
+                return if self.has_frame()? { Ok(()) } else { Err(self.lost()) };
+            }
+            if start.elapsed() >= self.patience {
+                return Err(CouplerError::PeerSilent {
+                    peer: self.talk.peer,
+                    pid: self.peer_pid,
+                    step: self.talk.step,
+                    waited: start.elapsed(),
+                });
+            }
+        }
+    }
+
+    /// Sleeps until something happens, a slice at most; `true` if it is time to look after the peer.
+    fn sleep(&mut self) -> bool {
+        let wake = self.ports.wait(SLICE);
+        self.unread = self.unread.saturating_sub(wake.read);
+        wake.look_around
+    }
+
+    /// Takes what nobody here will read any more, so that the peer need not wait for that.
+    fn discard_frames(&self) {
+        while let Ok(Some(sample)) = self.ports.subscriber.receive() {
+            if sample.user_header().has(FrameHeader::GROWN) {
+                self.ports.confirm_read();
             }
         }
     }
@@ -196,7 +231,9 @@ impl ProcessLink {
 
 impl Link for ProcessLink {
     fn send(&mut self, header: FrameHeader, fill: impl FnOnce(&mut [f64])) -> Result<(), CouplerError> {
-        let (header, len) = self.talk.stamp(header)?;
+        let (mut header, len) = self.talk.stamp(header)?;
+        let grown = self.longest.is_none_or(|longest| len > longest);
+        header.flags |= if grown { FrameHeader::GROWN } else { 0 };
         let mut sample =
             self.ports.publisher.loan_slice(len).map_err(failed("taking shared memory for a frame"))?;
         fill(sample.payload_mut());
@@ -213,6 +250,10 @@ impl Link for ProcessLink {
             Err(cause) => return Err(self.undelivered(header.step, start, cause)),
         }
         self.talk.sent(&header, len);
+        if grown {
+            self.longest = Some(len);
+            self.unread += 1;
+        }
         // A peer that died since is found by the next wait.
         if let Err(error) = self.ports.notifier.notify() {
             tracing::debug!(%error, "the peer could not be woken");
@@ -224,11 +265,12 @@ impl Link for ProcessLink {
         let received = self.ports.subscriber.receive().map_err(failed("taking a frame"))?;
         let Some(sample) = received else { return Ok(None) };
         let frame = Frame { header: sample.user_header(), payload: sample.payload() };
-        if let Err(error) = self.talk.accept(&frame) {
-            self.parted |= matches!(error, CouplerError::PeerClosed { .. });
-            return Err(error);
+        let result = self.talk.accept(&frame).map(|()| Some(read(&frame)));
+        if frame.header.has(FrameHeader::GROWN) {
+            self.ports.confirm_read();
         }
-        Ok(Some(read(&frame)))
+        self.parted |= matches!(result, Err(CouplerError::PeerClosed { .. }));
+        result
     }
 
     fn wait(&mut self) -> Result<(), CouplerError> {
@@ -244,15 +286,24 @@ impl Link for ProcessLink {
 }
 
 impl Drop for ProcessLink {
-    /// A frame whose memory was newly taken is lost if its sender leaves before the peer has mapped it. The goodbye fits
-    /// into the buffer of one only after the last frame was taken.
+    /// A frame in newly taken memory is lost if its sender leaves before the peer has mapped that memory, even if the
+    /// peer has the frame in its queue. So the last such frame must have been read.
     fn drop(&mut self) {
         self.watch.leave();
         if self.parted || !self.ports.has_peer() {
             return;
         }
+        self.discard_frames();
         if let Err(error) = self.send(FrameHeader::new(FrameKind::Goodbye), |_| {}) {
             tracing::debug!(%error, "left without the peer taking notice");
+            return;
+        }
+        let start = Instant::now();
+        while self.unread > 0 && start.elapsed() < self.patience.min(LINGER) && self.ports.has_peer() {
+            self.discard_frames();
+            if self.sleep() && !self.watch.is_peer_alive() {
+                return;
+            }
         }
     }
 }

@@ -13,8 +13,8 @@ use crate::domain::Ipc;
 
 /// How often a blocked participant looks after its peer. One look takes well under a millisecond.
 pub(crate) const SLICE: Duration = Duration::from_millis(100);
-/// How long a participant that leaves waits for its last frame to be taken.
-const LINGER: Duration = Duration::from_secs(10);
+/// How long a participant that leaves waits for its last frame to be read.
+pub(crate) const LINGER: Duration = Duration::from_secs(10);
 
 /// Watches one peer; shared with the handler that is asked while a send is blocked.
 #[derive(Debug)]

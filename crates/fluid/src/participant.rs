@@ -83,6 +83,13 @@ impl<const N: usize> FluidSolver<N> {
         }
     }
 
+    /// Sets the wall's state for the next step face by face.
+    pub fn set_wall_from(&mut self, state: impl Fn(usize) -> WallState) {
+        for (face, wall) in self.wall.iter_mut().enumerate() {
+            *wall = state(face);
+        }
+    }
+
     /// The wall's state during the last step.
     pub fn wall(&self) -> &[WallState] {
         &self.wall
@@ -90,10 +97,10 @@ impl<const N: usize> FluidSolver<N> {
 
     /// Cell means next to the wall: pressure and normal velocity, face by face; what the weak scheme exchanges.
     pub fn wall_cells(&self, mut put: impl FnMut(usize, f64, f64)) {
-        for &slot in &self.wall_blocks {
+        for (first, &slot) in self.wall_blocks.iter().enumerate().map(|(k, slot)| (k * N, slot)) {
             for j in 0..N {
                 let cell = self.cell(slot, 0, j);
-                put(self.wall_first[slot] + j, cell.pressure, cell.v_z);
+                put(first + j, cell.pressure, cell.v_z);
             }
         }
     }

@@ -54,6 +54,11 @@ pub struct BoundaryLedger {
     pub momentum: [f64; 4],
     /// Energy, J.
     pub energy: [f64; 4],
+    /// Impulse of p* on the wall to the solid, N s: what the solid got. The momentum through z_min has the ρ*v*² of the
+    /// wall's motion besides.
+    pub wall_impulse: f64,
+    /// Work of p* on the wall to the solid, J: what the fluid got.
+    pub wall_work: f64,
 }
 
 /// The fluid: state, time, and how to advance it.
@@ -222,9 +227,27 @@ impl<const N: usize> FluidSolver<N> {
             return Err(error);
         }
         self.account();
+        self.account_wall(dt);
         self.time += dt;
         self.steps += 1;
         Ok(())
+    }
+
+    /// Impulse and work of the wall's states in a step of length `dt`.
+    fn account_wall(&mut self, dt: f64) {
+        if self.wall.is_empty() {
+            return;
+        }
+        for (first, &slot) in self.wall_blocks.iter().enumerate() {
+            let id = self.mesh.tree().leaves()[slot];
+            let h_r = self.mesh.widths(id.level)[1];
+            for j in 0..N {
+                let area = self.mesh.weight(self.mesh.centre(id, 0, j)[1]) * h_r;
+                let state = self.wall[first * N + j];
+                self.ledger.wall_impulse += dt * area * state.pressure;
+                self.ledger.wall_work += dt * area * state.power;
+            }
+        }
     }
 
     /// Adds up the blocks' reports in the order of their slots, so that sums do not depend on threads.

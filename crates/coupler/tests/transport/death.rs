@@ -69,10 +69,27 @@ fn a_participant_killed_while_it_waits_for_its_peer_does_not_hinder_the_next() {
 }
 
 #[test]
+fn participants_killed_at_any_moment_of_their_start_do_not_hinder_the_next() {
+    let scene = Scene::new();
+    for milliseconds in 0..12 {
+        let (fluid, solid) = scene.start_pair(ENDLESS);
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        fluid.kill();
+        solid.kill();
+    }
+    let (fluid, solid) = scene.start_pair("--steps 10");
+    fluid.end().assert_done();
+    solid.end().assert_done();
+    scene.assert_clean();
+}
+
+#[test]
 fn sending_to_a_dead_peer_fails_and_leaving_it_does_not_hang() {
     let scene = Scene::new();
-    let solid = scene.start("solid", "--steps 10 --sleep-ms 60000");
+    let mut solid = scene.start("solid", "--steps 10 --sleep-ms 60000");
     let mut link = ProcessLink::connect(scene.endpoint(Participant::Fluid)).unwrap();
+    // Now it has taken the greeting.
+    solid.connected();
     let pid = solid.pid();
     solid.kill();
     let header = |step| FrameHeader { step, count: 10, fields: 2, ..FrameHeader::new(FrameKind::Trace) };
@@ -117,5 +134,26 @@ fn a_peer_that_leaves_early_is_named() {
     let (fluid, solid) = (scene.start("fluid", "--steps 20"), scene.start("solid", "--steps 5"));
     solid.end().assert_done();
     fluid.end().assert_refused(&["the solid left the run after step"]);
+    scene.assert_clean();
+}
+
+#[test]
+fn two_that_leave_with_frames_unread_do_not_wait_for_each_other() {
+    let scene = Scene::new();
+    let endpoints = [Participant::Fluid, Participant::Solid].map(|name| scene.endpoint(name));
+    let threads = endpoints.map(|endpoint| {
+        std::thread::spawn(move || {
+            let mut link = ProcessLink::connect(endpoint).unwrap();
+            let header = FrameHeader { count: 100_000, fields: 1, ..FrameHeader::new(FrameKind::Trace) };
+            link.send(header, |_| {}).unwrap();
+            let start = Instant::now();
+            drop(link);
+            start.elapsed()
+        })
+    });
+    for thread in threads {
+        let leaving = thread.join().unwrap();
+        assert!(leaving < Duration::from_secs(1), "{leaving:?}");
+    }
     scene.assert_clean();
 }

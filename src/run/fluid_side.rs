@@ -1,0 +1,265 @@
+//! The fluid's part of the step loop.
+//!
+//! In a coupled run the fluid leads: it chooses the step, sends its trace on the wall, and completes the step
+//! when the solid has answered with what the wall did. In the weak scheme it first makes the step with the
+//! solid's old velocity and then sends its new pressure, paper eqs. (36), (37).
+
+use std::time::{Duration, Instant};
+
+use coupler::{
+    FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme, TraceRow, WallRegister,
+};
+use fluid::{FluidSolver, WallState};
+use mesh::BLOCK;
+use serde_json::{Map, Value};
+
+use super::RunError;
+use super::fluid_record::FluidRecord;
+use super::schedule::{Plan, Schedule};
+use super::setup::fluid_solver;
+use super::stop::Stop;
+use crate::case::{Case, FluidCase};
+use crate::output::RunDirectory;
+
+/// What a turn came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Turn {
+    /// The run goes on.
+    Continues,
+    /// The run is over, for the reason in the flags of the last frame (0: it is complete).
+    Over(u32),
+}
+
+/// Shares of the run's wall time.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Clock {
+    /// Time in the solver and in the exchange's own computation.
+    pub computing: Duration,
+    /// Time in diagnostics and output.
+    pub recording: Duration,
+}
+
+/// The fluid with its place in a run.
+pub struct FluidSide {
+    solver: FluidSolver<BLOCK>,
+    record: Option<FluidRecord>,
+    schedule: Schedule,
+    cfl: f64,
+    scheme: Scheme,
+    kappa: Kappa,
+    factor: KappaFactor,
+    edges: Vec<f64>,
+    /// The step that waits for the solid's answer.
+    pending: Option<Plan>,
+    /// The solid's velocities for the weak scheme.
+    received: Vec<f64>,
+    limited_by: &'static str,
+    smallest_step: f64,
+    last_dt: f64,
+    clock: Clock,
+}
+
+/// A step shorter than this share of the run means that the solution has gone bad.
+const SMALLEST_SHARE: f64 = 1e-9;
+
+impl FluidSide {
+    /// The fluid of a case; with a directory it writes what happens.
+    pub fn new(case: &Case, fluid: &FluidCase, directory: Option<&RunDirectory>) -> Result<Self, RunError> {
+        let solver = fluid_solver(case, fluid)?;
+        let record = directory.map(|d| FluidRecord::create(case, d, &solver)).transpose()?;
+        Ok(Self {
+            edges: solver.wall_edges(),
+            received: vec![0.0; solver.wall_faces()],
+            solver,
+            record,
+            schedule: Schedule::new(&case.time.snapshots),
+            cfl: case.time.cfl,
+            scheme: case.coupling.scheme,
+            kappa: case.coupling.kappa,
+            factor: KappaFactor::default(),
+            pending: None,
+            limited_by: "fluid",
+            smallest_step: SMALLEST_SHARE * case.time.end,
+            last_dt: 0.0,
+            clock: Clock::default(),
+        })
+    }
+
+    /// The solver.
+    pub fn solver(&self) -> &FluidSolver<BLOCK> {
+        &self.solver
+    }
+
+    /// Writes what is still in memory; after a numerical failure the last good state, too.
+    pub fn close(&mut self, failed: bool) -> Result<(), RunError> {
+        if let Some(record) = &mut self.record {
+            record.close(&self.solver, failed)?;
+        }
+        Ok(())
+    }
+
+    /// This side's part of the summary.
+    pub fn summary(&self) -> Map<String, Value> {
+        self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver))
+    }
+
+    /// Which side limits the step.
+    pub fn limited_by(&self) -> &'static str {
+        self.limited_by
+    }
+
+    /// The last step's length, s.
+    pub fn last_dt(&self) -> f64 {
+        self.last_dt
+    }
+
+    /// Where the time went.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// One step without a solid. `None` when the run is over.
+    pub fn step_alone(&mut self) -> Result<Option<Plan>, RunError> {
+        let start = Instant::now();
+        let Some(plan) = self.plan(f64::INFINITY)? else { return Ok(None) };
+        self.solver.step(plan.dt)?;
+        self.clock.computing += start.elapsed();
+        self.recorded(plan)?;
+        Ok(Some(plan))
+    }
+
+    /// The fluid's turn: takes the solid's answer, finishes the step under way, begins the next one.
+    pub fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
+        let answer = self.take_answer(link)?;
+        if let Some(plan) = self.pending.take() {
+            let start = Instant::now();
+            self.solver.step(plan.dt)?;
+            self.clock.computing += start.elapsed();
+            self.recorded(plan)?;
+        }
+        let stopped =
+            answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
+        if stopped != 0 || self.schedule.is_over() {
+            let header =
+                FrameHeader { flags: stopped | FrameHeader::LAST, ..self.header(FrameKind::Trace, 0, 0.0) };
+            link.send(header, |_| {})?;
+            return Ok(Turn::Over(stopped));
+        }
+        let start = Instant::now();
+        let Some(plan) = self.plan(answer.dt_max)? else { return Ok(Turn::Over(0)) };
+        let faces = self.solver.wall_faces();
+        let mut header = self.header(FrameKind::Trace, faces, plan.dt);
+        if plan.snapshot {
+            header.flags |= FrameHeader::SNAPSHOT;
+        }
+        header.fields = TraceRow::COUNT as u64;
+        if self.scheme == Scheme::Weak {
+            self.step_weakly(plan)?;
+        }
+        let (solver, edges, weak) = (&self.solver, &self.edges, self.scheme == Scheme::Weak);
+        let mut filled = Duration::ZERO;
+        link.send(header, |payload| {
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
+            if weak {
+                solver.wall_cells(|face, pressure, velocity| {
+                    payload[TraceRow::Pressure as usize * faces + face] = pressure;
+                    payload[TraceRow::NormalVelocity as usize * faces + face] = velocity;
+                });
+            } else {
+                solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
+            }
+            filled = start.elapsed();
+        })?;
+        // What comes after the frame is filled is the exchange.
+        self.clock.computing += filled;
+        if weak {
+            self.recorded(plan)?;
+        } else {
+            self.pending = Some(plan);
+        }
+        Ok(Turn::Continues)
+    }
+
+    /// Reads the solid's register frame in place.
+    fn take_answer(&mut self, link: &mut impl Link) -> Result<FrameHeader, RunError> {
+        let faces = self.solver.wall_faces();
+        let (scheme, solver, received) = (self.scheme, &mut self.solver, &mut self.received);
+        let header = link.receive(|frame| {
+            frame.require(FrameKind::Register)?;
+            frame.require_shape(RegisterRow::COUNT, faces)?;
+            if scheme == Scheme::Weak {
+                received.copy_from_slice(RegisterRow::NormalVelocity.of(frame.payload, faces));
+            } else {
+                solver.set_wall(&WallRegister::of(frame.payload, faces));
+            }
+            Ok::<_, coupler::CouplerError>(*frame.header)
+        })??;
+        Ok(header)
+    }
+
+    /// The next step: no longer than either side's limit.
+    fn plan(&mut self, others_limit: f64) -> Result<Option<Plan>, RunError> {
+        let own = self.solver.time_step_limit(self.cfl);
+        self.limited_by = if own <= others_limit { "fluid" } else { "solid" };
+        let limit = own.min(others_limit);
+        if !(limit > self.smallest_step) {
+            return Err(RunError::TimeStepCollapsed {
+                dt: limit,
+                time: self.solver.time(),
+                step: self.solver.steps() + 1,
+                limited_by: self.limited_by,
+            });
+        }
+        let plan = self.schedule.plan(self.solver.time(), limit);
+        self.last_dt = plan.map_or(self.last_dt, |plan| plan.dt);
+        Ok(plan)
+    }
+
+    /// Paper eq. (36): the wall moves with the solid's old velocity, times κ̂ where the paper's factor is on.
+    fn step_weakly(&mut self, plan: Plan) -> Result<(), RunError> {
+        let faces = self.solver.wall_faces();
+        let mut own = vec![[0.0; 2]; faces];
+        let half = 0.5 * plan.dt;
+        self.solver.write_trace(plan.dt, |row, face, value| match row {
+            TraceRow::Pressure => own[face][0] += value,
+            TraceRow::PressureRate => own[face][0] += half * value,
+            TraceRow::NormalVelocity => own[face][1] += value,
+            TraceRow::NormalVelocityRate => own[face][1] += half * value,
+            _ => {}
+        });
+        // The Courant number of this step: the limit belongs to `cfl`.
+        let courant = self.cfl * plan.dt / self.solver.time_step_limit(self.cfl);
+        let kappa = if self.kappa == Kappa::Off { 1.0 } else { self.factor.next(courant) };
+        let (received, kind) = (&self.received, self.kappa);
+        self.solver.set_wall_from(|face| {
+            let [pressure, own_velocity] = own[face];
+            let velocity = match kind {
+                Kappa::Off => received[face],
+                Kappa::Printed => kappa * received[face],
+                Kappa::Jump => own_velocity + kappa * (received[face] - own_velocity),
+            };
+            WallState { pressure, velocity, power: pressure * velocity }
+        });
+        self.solver.step(plan.dt)?;
+        Ok(())
+    }
+
+    fn header(&self, kind: FrameKind, count: usize, dt: f64) -> FrameHeader {
+        FrameHeader {
+            step: self.solver.steps(),
+            time: self.solver.time(),
+            dt,
+            count: count as u64,
+            ..FrameHeader::new(kind)
+        }
+    }
+
+    fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
+        let start = Instant::now();
+        if let Some(record) = &mut self.record {
+            record.after_step(&self.solver, plan)?;
+        }
+        self.clock.recording += start.elapsed();
+        Ok(())
+    }
+}

@@ -1,0 +1,259 @@
+//! What the solid's side writes: snapshots, histories, its part of the summary.
+
+use mesh::BLOCK;
+use serde_json::{Map, Value, json};
+use solid::SolidSolver;
+
+use super::record::{CellGeometry, ProbeSeries, Ticker, attributes, between_faces, column, probe_series};
+use super::schedule::Plan;
+use crate::case::{Case, Medium, SOLID_FIELDS};
+use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
+use crate::output::{
+    Column, FieldSpec, HistoryFile, OutputError, QuadMesh, RunDirectory, SeriesId, SeriesWriter, Storage,
+};
+
+/// Everything that the solid's side writes.
+pub struct SolidRecord {
+    history: HistoryFile,
+    snapshots: SeriesWriter,
+    fields: Vec<&'static str>,
+    geometry: CellGeometry,
+    steps: SeriesId,
+    /// `/time`, which the fluid writes where there is one.
+    time: Option<SeriesId>,
+    conservation: SeriesId,
+    ticker: Ticker,
+    probes: Vec<ProbeSeries>,
+    edges: Vec<f64>,
+    begin: f64,
+    peak: Peak,
+    initial_energy: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Peak {
+    stress: f64,
+    time: f64,
+    position: [f64; 2],
+    yielded: f64,
+}
+
+impl SolidRecord {
+    /// Makes the files of the solid's side and writes the state at t = 0.
+    pub fn create(
+        case: &Case,
+        directory: &RunDirectory,
+        solver: &SolidSolver<BLOCK>,
+    ) -> Result<Self, OutputError> {
+        let owned = attributes(case);
+        let attributes: Vec<(&str, &str)> =
+            owned.iter().map(|(name, value)| (*name, value.as_str())).collect();
+        let mut history = HistoryFile::create(&directory.file(SOLID_HISTORY), &attributes)?;
+        let steps = history.add_series("/solid", &STEP_COLUMNS)?;
+        let time = match &case.fluid {
+            Some(_) => None,
+            None => Some(history.add_series("", &[column("time", "s", "time after the step")])?),
+        };
+        let conservation = history.add_series("/conservation/solid", &CONSERVATION_COLUMNS)?;
+        let interface_z = case.fluid.as_ref().map(|_| solver.mesh().domain().z[1]);
+        let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, &mut history)?;
+        let has_yield_strength = solver.setup().yield_strength.is_finite();
+        let fields: Vec<&'static str> = (SOLID_FIELDS.iter())
+            .filter(|name| case.output.fields.as_ref().is_none_or(|wanted| wanted.iter().any(|w| w == *name)))
+            // A material without a yield strength has no yield function.
+            .filter(|name| has_yield_strength || **name != "yield_function")
+            .copied()
+            .collect();
+        let specs: Vec<FieldSpec<'_>> = fields.iter().map(|name| field_spec(name)).collect();
+        let path = directory.file(FIELDS_FILE);
+        let snapshots = SeriesWriter::create(&path, &specs, case.output.compression, &attributes)?;
+        let totals = solver.totals();
+        let mut record = Self {
+            history,
+            snapshots,
+            fields,
+            geometry: CellGeometry::of(solver.mesh()),
+            steps,
+            time,
+            conservation,
+            ticker: Ticker::of(case),
+            probes,
+            edges: solver.surface_edges(),
+            begin: solver.mesh().domain().r[0],
+            peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
+            initial_energy: totals.kinetic + totals.elastic,
+        };
+        record.write(solver, 0.0)?;
+        record.snapshot(solver)?;
+        record.history.flush()?;
+        Ok(record)
+    }
+
+    /// Takes notice of a finished step.
+    pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
+        self.write(solver, plan.dt)?;
+        if plan.snapshot {
+            self.snapshot(solver)?;
+        }
+        self.history.flush_if_due()?;
+        Ok(())
+    }
+
+    /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
+    pub fn close(&mut self, solver: &SolidSolver<BLOCK>, failed: bool) -> Result<(), OutputError> {
+        if failed {
+            self.snapshot(solver)?;
+        }
+        self.history.flush()
+    }
+
+    fn write(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
+        let time = solver.time();
+        let mises = solver.mises_peak();
+        let yielded = solver.yielded_volume();
+        self.history
+            .push(self.steps, &[time, mises.stress, mises.position[0], mises.position[1], yielded])?;
+        if let Some(series) = self.time {
+            self.history.push(series, &[time])?;
+        }
+        if mises.stress > self.peak.stress {
+            self.peak = Peak { stress: mises.stress, time, position: mises.position, ..self.peak };
+        }
+        self.peak.yielded = self.peak.yielded.max(yielded);
+        if self.ticker.is_due(time) {
+            let totals = solver.totals();
+            let ledger = solver.ledger();
+            let energy = totals.kinetic + totals.elastic;
+            let dissipated = self.initial_energy + ledger.energy.iter().sum::<f64>() - energy;
+            let mut row = vec![
+                time,
+                totals.mass,
+                totals.momentum_z,
+                energy,
+                totals.kinetic,
+                totals.elastic,
+                dissipated,
+            ];
+            for side in 0..4 {
+                row.extend([ledger.momentum[side], ledger.energy[side]]);
+            }
+            self.history.push(self.conservation, &row)?;
+        }
+        for probe in &self.probes {
+            let Some(state) = solver.sample(probe.probe.position) else { continue };
+            let mut row = [
+                time,
+                state.v_z,
+                state.v_r,
+                state.stress_zz,
+                state.stress_zr,
+                state.stress_rr,
+                state.stress_phiphi,
+            ];
+            if probe.on_interface && dt > 0.0 {
+                let at = |value: &dyn Fn(usize) -> f64| {
+                    between_faces(&self.edges, self.begin, probe.probe.position[1], value)
+                };
+                row[1] = at(&|k| solver.surface()[k].velocity);
+                row[3] = at(&|k| -solver.surface()[k].pressure);
+                // No shear is passed to the fluid.
+                row[4] = 0.0;
+            }
+            self.history.push(probe.series, &row)?;
+        }
+        Ok(())
+    }
+
+    fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
+        let snapshot = solver.snapshot();
+        let values: Vec<&[f64]> = (self.fields.iter())
+            .map(|name| match *name {
+                "velocity" => snapshot.velocity.as_slice(),
+                "stress_zz" => &snapshot.stress_zz,
+                "stress_zr" => &snapshot.stress_zr,
+                "stress_rr" => &snapshot.stress_rr,
+                "stress_phiphi" => &snapshot.stress_phiphi,
+                "von_mises" => &snapshot.von_mises,
+                "yield_function" => &snapshot.yield_function,
+                _ => &snapshot.level,
+            })
+            .collect();
+        let mesh = QuadMesh { points: &self.geometry.points, quads: &self.geometry.quads };
+        self.snapshots.append(solver.time(), &mesh, 0, &values)
+    }
+
+    /// The solid's part of the summary.
+    pub fn summary(&self, solver: &SolidSolver<BLOCK>) -> Map<String, Value> {
+        let strength = solver.setup().yield_strength;
+        let value = json!({
+            "cells": { "solid": solver.mesh().cells() },
+            "von_mises_peak": self.peak.stress,
+            "von_mises_peak_time": self.peak.time,
+            "von_mises_peak_position": self.peak.position,
+            "yield_strength": strength.is_finite().then_some(strength),
+            "yielded_volume_peak": self.peak.yielded,
+        });
+        match value {
+            Value::Object(map) => map,
+            _ => unreachable!("an object was written"),
+        }
+    }
+}
+
+const STEP_COLUMNS: [Column<'static>; 4] = [
+    column("time", "s", "time after the step"),
+    column("von_mises_max", "Pa", "largest von Mises stress in a cell"),
+    Column { name: "von_mises_max_position", unit: "m", description: "centre (z, r) of that cell", width: 2 },
+    column("yielded_volume", "m3", "volume in which the von Mises stress exceeds the yield strength"),
+];
+
+const CONSERVATION_COLUMNS: [Column<'static>; 15] = [
+    column("time", "s", "time"),
+    column("mass", "kg/rad", "mass in the domain, constant (planar: kg/m)"),
+    column("momentum_z", "N s/rad", "axial momentum in the domain"),
+    column("energy", "J/rad", "kinetic and elastic energy in the domain"),
+    column("kinetic_energy", "J/rad", "kinetic energy in the domain"),
+    column("elastic_energy", "J/rad", "elastic energy in the domain"),
+    column(
+        "energy_dissipated",
+        "J/rad",
+        "work done on the solid minus the growth of its energy: the scheme's loss",
+    ),
+    column("momentum_in_z_min", "N s/rad", "axial impulse of the traction on z_min"),
+    column("energy_in_z_min", "J/rad", "work of the traction on z_min"),
+    column("momentum_in_z_max", "N s/rad", "the same on z_max; under a fluid the interface"),
+    column("energy_in_z_max", "J/rad", "the same on z_max; under a fluid the interface"),
+    column("momentum_in_r_min", "N s/rad", "the same on r_min"),
+    column("energy_in_r_min", "J/rad", "the same on r_min"),
+    column("momentum_in_r_max", "N s/rad", "the same on r_max"),
+    column("energy_in_r_max", "J/rad", "the same on r_max"),
+];
+
+const PROBE_COLUMNS: [Column<'static>; 7] = [
+    column("time", "s", "time after the step"),
+    column(
+        "velocity_z",
+        "m/s",
+        "axial velocity; on the interface that of the star state, mean over the step",
+    ),
+    column("velocity_r", "m/s", "radial velocity"),
+    column("stress_zz", "Pa", "axial stress; on the interface that of the star state, mean over the step"),
+    column("stress_zr", "Pa", "shear stress"),
+    column("stress_rr", "Pa", "radial stress"),
+    column("stress_phiphi", "Pa", "hoop stress"),
+];
+
+fn field_spec(name: &'static str) -> FieldSpec<'static> {
+    let spec =
+        |components, unit, description, storage| FieldSpec { name, components, unit, description, storage };
+    match name {
+        "velocity" => spec(3, "m/s", "velocity (z, r, 0)", Storage::F64),
+        "stress_zz" => spec(1, "Pa", "axial stress, positive in tension", Storage::F64),
+        "stress_zr" => spec(1, "Pa", "shear stress", Storage::F64),
+        "stress_rr" => spec(1, "Pa", "radial stress", Storage::F64),
+        "stress_phiphi" => spec(1, "Pa", "hoop stress", Storage::F64),
+        "von_mises" => spec(1, "Pa", "von Mises stress", Storage::F64),
+        "yield_function" => spec(1, "Pa", "von Mises stress minus yield strength", Storage::F64),
+        _ => spec(1, "1", "refinement level", Storage::U8),
+    }
+}

@@ -1,0 +1,195 @@
+//! The solid's part of the step loop: it answers the fluid's trace with what the wall did.
+
+use std::time::{Duration, Instant};
+
+use coupler::{FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme, StarSolver, TraceRow};
+use mesh::BLOCK;
+use serde_json::{Map, Value, json};
+use solid::{Interface, SolidSolver};
+
+use super::RunError;
+use super::fluid_side::{Clock, Turn};
+use super::schedule::{Plan, Schedule};
+use super::setup::solid_solver;
+use super::solid_record::SolidRecord;
+use super::stop::Stop;
+use crate::case::{Case, SolidCase};
+use crate::output::RunDirectory;
+
+/// The solid with its place in a run.
+pub struct SolidSide {
+    solver: SolidSolver<BLOCK>,
+    record: Option<SolidRecord>,
+    interface: Interface,
+    schedule: Schedule,
+    cfl: f64,
+    scheme: Scheme,
+    star: StarSolver,
+    kappa: Kappa,
+    factor: KappaFactor,
+    /// Outer radii of the fluid's faces on the interface.
+    fluid_edges: Vec<f64>,
+    last_dt: f64,
+    clock: Clock,
+}
+
+impl SolidSide {
+    /// The solid of a case; with a directory it writes what happens.
+    pub fn new(case: &Case, solid: &SolidCase, directory: Option<&RunDirectory>) -> Result<Self, RunError> {
+        let solver = solid_solver(case, solid)?;
+        let record = directory.map(|d| SolidRecord::create(case, d, &solver)).transpose()?;
+        // Until the first trace arrives the fluid's faces are known from the case, which both sides share.
+        let fluid_edges = case.fluid.as_ref().map_or_else(Vec::new, |fluid| {
+            let [begin, end] = fluid.grid.r;
+            let n = fluid.grid.finest()[1];
+            (1..=n).map(|k| begin + (end - begin) * (k as f64 / n as f64)).collect()
+        });
+        Ok(Self {
+            solver,
+            record,
+            interface: Interface::default(),
+            schedule: Schedule::new(&case.time.snapshots),
+            cfl: case.time.cfl,
+            scheme: case.coupling.scheme,
+            star: case.coupling.star,
+            kappa: case.coupling.kappa,
+            factor: KappaFactor::default(),
+            fluid_edges,
+            last_dt: 0.0,
+            clock: Clock::default(),
+        })
+    }
+
+    /// The solver.
+    pub fn solver(&self) -> &SolidSolver<BLOCK> {
+        &self.solver
+    }
+
+    /// Writes what is still in memory; after a numerical failure the last good state, too.
+    pub fn close(&mut self, failed: bool) -> Result<(), RunError> {
+        if let Some(record) = &mut self.record {
+            record.close(&self.solver, failed)?;
+        }
+        Ok(())
+    }
+
+    /// This side's part of the summary.
+    pub fn summary(&self) -> Map<String, Value> {
+        let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
+        part.insert("fixups".to_owned(), json!({ "floored_stars": self.interface.floored() }));
+        part
+    }
+
+    /// The last step's length, s.
+    pub fn last_dt(&self) -> f64 {
+        self.last_dt
+    }
+
+    /// Where the time went.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// One step without a fluid. `None` when the run is over.
+    pub fn step_alone(&mut self) -> Result<Option<Plan>, RunError> {
+        let start = Instant::now();
+        let limit = self.solver.time_step_limit(self.cfl);
+        let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(None) };
+        self.last_dt = plan.dt;
+        self.solver.step(plan.dt)?;
+        self.clock.computing += start.elapsed();
+        self.recorded(plan)?;
+        Ok(Some(plan))
+    }
+
+    /// The first word: how long a step the solid allows, and in the weak scheme its velocities.
+    pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
+        self.answer(link, stop)
+    }
+
+    /// The solid's turn: takes the fluid's trace, makes the step, answers.
+    pub fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
+        let (scheme, star, kappa, cfl) = (self.scheme, self.star, self.kappa, self.cfl);
+        let (solver, interface, factor, edges) =
+            (&mut self.solver, &mut self.interface, &mut self.factor, &mut self.fluid_edges);
+        let clock = &mut self.clock;
+        let header = link.receive(|frame| {
+            frame.require(FrameKind::Trace)?;
+            if frame.header.has(FrameHeader::LAST) {
+                return Ok(*frame.header);
+            }
+            let faces = frame.header.count as usize;
+            frame.require_shape(TraceRow::COUNT, faces)?;
+            let start = Instant::now();
+            let dt = frame.header.dt;
+            if edges.as_slice() != TraceRow::Edge.of(frame.payload, faces) {
+                *edges = TraceRow::Edge.of(frame.payload, faces).to_vec();
+            }
+            if scheme == Scheme::Weak {
+                let courant = cfl * dt / solver.time_step_limit(cfl);
+                let factor = if kappa == Kappa::Off { 1.0 } else { factor.next(courant) };
+                solver.load_weakly(interface, frame.payload, faces, dt, |received, own| match kappa {
+                    Kappa::Off => received,
+                    Kappa::Printed => factor * received,
+                    Kappa::Jump => own + factor * (received - own),
+                });
+            } else {
+                solver.meet_fluid(interface, frame.payload, faces, dt, star);
+            }
+            clock.computing += start.elapsed();
+            Ok::<_, coupler::CouplerError>(*frame.header)
+        })??;
+        if header.has(FrameHeader::LAST) {
+            return Ok(Turn::Over(header.flags & !FrameHeader::LAST));
+        }
+        let plan = Plan { dt: header.dt, snapshot: header.has(FrameHeader::SNAPSHOT) };
+        let start = Instant::now();
+        self.solver.step(plan.dt)?;
+        self.last_dt = plan.dt;
+        self.clock.computing += start.elapsed();
+        self.recorded(plan)?;
+        self.answer(link, stop)?;
+        Ok(Turn::Continues)
+    }
+
+    /// Sends the register of the last step, the admissible next step, and what this side was asked to do.
+    fn answer(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
+        let start = Instant::now();
+        let faces = self.fluid_edges.len();
+        let header = FrameHeader {
+            step: self.solver.steps(),
+            time: self.solver.time(),
+            dt: self.last_dt,
+            dt_max: self.solver.time_step_limit(self.cfl),
+            fields: RegisterRow::COUNT as u64,
+            count: faces as u64,
+            flags: stop.flags(),
+            ..FrameHeader::new(FrameKind::Register)
+        };
+        let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
+        let (weak, first) = (self.scheme == Scheme::Weak, solver.steps() == 0);
+        let mut filled = Duration::ZERO;
+        link.send(header, |payload| {
+            let put =
+                |row: RegisterRow, face: usize, value: f64| payload[row as usize * faces + face] = value;
+            if weak {
+                solver.write_cell_velocities(interface, edges, put);
+            } else if !first {
+                interface.write_register(put);
+            }
+            filled = start.elapsed();
+        })?;
+        // What comes after the frame is filled is the exchange.
+        self.clock.computing += filled;
+        Ok(())
+    }
+
+    fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
+        let start = Instant::now();
+        if let Some(record) = &mut self.record {
+            record.after_step(&self.solver, plan)?;
+        }
+        self.clock.recording += start.elapsed();
+        Ok(())
+    }
+}
