@@ -2,17 +2,22 @@
 
 #![forbid(unsafe_code)]
 
+use std::fs::OpenOptions;
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Mutex;
 
 use cav::case::{Case, CaseErrors, materials_table, report};
+use cav::output::run_directory::LOG;
 use cav::run::drive::Joining;
-use cav::run::launch::{Options, directory_of, run_side};
+use cav::run::launch::{Options, run_side};
 use cav::run::stop::Stop;
 use cav::run::{RunError, run};
 use clap::{Args, Parser, Subcommand};
 use coupler::Participant;
+use tracing::Level;
+use tracing_subscriber::fmt::writer::MakeWriterExt;
 
 /// A cavitation bubble collapsing near an elastic solid: what it does to the wall.
 #[derive(Parser)]
@@ -138,8 +143,7 @@ fn run_case(args: &RunArgs) -> Result<(), RunError> {
     let options = args.common.options(args.in_process);
     let case = Case::load(&options.case_path, &options.sets)?;
     let stop = Stop::on_signals()?;
-    log_to_stderr(options.verbosity);
-    run(&case, &options, &stop).map(|_| ())
+    run(&case, &options, &stop, |directory| log_to(directory, options.verbosity, true)).map(|_| ())
 }
 
 fn side(args: &SideArgs, participant: Participant) -> Result<(), RunError> {
@@ -148,12 +152,10 @@ fn side(args: &SideArgs, participant: Participant) -> Result<(), RunError> {
     let stop = Stop::on_signals()?;
     if args.child {
         stop.watch_launcher();
-        log_to_file(&directory_of(&case, options.out.as_deref()), options.verbosity);
-    } else {
-        log_to_stderr(options.verbosity);
     }
     let joining = Joining { run_id: args.run.clone(), participant };
-    run_side(&case, &options, joining, args.child, &stop)
+    let log = |directory: &Path| log_to(directory, options.verbosity, !args.child);
+    run_side(&case, &options, joining, args.child, &stop, log)
 }
 
 fn print(text: &str) -> Result<(), RunError> {
@@ -175,27 +177,21 @@ fn render(errors: &CaseErrors) -> String {
     errors.render(std::io::stderr().is_terminal())
 }
 
-fn level(verbosity: u8) -> tracing::Level {
-    match verbosity {
-        0 => tracing::Level::WARN,
-        1 => tracing::Level::INFO,
-        _ => tracing::Level::DEBUG,
-    }
-}
-
-fn log_to_stderr(verbosity: u8) {
-    if verbosity > 0 {
-        tracing_subscriber::fmt().with_max_level(level(verbosity)).with_writer(std::io::stderr).init();
-    }
-}
-
-fn log_to_file(directory: &std::path::Path, verbosity: u8) {
-    let path = directory.join(cav::output::run_directory::LOG);
-    if let Ok(file) = std::fs::OpenOptions::new().create(true).append(true).open(path) {
-        tracing_subscriber::fmt()
-            .with_max_level(level(verbosity.max(1)))
-            .with_ansi(false)
-            .with_writer(std::sync::Mutex::new(file))
-            .init();
+/// Logs to the run directory, and with `-v` to the terminal unless the launcher does.
+fn log_to(directory: &Path, verbosity: u8, to_terminal: bool) {
+    let level = if verbosity > 1 { Level::DEBUG } else { Level::INFO };
+    let on_terminal = match verbosity {
+        0 => Level::ERROR,
+        1 => Level::INFO,
+        _ => Level::DEBUG,
+    };
+    let path = directory.join(LOG);
+    // A run does not fail for want of a log; what matters is in its other files and on the terminal.
+    let Ok(file) = OpenOptions::new().create(true).append(true).open(path) else { return };
+    let builder = tracing_subscriber::fmt().with_max_level(level).with_ansi(false);
+    if to_terminal && verbosity > 0 {
+        builder.with_writer(Mutex::new(file).and(std::io::stderr.with_max_level(on_terminal))).init();
+    } else {
+        builder.with_writer(Mutex::new(file)).init();
     }
 }

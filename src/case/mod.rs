@@ -235,7 +235,8 @@ pub struct OutputCase {
     pub compression: u8,
     /// Cells of the radial grid of the interface's history; the finest fluid faces if absent.
     pub interface_cells: Option<usize>,
-    /// Interval of the interface's history, s; every step if absent.
+    /// Interval of the histories of the interface and of the conserved quantities, s; a thousandth of the run if
+    /// absent.
     pub interface_every: Option<f64>,
 }
 

@@ -138,10 +138,15 @@ impl Progress {
 
     /// Takes the bar away and shows a last message.
     pub fn finish(&self, text: &str) {
+        self.clear();
+        self.message(text);
+    }
+
+    /// Takes the bar away.
+    pub fn clear(&self) {
         if let Display::Bar(bar) = &self.display {
             bar.finish_and_clear();
         }
-        self.message(text);
     }
 
     fn fraction(&self, line: &ProgressLine) -> f64 {

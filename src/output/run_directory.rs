@@ -97,6 +97,14 @@ impl RunDirectory {
         Ok(directory)
     }
 
+    /// Waits until nobody else holds the directory, and holds it until the returned value is dropped.
+    pub fn wait_for_lock(&self) -> Result<File, OutputError> {
+        let directory =
+            File::open(&self.path).map_err(OutputError::io(&self.path, "open the run directory"))?;
+        directory.lock().map_err(OutputError::io(&self.path, "lock the run directory"))?;
+        Ok(directory)
+    }
+
     /// The directory's path.
     pub fn path(&self) -> &Path {
         &self.path

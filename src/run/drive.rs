@@ -108,7 +108,7 @@ pub struct Joining {
 pub fn joined(
     case: &Case,
     joining: Joining,
-    directory: impl FnOnce() -> Result<RunDirectory, RunError>,
+    directory: impl FnOnce() -> Result<RunDirectory, RunError> + Send,
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {

@@ -228,9 +228,9 @@ impl FluidRecord {
         };
         let collapse = self.collapse.found();
         let fixups = solver.fixups();
-        let with_bubble = self.interface.is_some();
-        let peak = |[value, _]: [f64; 2]| if with_bubble { json!(value) } else { Value::Null };
-        let peak_time = |[_, time]: [f64; 2]| if with_bubble { json!(time) } else { Value::Null };
+        let with_wall = self.interface.is_some();
+        let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
+        let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
         let value = json!({
             "cells": { "fluid": solver.mesh().cells() },
             "collapse_time": collapse.map(|c| c.time),

@@ -55,15 +55,24 @@ pub fn directory_of(case: &Case, out: Option<&Path>) -> PathBuf {
 /// Runs a case and leaves a run directory.
 ///
 /// - errors: see [`RunError`]; what was computed is written in any case.
-pub fn run(case: &Case, options: &Options, stop: &Stop) -> Result<PathBuf, RunError> {
+/// - `on_directory`: told of the run directory as soon as it is there, for the log.
+pub fn run(
+    case: &Case,
+    options: &Options,
+    stop: &Stop,
+    on_directory: impl FnOnce(&Path),
+) -> Result<PathBuf, RunError> {
     let directory = prepare(case, options)?;
+    on_directory(directory.path());
+    log_case(case);
     let coupled = case.fluid.is_some() && case.solid.is_some();
     let mut progress = Progress::new(case.time.end, options.quiet, options.verbosity);
     for warning in case.warnings() {
+        tracing::warn!("{warning}");
         progress.message(&format!("warning: {warning}"));
     }
     let result = if coupled && !options.in_process {
-        two_processes(case, options, &directory, stop, &mut progress)
+        two_processes(options, &directory, stop, &mut progress)
     } else {
         let threads = thread_pool(options.threads)?;
         let mut on_step = |line: &ProgressLine| progress.update(line);
@@ -74,8 +83,12 @@ pub fn run(case: &Case, options: &Options, stop: &Stop) -> Result<PathBuf, RunEr
     };
     let whole = conclude(&directory)?;
     match &result {
-        Ok(()) => progress.finish(&closing_words(&whole, directory.path())),
-        Err(_) => progress.finish(""),
+        Ok(()) => {
+            let words = closing_words(&whole, directory.path());
+            tracing::info!("{words}");
+            progress.finish(&words);
+        }
+        Err(_) => progress.clear(),
     }
     result.map(|()| directory.path().to_path_buf())
 }
@@ -86,6 +99,12 @@ pub fn prepare(case: &Case, options: &Options) -> Result<RunDirectory, RunError>
     let directory = RunDirectory::prepare(&path, options.force).map_err(RunError::Directory)?;
     directory.write_atomic(CASE, case.effective_toml().as_bytes())?;
     Ok(directory)
+}
+
+/// What the log begins with.
+fn log_case(case: &Case) {
+    let hash: String = case.hash().iter().map(|byte| format!("{byte:02x}")).collect();
+    tracing::info!(version = env!("CARGO_PKG_VERSION"), case = case.name, hash, "run");
 }
 
 /// A pool of worker threads; all processors unless told otherwise.
@@ -165,7 +184,6 @@ pub fn new_run_id() -> String {
 }
 
 fn two_processes(
-    case: &Case,
     options: &Options,
     directory: &RunDirectory,
     stop: &Stop,
@@ -223,7 +241,7 @@ fn two_processes(
         // A killed process leaves its shared memory to whoever comes next: to us.
         clean_up_dead(&coupler::Domain::default())?;
     }
-    verdict(case, &sides)
+    verdict(&sides)
 }
 
 fn start(
@@ -295,7 +313,7 @@ fn forward(side: &mut Side, signal: Signal) {
 }
 
 /// What the ends of both processes mean together: the cause, not its consequence on the other side.
-fn verdict(_case: &Case, sides: &[Side]) -> Result<(), RunError> {
+fn verdict(sides: &[Side]) -> Result<(), RunError> {
     if let Some(side) = sides.iter().find(|side| side.signal.is_some()) {
         let signal = side.signal.unwrap_or(0);
         let what = format!("was killed by signal {signal}; the other side ended, what it had is written");
@@ -327,14 +345,20 @@ pub fn run_side(
     joining: drive::Joining,
     child: bool,
     stop: &Stop,
+    on_directory: impl FnOnce(&Path) + Send,
 ) -> Result<(), RunError> {
     let path = directory_of(case, options.out.as_deref());
     let leads = joining.participant == Participant::Fluid && !child;
     // By hand the fluid makes the directory before the solid can find it, and both leave the summary.
     let prepared = if leads { Some(prepare(case, options)?) } else { None };
-    let directory = || match prepared {
-        Some(directory) => Ok(directory),
-        None => RunDirectory::open(&path).map_err(RunError::Directory),
+    let directory = || {
+        let directory = match prepared {
+            Some(directory) => directory,
+            None => RunDirectory::open(&path).map_err(RunError::Directory)?,
+        };
+        on_directory(directory.path());
+        log_case(case);
+        Ok(directory)
     };
     let mut progress = Progress::new(case.time.end, options.quiet || child || !leads, options.verbosity);
     let mut throttle = crate::output::progress::Throttle::new(Duration::from_millis(100));
@@ -350,7 +374,10 @@ pub fn run_side(
         drive::joined(case, joining, directory, stop, &mut on_step)
     });
     if !child && path.exists() {
-        conclude(&RunDirectory::open(&path).map_err(RunError::Directory)?)?;
+        let directory = RunDirectory::open(&path).map_err(RunError::Directory)?;
+        // Both sides do this, one after the other: the last one finds both parts.
+        let _turn = directory.wait_for_lock()?;
+        conclude(&directory)?;
     }
     result
 }

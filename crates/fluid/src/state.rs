@@ -2,14 +2,12 @@
 
 use crate::Mixture;
 
-/// Conserved components of the one-density model, in the order in which fields hold them.
+/// Conserved components of the one-density model, in the order in which fields hold them: ρ, ρv_z, ρv_r, ρE, φ.
 pub(crate) mod conserved {
     /// Density ρ.
     pub const RHO: usize = 0;
     /// Axial momentum ρv_z.
     pub const MOMENTUM_Z: usize = 1;
-    /// Radial momentum ρv_r.
-    pub const MOMENTUM_R: usize = 2;
     /// Total energy per volume ρE.
     pub const ENERGY: usize = 3;
     /// Gas fraction φ (advected, not conserved).

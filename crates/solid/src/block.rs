@@ -5,7 +5,7 @@ use mesh::{Field, Limiter, Mesh, Padded, Side, limited_differences};
 use crate::Boundary;
 use crate::boundary::{Boundaries, SurfaceState};
 use crate::rows::{self, Elasticity, FaceRows, Metric, Reconstruction};
-use crate::state::component::COUNT;
+use crate::state::component::{COUNT, S_PHIPHI};
 
 /// What all blocks of a step share.
 pub(crate) struct StepContext<'a, const N: usize> {
@@ -75,7 +75,8 @@ pub(crate) fn reconstruct<const N: usize>(
     let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
     cells.assemble(ctx.mesh.tree(), ctx.old, slot);
     ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
-    for component in 0..COUNT - 1 {
+    // No derivative of the hoop stress enters.
+    for component in 0..S_PHIPHI {
         limited_differences(
             ctx.limiter,
             cells.component(component),
@@ -136,7 +137,7 @@ pub(crate) fn step_block<const N: usize>(
         std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
         &scratch.z_faces,
         &scratch.r_faces,
-        scratch.half.component(COUNT - 1),
+        scratch.half.component(S_PHIPHI),
         ctx.dt,
         &metric,
         ctx.elasticity,

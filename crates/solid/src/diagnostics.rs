@@ -3,7 +3,7 @@
 use mesh::{Geometry, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
-use crate::state::component::COUNT;
+use crate::state::component::{COUNT, S_PHIPHI};
 use crate::{ElasticState, SolidSolver, von_mises, yield_function};
 
 /// The largest von Mises stress and where it is.
@@ -93,18 +93,21 @@ impl<const N: usize> SolidSolver<N> {
             let mut block = [0.0; 4];
             for j in 0..N {
                 let volume = self.mesh.volume(*id, j);
-                let mut row = [0.0; 4];
+                let [v_z, v_r, zz, zr, rr, pp]: [&[f64]; COUNT] =
+                    std::array::from_fn(|c| &self.state.component(slot, c)[j * N..(j + 1) * N]);
+                let (mut velocity, mut speed_squared, mut strain) = (0.0, 0.0, 0.0);
                 for i in 0..N {
-                    let [v_z, v_r, zz, zr, rr, pp] = self.cell(slot, i, j).to_array();
-                    let mean = (zz + rr + pp) / 3.0;
-                    let deviator =
-                        (zz - mean).powi(2) + (rr - mean).powi(2) + (pp - mean).powi(2) + 2.0 * zr * zr;
-                    row[0] += density;
-                    row[1] += density * v_z;
-                    row[2] += 0.5 * density * (v_z * v_z + v_r * v_r);
-                    row[3] += mean * mean / (2.0 * bulk) + deviator / (4.0 * mu);
+                    let mean = (zz[i] + rr[i] + pp[i]) / 3.0;
+                    let (a, b, c) = (zz[i] - mean, rr[i] - mean, pp[i] - mean);
+                    let deviator = a * a + b * b + c * c + 2.0 * zr[i] * zr[i];
+                    velocity += v_z[i];
+                    speed_squared += v_z[i] * v_z[i] + v_r[i] * v_r[i];
+                    strain += mean * mean / (2.0 * bulk) + deviator / (4.0 * mu);
                 }
-                block.iter_mut().zip(row).for_each(|(sum, value)| *sum += volume * value);
+                block[0] += volume * density * N as f64;
+                block[1] += volume * density * velocity;
+                block[2] += volume * 0.5 * density * speed_squared;
+                block[3] += volume * strain;
             }
             totals.mass += block[0];
             totals.momentum_z += block[1];
@@ -124,13 +127,13 @@ impl<const N: usize> SolidSolver<N> {
             reconstruct(&self.context(0.0), slot, scratch);
             let k = Padded::<N>::index(i as isize, j as isize);
             let BlockScratch { cells, s_z, s_r, .. } = scratch;
-            let hoop = cells.component(COUNT - 1);
+            let hoop = cells.component(S_PHIPHI);
             let stride = Padded::<N>::STRIDE;
             let limiter = self.setup.limiter;
             let hoop_slope =
                 |step: usize| limiter.difference(hoop[k] - hoop[k - step], hoop[k + step] - hoop[k]);
             ElasticState::from_array(std::array::from_fn(|c| {
-                let (d_z, d_r) = if c == COUNT - 1 {
+                let (d_z, d_r) = if c == S_PHIPHI {
                     (hoop_slope(1), hoop_slope(stride))
                 } else {
                     (s_z.component(c)[k], s_r.component(c)[k])

@@ -8,7 +8,7 @@ use mesh::{Geometry, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
 use crate::rows::rates;
-use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
+use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
 use crate::{SolidSolver, SurfaceState};
 
 /// What the solid knows of its interface with the fluid: faces, sub-faces, and the last step's star states.
@@ -184,7 +184,8 @@ impl<const N: usize> SolidSolver<N> {
                     let k = Padded::<N>::index(N as isize - 1, j as isize);
                     let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);
                     // The hoop stress has no difference: no derivative of it enters.
-                    let of = |rows: &Padded<N>, c: usize| if c < 5 { rows.component(c)[k] } else { 0.0 };
+                    let of =
+                        |rows: &Padded<N>, c: usize| if c == S_PHIPHI { 0.0 } else { rows.component(c)[k] };
                     let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
                     let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
                     let rate = rates(w, d_z, d_r, inverse_r[k], &self.elasticity);

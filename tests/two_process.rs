@@ -1,0 +1,335 @@
+//! Runs in two processes: the same numbers as in one, and what happens when something goes wrong.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// A small coupled case: a bubble over steel, 32 × 32 cells a side.
+const SMALL: &str = r#"
+[time]
+end = 4e-5
+snapshots = [1e-5]
+[fluid]
+z = [0.01, 0.06]
+r = [0.0, 0.05]
+cells = [4, 4]
+levels = 3
+limiter = "minmod"
+[fluid.liquid]
+gamma = 7.15
+pi = 3e8
+[fluid.gas]
+gamma = 1.4
+pi = 0.0
+[fluid.ambient]
+phase = "liquid"
+density = 1000.0
+pressure = 5e7
+[[fluid.region]]
+shape = "sphere"
+centre = [0.03, 0.0]
+radius = 0.01
+phase = "gas"
+density = 0.0266
+pressure = 2118.0
+[solid]
+z = [-0.04, 0.01]
+r = [0.0, 0.05]
+cells = [4, 4]
+levels = 3
+limiter = "minmod"
+material = "structural-steel"
+[[probe]]
+name = "wall"
+position = [0.01, 0.0]
+medium = "fluid"
+[[probe]]
+name = "steel"
+position = [0.01, 0.004]
+medium = "solid"
+"#;
+
+struct Workshop {
+    directory: tempfile::TempDir,
+}
+
+impl Workshop {
+    fn new() -> Self {
+        let directory = tempfile::tempdir().expect("a temporary directory");
+        fs::write(directory.path().join("case.toml"), SMALL).expect("the case is written");
+        Self { directory }
+    }
+
+    fn case(&self) -> PathBuf {
+        self.directory.path().join("case.toml")
+    }
+
+    fn out(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    /// `cav COMMAND case.toml --out NAME ...`.
+    fn cav(&self, command: &str, out: &str, more: &[&str]) -> Command {
+        let mut cav = Command::new(env!("CARGO_BIN_EXE_cav"));
+        cav.arg(command).arg(self.case()).arg("--out").arg(self.out(out)).args(more);
+        cav.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        cav
+    }
+
+    fn run(&self, out: &str, more: &[&str]) -> Output {
+        self.cav("run", out, more).output().expect("cav starts")
+    }
+}
+
+fn text(output: &Output) -> String {
+    format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
+}
+
+fn summary(directory: &Path) -> serde_json::Value {
+    let text = fs::read_to_string(directory.join("summary.json")).expect("there is a summary");
+    serde_json::from_str(&text).expect("it is JSON")
+}
+
+/// All datasets of a history with their numbers as bits.
+fn datasets(path: &Path) -> Vec<(String, Vec<u64>)> {
+    fn walk(group: &hdf5::Group, found: &mut Vec<(String, Vec<u64>)>) {
+        for dataset in group.datasets().expect("datasets") {
+            let values = dataset.read_raw::<f64>().expect("numbers");
+            found.push((dataset.name(), values.iter().map(|v| v.to_bits()).collect()));
+        }
+        for inner in group.groups().expect("groups") {
+            walk(&inner, found);
+        }
+    }
+    let file = hdf5::File::open(path).expect("the history opens");
+    let mut found = Vec::new();
+    walk(&file, &mut found);
+    found.sort();
+    found
+}
+
+/// The processes of this executable whose command line names this directory.
+fn processes_of(out: &Path) -> Vec<(u32, String)> {
+    let wanted = out.to_string_lossy().into_owned();
+    let mut found = Vec::new();
+    for entry in fs::read_dir("/proc").expect("proc").flatten() {
+        let Ok(pid) = entry.file_name().to_string_lossy().parse::<u32>() else { continue };
+        let line = fs::read(entry.path().join("cmdline")).unwrap_or_default();
+        let words: Vec<String> =
+            line.split(|b| *b == 0).map(|w| String::from_utf8_lossy(w).into_owned()).collect();
+        let is_zombie = fs::read_to_string(entry.path().join("stat")).is_ok_and(|s| s.contains(") Z "));
+        if words.first().is_some_and(|w| w.ends_with("cav")) && words.contains(&wanted) && !is_zombie {
+            found.push((pid, words[1].clone()));
+        }
+    }
+    found
+}
+
+fn wait_until(what: &str, limit: Duration, mut done: impl FnMut() -> bool) {
+    let begin = Instant::now();
+    while !done() {
+        assert!(begin.elapsed() < limit, "waited {limit:?} for: {what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Kills or signals by number; there is no process group to hit by accident.
+fn signal(pid: u32, signal: &str) {
+    let status = Command::new("kill").args([signal, &pid.to_string()]).status().expect("kill runs");
+    assert!(status.success(), "kill {signal} {pid}");
+}
+
+/// Shared objects of cav that belong to processes of this run (their file names do not say whose they are, so
+/// this is only asked where no other run is under way in the same domain).
+fn segments() -> Vec<String> {
+    let names = fs::read_dir("/dev/shm").expect("shared memory").flatten();
+    let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    names.filter(|name| name.starts_with("cav_") && !name.ends_with(".global_mgmt")).collect()
+}
+
+fn running(workshop: &Workshop, out: &str, child: &mut Child, sides: usize) -> Vec<(u32, String)> {
+    let path = workshop.out(out);
+    wait_until("both sides step", Duration::from_secs(30), || {
+        assert!(child.try_wait().expect("a look").is_none(), "the run ended early");
+        path.join("history.h5").exists()
+    });
+    let processes: Vec<_> = processes_of(&path).into_iter().filter(|(_, command)| command != "run").collect();
+    assert_eq!(processes.len(), sides, "{processes:?}");
+    processes
+}
+
+/// A run long enough to be disturbed.
+const LONG: [&str; 2] = ["--set", "time.end=1e-2"];
+
+// One test after the other: they share the machine's two cores and its shared memory.
+#[test]
+fn two_processes() {
+    same_numbers_in_one_process_and_in_two();
+    runs_side_by_side_do_not_meet();
+    by_hand_in_two_terminals();
+    another_case_is_refused();
+    an_absent_peer_is_named();
+    a_killed_side_ends_the_other("fluid");
+    a_killed_side_ends_the_other("solid");
+    a_killed_launcher_ends_both();
+    an_interrupt_stops_both_sides("-INT", 130);
+    an_interrupt_stops_both_sides("-TERM", 143);
+    a_numerical_failure_is_told();
+    nothing_is_left_in_shared_memory();
+}
+
+fn same_numbers_in_one_process_and_in_two() {
+    let workshop = Workshop::new();
+    let runs: [(&str, &[&str]); 4] = [
+        ("two", &[]),
+        ("two-one-thread", &["--threads", "1"]),
+        ("one", &["--in-process"]),
+        ("one-one-thread", &["--in-process", "--threads", "1"]),
+    ];
+    for scheme in [&[][..], &["--set", "coupling.scheme=weak", "--set", "coupling.kappa=jump"]] {
+        for (name, flags) in runs {
+            let output = workshop.run(name, &[flags, scheme, &["--force", "-q"]].concat());
+            assert!(output.status.success(), "{name}: {}", text(&output));
+        }
+        let reference = datasets(&workshop.out("two/history.h5"));
+        assert!(reference.len() > 40, "{} datasets", reference.len());
+        assert!(reference.iter().any(|(name, values)| name == "/bubble/volume" && values.len() > 50));
+        for (name, _) in &runs[1..] {
+            let other = datasets(&workshop.out(name).join("history.h5"));
+            assert_eq!(reference.len(), other.len(), "{name}");
+            for (a, b) in reference.iter().zip(&other) {
+                assert!(a == b, "{name}: {} differs from {}", b.0, a.0);
+            }
+        }
+    }
+}
+
+fn runs_side_by_side_do_not_meet() {
+    let workshop = Workshop::new();
+    let mut first = workshop.cav("run", "first", &["-q"]).spawn().expect("starts");
+    let second = workshop.run("second", &["-q", "--set", "fluid.ambient.pressure=2e7"]);
+    assert!(second.status.success(), "{}", text(&second));
+    assert!(first.wait().expect("ends").success());
+    let peaks =
+        ["first", "second"].map(|name| summary(&workshop.out(name))["wall_pressure_peak"].as_f64().unwrap());
+    assert!(peaks[0] > 1.5 * peaks[1], "{peaks:?}");
+}
+
+fn by_hand_in_two_terminals() {
+    let workshop = Workshop::new();
+    let id = format!("by-hand-{}", std::process::id());
+    let solid = workshop.cav("solid", "hand", &["--run", &id]).spawn().expect("starts");
+    std::thread::sleep(Duration::from_millis(300));
+    let fluid = workshop.cav("fluid", "hand", &["--run", &id]).output().expect("starts");
+    let solid = solid.wait_with_output().expect("ends");
+    assert!(fluid.status.success(), "{}", text(&fluid));
+    assert!(solid.status.success(), "{}", text(&solid));
+    let summary = summary(&workshop.out("hand"));
+    assert_eq!(summary["completed"], true);
+    assert!(summary["von_mises_peak"].is_number() && summary["wall_pressure_peak"].is_number());
+    assert!(workshop.run("reference", &["-q"]).status.success());
+    let (hand, launched) = (workshop.out("hand/history.h5"), workshop.out("reference/history.h5"));
+    assert!(datasets(&hand) == datasets(&launched), "by hand and launched differ");
+}
+
+fn another_case_is_refused() {
+    let workshop = Workshop::new();
+    let id = format!("refused-{}", std::process::id());
+    let more = ["--run", &id, "--set", "fluid.liquid.gamma=7.0"];
+    let solid = workshop.cav("solid", "refused", &more).spawn().expect("starts");
+    let fluid = workshop.cav("fluid", "refused", &["--run", &id]).output().expect("starts");
+    let solid = solid.wait_with_output().expect("ends");
+    for output in [&fluid, &solid] {
+        assert_eq!(output.status.code(), Some(4), "{}", text(output));
+    }
+    assert!(
+        text(&fluid).contains("case") && text(&solid).contains("case"),
+        "{}{}",
+        text(&fluid),
+        text(&solid)
+    );
+}
+
+fn an_absent_peer_is_named() {
+    let workshop = Workshop::new();
+    let id = format!("absent-{}", std::process::id());
+    let output =
+        workshop.cav("fluid", "absent", &["--run", &id, "--set", "coupling.connect_timeout=0.5"]).output();
+    let output = output.expect("starts");
+    assert_eq!(output.status.code(), Some(4));
+    assert!(text(&output).contains("solid"), "{}", text(&output));
+}
+
+fn a_killed_side_ends_the_other(victim: &str) {
+    let workshop = Workshop::new();
+    let mut run = workshop.cav("run", "killed", &LONG).spawn().expect("starts");
+    let sides = running(&workshop, "killed", &mut run, 2);
+    let (pid, _) = sides.iter().find(|(_, name)| name == victim).expect("it runs");
+    signal(*pid, "-KILL");
+    let killed = Instant::now();
+    let output = run.wait_with_output().expect("ends");
+    assert!(killed.elapsed() < Duration::from_secs(5), "took {:?}", killed.elapsed());
+    assert_eq!(output.status.code(), Some(4), "{}", text(&output));
+    assert!(text(&output).contains(&format!("the {victim} (process {pid}) was killed")), "{}", text(&output));
+    assert!(processes_of(&workshop.out("killed")).is_empty());
+    // Readable up to then, and not called complete.
+    let history = datasets(&workshop.out("killed/history.h5"));
+    assert!(history.iter().any(|(name, values)| name == "/time" && !values.is_empty()));
+    hdf5::File::open(workshop.out("killed/fluid.vtkhdf")).expect("the snapshots open");
+    assert_eq!(summary(&workshop.out("killed"))["completed"], false);
+    // The same command runs again at once; the unfinished run is kept aside.
+    let again = workshop.run("killed", &["-q"]);
+    assert!(again.status.success(), "{}", text(&again));
+    assert!(workshop.out("killed.1").exists());
+}
+
+fn a_killed_launcher_ends_both() {
+    let workshop = Workshop::new();
+    let mut run = workshop.cav("run", "orphans", &LONG).spawn().expect("starts");
+    running(&workshop, "orphans", &mut run, 2);
+    run.kill().expect("killed");
+    run.wait().expect("ends");
+    wait_until("the sides end", Duration::from_secs(5), || processes_of(&workshop.out("orphans")).is_empty());
+    // The joint history consists of links then.
+    let history = hdf5::File::open(workshop.out("orphans/history.h5")).expect("the history opens");
+    for name in ["/time", "/solid/time", "/bubble/volume"] {
+        assert!(history.dataset(name).expect("it is there").size() > 0, "{name}");
+    }
+}
+
+fn an_interrupt_stops_both_sides(kind: &str, code: i32) {
+    let workshop = Workshop::new();
+    let mut run = workshop.cav("run", "stopped", &LONG).spawn().expect("starts");
+    running(&workshop, "stopped", &mut run, 2);
+    signal(run.id(), kind);
+    let output = run.wait_with_output().expect("ends");
+    assert_eq!(output.status.code(), Some(code), "{}", text(&output));
+    assert!(processes_of(&workshop.out("stopped")).is_empty());
+    let summary = summary(&workshop.out("stopped"));
+    assert_eq!(summary["completed"], false);
+    // Both sides stopped at the same step.
+    let history = datasets(&workshop.out("stopped/history.h5"));
+    let length =
+        |wanted: &str| history.iter().find(|(name, _)| name == wanted).map(|(_, values)| values.len());
+    assert_eq!(length("/time"), length("/solid/time"));
+    assert_eq!(length("/time"), summary["steps"].as_u64().map(|steps| steps as usize + 1));
+}
+
+fn a_numerical_failure_is_told() {
+    let workshop = Workshop::new();
+    // Beyond the stability limit of the scheme.
+    let more = ["--set", "time.cfl=0.9", "--set", "fluid.limiter=none", "--set", "solid.limiter=none"];
+    let output = workshop.run("failed", &[&more[..], &LONG].concat());
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output));
+    assert!(
+        text(&output).contains("not physical") || text(&output).contains("not finite"),
+        "{}",
+        text(&output)
+    );
+    assert_eq!(summary(&workshop.out("failed"))["completed"], false);
+}
+
+fn nothing_is_left_in_shared_memory() {
+    assert_eq!(segments(), Vec::<String>::new());
+}
