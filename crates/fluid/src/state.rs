@@ -8,8 +8,7 @@ pub(crate) mod conserved {
     pub const RHO: usize = 0;
     /// Axial momentum ρv_z.
     pub const MOMENTUM_Z: usize = 1;
-    /// Radial momentum ρv_r.
-    pub const MOMENTUM_R: usize = 2;
+    // Radial momentum ρv_r is component 2.
     /// Total energy per volume ρE.
     pub const ENERGY: usize = 3;
     /// Gas fraction φ (advected, not conserved).

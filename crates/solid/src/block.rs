@@ -5,7 +5,7 @@ use mesh::{Field, Limiter, Mesh, Padded, Side, limited_differences};
 use crate::Boundary;
 use crate::boundary::{Boundaries, SurfaceState};
 use crate::rows::{self, Elasticity, FaceRows, Metric, Reconstruction};
-use crate::state::component::COUNT;
+use crate::state::component::{COUNT, S_PHIPHI};
 
 /// What all blocks of a step share.
 pub(crate) struct StepContext<'a, const N: usize> {
@@ -136,7 +136,7 @@ pub(crate) fn step_block<const N: usize>(
         std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
         &scratch.z_faces,
         &scratch.r_faces,
-        scratch.half.component(COUNT - 1),
+        scratch.half.component(S_PHIPHI),
         ctx.dt,
         &metric,
         ctx.elasticity,
