@@ -1,8 +1,7 @@
 //! Orders of convergence for smooth flow.
 //!
 //! Second order is asked as at least 1.9 without a limiter and 1.7 with MC, which flattens extrema. A scheme
-//! whose predictor lacks the geometric terms gives 1.0 to 1.6 in the axisymmetric rows, one without
-//! slopes 0.9.
+//! whose predictor lacks the geometric terms gives 1.0 in the axisymmetric rows.
 
 use std::f64::consts::TAU;
 

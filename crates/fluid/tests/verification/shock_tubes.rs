@@ -110,7 +110,12 @@ fn the_interface_finds_its_star_state() {
                 scientific(&p),
                 scientific(&u)
             );
-            assert!(u.iter().all(|error| error.abs() < 0.05), "{u:?}");
+            // Seen are 3e-4 in u, and in p 2e-4 of the jump: in the liquid a pressure far below that is lost in
+            // what the rarefaction's tail leaves.
+            let scale = tube.left.p - tube.right.p;
+            assert!(states.iter().all(|w| (w.pressure - star.p).abs() < 1e-3 * scale), "{p:?}");
+            assert!((states[1].pressure / star.p - 1.0).abs() < 5e-3, "{p:?}");
+            assert!(u.iter().all(|error| error.abs() < 1e-3), "{u:?}");
         }
     }
 }
