@@ -12,13 +12,16 @@ use crate::helpers::*;
 
 const GRIDS: [usize; 3] = [32, 64, 128];
 
+/// What an error is measured of: a name, and how it is read off a state.
+type Quantity<const K: usize> = (&'static str, fn(Primitive) -> [f64; K]);
+
 /// Runs a start on three grids with each limiter and checks the orders of all picked quantities.
 fn check<const K: usize>(
     what: &str,
     base: impl Fn([usize; 2]) -> FluidSetup,
     exact: impl Fn([f64; 2], f64) -> Primitive,
     end: f64,
-    quantities: [(&str, fn(Primitive) -> [f64; K]); 2],
+    quantities: [Quantity<K>; 2],
 ) {
     for (limiter, riemann, least) in [
         (Limiter::None, RiemannSolver::Hllc, 1.9),
@@ -77,7 +80,7 @@ fn a_plane_wave_crosses_the_grid_obliquely() {
         }
     };
     let end = TAU / (number * sound);
-    let quantities: [(&str, fn(Primitive) -> [f64; 2]); 2] = [("pressure", pressure), ("velocity", velocity)];
+    let quantities: [Quantity<2>; 2] = [("pressure", pressure), ("velocity", velocity)];
     check("oblique simple wave, planar", |n| setup(PLANAR, n, PERIODIC), exact, end, quantities);
 }
 
@@ -107,7 +110,7 @@ fn mode_end() -> f64 {
 
 #[test]
 fn a_standing_mode_in_a_rigid_cylinder() {
-    let quantities: [(&str, fn(Primitive) -> [f64; 2]); 2] = [("pressure", pressure), ("velocity", velocity)];
+    let quantities: [Quantity<2>; 2] = [("pressure", pressure), ("velocity", velocity)];
     check(
         "standing mode in a cylinder",
         |n| setup(AXIAL, n, CYLINDER),
@@ -161,14 +164,13 @@ fn a_spherical_pulse_starts_on_the_axis() {
         }
     };
     // At the end the pulse is a shell of radius 0.15; at the walls it is 1e-6 of its amplitude.
-    let quantities: [(&str, fn(Primitive) -> [f64; 2]); 2] = [("pressure", pressure), ("velocity", velocity)];
+    let quantities: [Quantity<2>; 2] = [("pressure", pressure), ("velocity", velocity)];
     check("spherical pulse through the axis", |n| setup(AXIAL, n, CYLINDER), exact, 0.15 / sound, quantities);
 }
 
 #[test]
 fn density_and_gas_fraction_are_carried() {
-    let quantities: [(&str, fn(Primitive) -> [f64; 1]); 2] =
-        [("density", |w| [w.density]), ("gas fraction", |w| [w.phi])];
+    let quantities: [Quantity<1>; 2] = [("density", |w| [w.density]), ("gas fraction", |w| [w.phi])];
     // Uniform pressure and velocity: both are carried along unchanged.
     let planar = |[z, r]: [f64; 2], t: f64| {
         let wave = (TAU * (z - 300.0 * t)).sin() * (TAU * (r - 150.0 * t)).cos();
