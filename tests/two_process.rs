@@ -1,5 +1,7 @@
 //! Runs in two processes: the same numbers as in one, and what happens when something goes wrong.
 
+#![allow(clippy::unwrap_used)]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};

@@ -235,6 +235,7 @@ fn progress_part(
         "seconds_computing": clock.computing.as_secs_f64(),
         "seconds_recording": clock.recording.as_secs_f64(),
         "seconds_waited": counters.waited.as_secs_f64(),
+        "seconds_exchanging": counters.exchanging.as_secs_f64(),
     });
     let mut part = Map::new();
     part.insert("completed".to_owned(), json!(completed));

@@ -129,24 +129,28 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     let completed = !parts.is_empty() && parts.iter().all(|part| part["completed"] == json!(true));
     let mut whole = summary::merge(&parts);
     whole.insert("completed".to_owned(), json!(completed));
-    if let Some(share) = exchange_share(&whole) {
-        whole["coupling"]["exchange_share"] = json!(share);
+    if let Some((by_difference, by_latency)) = exchange_shares(&whole) {
+        whole["coupling"]["exchange_share"] = json!(by_difference);
+        whole["coupling"]["exchange_latency_share"] = json!(by_latency);
     }
     summary::write(directory, SUMMARY, &whole)?;
     Ok(whole)
 }
 
-/// (wall time − both sides' compute − output) / wall time, for two coupled sides.
-fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
+/// What the exchange cost, as shares of the wall time: (by difference, by latency).
+///
+/// By difference: wall time − both sides' compute − output. The sides compute at the same time where they can, so
+/// that this may be negative. By latency: the time in which a frame was complete and its reader, asking for it, had
+/// not got it yet.
+fn exchange_shares(whole: &Map<String, Value>) -> Option<(f64, f64)> {
     let wall = whole.get("wall_seconds")?.as_f64()?;
-    let coupling = whole.get("coupling")?;
-    let mut rest = wall;
+    let seconds = |side: &str, key: &str| whole.get("coupling")?.get(side)?.get(key)?.as_f64();
+    let (mut rest, mut latency) = (wall, 0.0);
     for side in ["fluid", "solid"] {
-        for key in ["seconds_computing", "seconds_recording"] {
-            rest -= coupling.get(side)?.get(key)?.as_f64()?;
-        }
+        rest -= seconds(side, "seconds_computing")? + seconds(side, "seconds_recording")?;
+        latency += seconds(side, "seconds_exchanging")?;
     }
-    Some(rest / wall)
+    Some((rest / wall, latency / wall))
 }
 
 fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {

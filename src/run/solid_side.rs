@@ -143,12 +143,19 @@ impl SolidSide {
             return Ok(Turn::Over(header.flags & !FrameHeader::LAST));
         }
         let plan = Plan { dt: header.dt, snapshot: header.has(FrameHeader::SNAPSHOT) };
+        self.last_dt = plan.dt;
+        let weak = self.scheme == Scheme::Weak;
+        if !weak {
+            // All that the fluid needs is known; both sides make their steps at the same time.
+            self.answer(link, stop)?;
+        }
         let start = Instant::now();
         self.solver.step(plan.dt)?;
-        self.last_dt = plan.dt;
         self.clock.computing += start.elapsed();
+        if weak {
+            self.answer(link, stop)?;
+        }
         self.recorded(plan)?;
-        self.answer(link, stop)?;
         Ok(Turn::Continues)
     }
 
@@ -167,7 +174,7 @@ impl SolidSide {
             ..FrameHeader::new(FrameKind::Register)
         };
         let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
-        let (weak, first) = (self.scheme == Scheme::Weak, solver.steps() == 0);
+        let (weak, first) = (self.scheme == Scheme::Weak, !interface.has_met());
         let mut filled = Duration::ZERO;
         link.send(header, |payload| {
             let put =

@@ -9,7 +9,7 @@ use std::time::Duration;
 use cav::output::{Column, HistoryFile, SeriesWriter};
 use hdf5::File;
 
-use crate::vtkhdf::{FIELDS, Squares, append, check_step};
+use crate::snapshots::{FIELDS, Squares, append, check_step};
 
 const ROLE: &str = "CAV_TEST_WRITE_UNTIL_KILLED";
 const KILLS: u64 = 20;

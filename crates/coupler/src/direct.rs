@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader};
-use crate::link::{Conversation, Link, LinkCounters, Participant};
+use crate::link::{Conversation, Link, LinkCounters, Participant, now_ns};
 
 /// One direction: the buffer is kept, so frames of known length allocate nothing.
 #[derive(Debug, Default)]
@@ -48,7 +48,7 @@ fn open(mailbox: &Mutex<Mailbox>) -> MutexGuard<'_, Mailbox> {
 
 impl Link for DirectLink {
     fn send(&mut self, header: FrameHeader, fill: impl FnOnce(&mut [f64])) -> Result<(), CouplerError> {
-        let (header, len) = self.talk.stamp(header)?;
+        let (mut header, len) = self.talk.stamp(header)?;
         let mut outbox = open(&self.outbox);
         if outbox.full {
             return Err(CouplerError::MailboxFull { peer: self.talk.peer, step: header.step });
@@ -56,6 +56,7 @@ impl Link for DirectLink {
         outbox.payload.clear();
         outbox.payload.resize(len, 0.0);
         fill(&mut outbox.payload);
+        header.ready_ns = now_ns();
         outbox.header = header;
         outbox.full = true;
         self.talk.sent(&header, len);
@@ -65,6 +66,7 @@ impl Link for DirectLink {
     fn try_receive<R>(&mut self, read: impl FnOnce(&Frame<'_>) -> R) -> Result<Option<R>, CouplerError> {
         let mut inbox = open(&self.inbox);
         if !inbox.full {
+            self.talk.asked_in_vain();
             return Ok(None);
         }
         inbox.full = false;

@@ -119,8 +119,10 @@ pub struct FrameHeader {
     pub fields: u64,
     /// Of a fault frame: the [`Fault`]. Else 0.
     pub code: u64,
+    /// When the payload was complete, nanoseconds since the epoch; stamped by the link.
+    pub ready_ns: u64,
     /// Zero; room for later versions.
-    pub spare: [u64; 4],
+    pub spare: [u64; 3],
 }
 
 impl FrameHeader {

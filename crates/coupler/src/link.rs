@@ -1,7 +1,7 @@
 //! What a solver sees of its peer: send, receive, wait.
 
 use std::fmt;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use crate::error::CouplerError;
 use crate::frame::{Expected, Fault, Frame, FrameHeader, FrameKind};
@@ -50,6 +50,9 @@ pub struct LinkCounters {
     pub bytes: u64,
     /// Time spent blocked in [`Link::wait`].
     pub waited: Duration,
+    /// What the exchange itself cost: from the moment when a frame was complete and its reader asked for it, to
+    /// the moment when the reader had it.
+    pub exchanging: Duration,
 }
 
 /// One end of the way between two participants.
@@ -106,11 +109,26 @@ pub(crate) struct Conversation {
     /// Step of the last frame that passed either way.
     pub(crate) step: u64,
     pub(crate) counters: LinkCounters,
+    /// Since when the next frame is asked for in vain, nanoseconds since the epoch.
+    asking_since: Option<u64>,
+}
+
+/// Nanoseconds since the epoch, the one clock that two processes share.
+pub(crate) fn now_ns() -> u64 {
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+    u64::try_from(since.as_nanos()).unwrap_or(u64::MAX)
 }
 
 impl Conversation {
     pub(crate) fn new(peer: Participant, case_hash: [u8; 32]) -> Self {
-        Self { peer, peer_pid: None, case_hash, step: 0, counters: LinkCounters::default() }
+        Self {
+            peer,
+            peer_pid: None,
+            case_hash,
+            step: 0,
+            counters: LinkCounters::default(),
+            asking_since: None,
+        }
     }
 
     /// The header as it goes out, and the payload's length.
@@ -136,6 +154,11 @@ impl Conversation {
         self.note_step(header);
     }
 
+    /// Takes notice that a frame was asked for and none was there.
+    pub(crate) fn asked_in_vain(&mut self) {
+        self.asking_since.get_or_insert_with(now_ns);
+    }
+
     /// Checks an arrived frame and counts it; faults and goodbyes become errors.
     pub(crate) fn accept(&mut self, frame: &Frame<'_>) -> Result<(), CouplerError> {
         let kind = frame.check(&Expected {
@@ -145,6 +168,9 @@ impl Conversation {
         })?;
         self.peer_pid = Some(frame.header.pid);
         self.counters.received += 1;
+        let now = now_ns();
+        let both_there = self.asking_since.take().unwrap_or(now).max(frame.header.ready_ns);
+        self.counters.exchanging += Duration::from_nanos(now.saturating_sub(both_there));
         self.counters.bytes += frame_bytes(frame.payload.len());
         match kind {
             FrameKind::Fault => Err(CouplerError::PeerFailed {

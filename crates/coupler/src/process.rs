@@ -10,7 +10,7 @@ use iceoryx2::port::SendError;
 use crate::domain::{Domain, Presence, remove_dead};
 use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader, FrameKind};
-use crate::link::{Conversation, Link, LinkCounters, Participant};
+use crate::link::{Conversation, Link, LinkCounters, Participant, now_ns};
 use crate::ports::{Ports, failed, pid_of};
 use crate::watch::{LINGER, PeerWatch, SLICE};
 
@@ -237,6 +237,7 @@ impl Link for ProcessLink {
         let mut sample =
             self.ports.publisher.loan_slice(len).map_err(failed("taking shared memory for a frame"))?;
         fill(sample.payload_mut());
+        header.ready_ns = now_ns();
         *sample.user_header_mut() = header;
         let start = Instant::now();
         match sample.send() {
@@ -263,7 +264,10 @@ impl Link for ProcessLink {
 
     fn try_receive<R>(&mut self, read: impl FnOnce(&Frame<'_>) -> R) -> Result<Option<R>, CouplerError> {
         let received = self.ports.subscriber.receive().map_err(failed("taking a frame"))?;
-        let Some(sample) = received else { return Ok(None) };
+        let Some(sample) = received else {
+            self.talk.asked_in_vain();
+            return Ok(None);
+        };
         let frame = Frame { header: sample.user_header(), payload: sample.payload() };
         let result = self.talk.accept(&frame).map(|()| Some(read(&frame)));
         if frame.header.has(FrameHeader::GROWN) {

@@ -81,7 +81,9 @@ impl Boundaries {
         }
     }
 
-    /// Puts the outer states of open sides into the ghost cells at mid-step, without slopes.
+    /// Puts the outer states into the ghost cells at mid-step: on open sides without slopes, at walls and on the
+    /// axis the mirror images of the inner ones. (Their own predictor would not be that: beyond the outer wall
+    /// the metric goes on. Nothing must pass a wall, to the last bit.)
     pub fn impose_outer<const N: usize>(
         &self,
         mesh: &Mesh<N>,
@@ -94,6 +96,10 @@ impl Boundaries {
         let id = mesh.tree().leaves()[slot];
         for side in Side::ALL {
             let inflow = match self.kind(side) {
+                Boundary::Wall | Boundary::Axis if mesh.touches(slot, side) => {
+                    mirror::<N>(side, half, keep);
+                    continue;
+                }
                 Boundary::NonReflecting => None,
                 Boundary::Inflow => self.inflow.as_ref(),
                 _ => continue,
@@ -166,6 +172,20 @@ fn entering(initial: Primitive, side: Side, p: f64, mixture: &Mixture) -> Primit
         v_r += inwards;
     }
     Primitive { density, v_z, v_r, pressure: p, phi: initial.phi }
+}
+
+/// Makes the ghost cells next to a side the mirror images of the cells within, at mid-step.
+fn mirror<const N: usize>(side: Side, half: &mut Padded<N>, keep: &mut [f64]) {
+    for along in 0..N {
+        let (i, j) = ghost(side, N, along);
+        let last = N as isize - 1;
+        let (from, to) = (Padded::<N>::index(i.clamp(0, last), j.clamp(0, last)), Padded::<N>::index(i, j));
+        for component in 0..5 {
+            let row = half.component_mut(component);
+            row[to] = if component == normal(side) { -row[from] } else { row[from] };
+        }
+        keep[to] = keep[from];
+    }
 }
 
 /// Component of the velocity normal to a side: 1 (v_z) or 2 (v_r).

@@ -230,7 +230,7 @@ mod tests {
         let (slot, i, j) = mesh.locate([0.5 + 1e-3, 0.3]).unwrap();
         let u = std::array::from_fn(|c| field.component(slot, c)[j * 8 + i]);
         let w = Primitive::from_conserved(u, &mixture);
-        let impedance = 1000.0 * 1581.929_201_955_64;
+        let impedance = 1000.0 * 1_581.929_201_955_64;
         assert!((w.pressure - 5e7 - 1e4).abs() < 70.0);
         assert!((w.v_z * impedance + (w.pressure - 5e7)).abs() < 1.0, "{w:?}");
     }

@@ -59,11 +59,11 @@ impl Mixture {
         StiffenedGas { gamma: 1.0 + 1.0 / beta1, pi: beta2 / (1.0 + beta1) }
     }
 
-    /// The lowest pressure that a cell may hold: 1 Pa above vacuum where there is gas, else a tension of
+    /// The lowest pressure that a cell may hold: 1e-4 Pa above vacuum where there is gas, else a tension of
     /// 0.9 π of the liquid. What lies below is lifted and counted, see [`crate::Fixups`].
     #[inline(always)]
     pub fn pressure_floor(&self, phi: f64) -> f64 {
-        if phi > GAS_FLOOR_FRACTION { 1.0 - self.gas.pi } else { 1e-6 - 0.9 * self.liquid.pi }
+        if phi > GAS_FLOOR_FRACTION { 1e-4 - self.gas.pi } else { 1e-6 - 0.9 * self.liquid.pi }
     }
 }
 

@@ -40,19 +40,27 @@ pub(crate) fn rates(
     ]
 }
 
-/// Whether the four face states of a cell, `half` ± half the differences, stay admissible: densities and
-/// p + π above a thousandth of the cell's own.
+/// Whether the four face states of a cell, `half` ± half the differences, are fit for Riemann problems:
+///
+/// - densities and p + π above a thousandth of the cell's own;
+/// - impedances ρc above (Δt/h) ρc² of the cell. Where gas lies beyond a face of a mixed cell, a pressure p' in
+///   the cell drives the flow p'/(ρc) through the face, and that changes the pressure by (Δt/h) ρc² p'/(ρc):
+///   with slopes so steep that the face state is gas while the cell is still stiff, it would overshoot
+///   manyfold in every step. Smooth flow never comes near: there the ratio is the Courant number.
+///
+/// `ratio` is Δt/h along the narrower width.
 #[inline(always)]
-fn admissible(w: [f64; 5], half: [f64; 5], s_z: [f64; 5], s_r: [f64; 5], mixture: &Mixture) -> bool {
-    let reach = |k: usize| {
-        let (a, b) = (s_z[k].abs(), s_r[k].abs());
-        0.5 * if a > b { a } else { b }
-    };
+fn admissible(w: [f64; 5], half: [f64; 5], reach: [f64; 5], ratio: f64, mixture: &Mixture) -> bool {
     let stiffness_pressure = |phi: f64| mixture.beta2(phi) / (1.0 + mixture.beta1(phi));
-    let phi_face = half[4] + reach(4);
-    let lowest_density = half[0] - reach(0);
-    let lowest_pressure = half[3] - reach(3) + stiffness_pressure(phi_face);
-    (lowest_density > 1e-3 * w[0]) & (lowest_pressure > 1e-3 * (w[3] + stiffness_pressure(w[4])))
+    let phi_face = half[4] + reach[4];
+    let lowest_density = half[0] - reach[0];
+    let lowest_pressure = half[3] - reach[3];
+    let excess = lowest_pressure + stiffness_pressure(phi_face);
+    let carried = ratio * mixture.stiffness(w[3], w[4]);
+    let impedance_squared = lowest_density * mixture.stiffness(lowest_pressure, phi_face);
+    (lowest_density > 1e-3 * w[0])
+        & (excess > 1e-3 * (w[3] + stiffness_pressure(w[4])))
+        & (impedance_squared > carried * carried)
 }
 
 #[inline(always)]
@@ -60,7 +68,8 @@ fn scaled([a, b, c, d, e]: [f64; 5], factor: f64) -> [f64; 5] {
     [a * factor, b * factor, c * factor, d * factor, e * factor]
 }
 
-/// The state at mid-step, and whether the cell keeps its slopes (1) or falls back to first order (0).
+/// The state at mid-step, and the share of its slopes that the cell keeps: all (1), or half of them (MC slopes
+/// are then no steeper than minmod's), or none (0, first order), whichever gives admissible face states.
 #[inline(always)]
 pub(crate) fn half_step(
     w: [f64; 5],
@@ -72,11 +81,21 @@ pub(crate) fn half_step(
     mixture: &Mixture,
 ) -> ([f64; 5], f64) {
     let rate = rates(w, scaled(s_z, inverse_h[0]), scaled(s_r, inverse_h[1]), inverse_r, mixture);
-    let moved = |k: usize| w[k] + half_dt * rate[k];
-    let half = [moved(0), moved(1), moved(2), moved(3), moved(4)];
-    let keep = admissible(w, half, s_z, s_r, mixture);
-    let pick = |k: usize| if keep { half[k] } else { w[k] };
-    ([pick(0), pick(1), pick(2), pick(3), pick(4)], if keep { 1.0 } else { 0.0 })
+    let moved = |k: usize, share: f64| w[k] + share * half_dt * rate[k];
+    let at =
+        |share: f64| [moved(0, share), moved(1, share), moved(2, share), moved(3, share), moved(4, share)];
+    let reach = |k: usize| {
+        let (a, b) = (s_z[k].abs(), s_r[k].abs());
+        0.5 * if a > b { a } else { b }
+    };
+    let reach = [reach(0), 0.0, 0.0, reach(3), reach(4)];
+    let [inverse_hz, inverse_hr] = inverse_h;
+    let ratio = 2.0 * half_dt * if inverse_hz > inverse_hr { inverse_hz } else { inverse_hr };
+    let whole = admissible(w, at(1.0), reach, ratio, mixture);
+    let halved = admissible(w, at(0.5), scaled(reach, 0.5), ratio, mixture);
+    let fallback = if halved { 0.5 } else { 0.0 };
+    let keep = if whole { 1.0 } else { fallback };
+    (at(keep), keep)
 }
 
 /// Conserved to primitive variables, in place of rows of equal length.
@@ -103,7 +122,7 @@ fn to_primitive_body(
     }
 }
 
-/// Primitive variables at mid-step in all cells but the outermost layer, and the mask of kept slopes.
+/// Primitive variables at mid-step in all cells but the outermost layer, and the share of slopes kept.
 ///
 /// MUSCL-Hancock predictor, paper eqs. (24), (25) with τ = Δt/2, in both directions at once.
 ///
@@ -202,7 +221,7 @@ pub(crate) struct Reconstruction<'a> {
     pub half: Rows<'a>,
     /// Limited differences across the cells in the same order.
     pub differences: Rows<'a>,
-    /// 1 where the slopes are kept, 0 where not.
+    /// The share of its slopes that each cell keeps, see [`half_step`].
     pub keep: &'a [f64],
 }
 
@@ -410,21 +429,22 @@ fn update_row(
 ) {
     let RowMetric { dt_z, dt_r, lower, upper } = metric;
     for k in 0..n {
+        let axial = |high: f64, low: f64| dt_z * (high - low);
         let radial = |high: f64, low: f64| dt_r * (upper * high - lower * low);
-        let normal = |f: &FaceSlices<'_>| f.mass[k] * f.velocity[k] + f.pressure[k];
-        let new_rho = old[0][k] - dt_z * (east.mass[k] - west.mass[k]) - radial(north.mass[k], south.mass[k]);
-        let new_mz =
-            old[1][k] - dt_z * (normal(&east) - normal(&west)) - radial(north.shear[k], south.shear[k]);
-        let new_mr = old[2][k]
-            - dt_z * (east.shear[k] - west.shear[k])
-            - radial(north.mass[k] * north.velocity[k], south.mass[k] * south.velocity[k])
-            - dt_r * (north.pressure[k] - south.pressure[k]);
+        let normal = |f: &FaceSlices<'_>| f.mass[k] * f.velocity[k];
+        // Both directions are added before they meet the old value, and alike for both components of the
+        // momentum: planar flow does not tell z from r, to the last bit.
+        let new_rho = old[0][k] - (axial(east.mass[k], west.mass[k]) + radial(north.mass[k], south.mass[k]));
+        let force_z = axial(normal(&east), normal(&west)) + axial(east.pressure[k], west.pressure[k]);
+        let force_r = radial(normal(&north), normal(&south)) + dt_r * (north.pressure[k] - south.pressure[k]);
+        let new_mz = old[1][k] - (force_z + radial(north.shear[k], south.shear[k]));
+        let new_mr = old[2][k] - (force_r + axial(east.shear[k], west.shear[k]));
         let new_energy =
-            old[3][k] - dt_z * (east.energy[k] - west.energy[k]) - radial(north.energy[k], south.energy[k]);
+            old[3][k] - (axial(east.energy[k], west.energy[k]) + radial(north.energy[k], south.energy[k]));
         let old_phi = old[4][k];
         let carried = |f: &FaceSlices<'_>| f.velocity[k] * (f.phi[k] - old_phi);
         let new_phi =
-            old_phi - dt_z * (carried(&east) - carried(&west)) - radial(carried(&north), carried(&south));
+            old_phi - (axial(carried(&east), carried(&west)) + radial(carried(&north), carried(&south)));
 
         let [_, v_z, v_r, p, _] = primitive([new_rho, new_mz, new_mr, new_energy, new_phi], mixture);
         let lowest = mixture.pressure_floor(new_phi);

@@ -58,13 +58,13 @@ impl<const N: usize> Mesh<N> {
     ) -> Result<Self, MeshError> {
         for (axis, cells) in ["z", "r"].into_iter().zip(coarsest) {
             let cells = cells << levels;
-            if cells == 0 || cells % N != 0 {
+            if cells == 0 || !cells.is_multiple_of(N) {
                 let nearest = ((cells + N / 2) / N).max(1) * N;
                 return Err(MeshError::NotWholeBlocks { axis, coarsest, levels, cells, block: N, nearest });
             }
         }
         // The roots sit on the coarsest level that is a whole number of blocks in both directions.
-        let whole = |level: &u8| coarsest.iter().all(|cells| (cells << level) % N == 0);
+        let whole = |level: &u8| coarsest.iter().all(|cells| (cells << level).is_multiple_of(N));
         let root_level = (0..=levels).find(whole).expect("the finest level is whole");
         let roots = coarsest.map(|cells| u32::try_from((cells << root_level) / N).expect("fits 32 bits"));
         Ok(Self { domain, coarsest, tree: Quadtree::uniform(root_level, roots, levels, periodic) })

@@ -52,7 +52,8 @@ impl Boundaries {
         }
     }
 
-    /// Puts the outer states of open sides into the ghost cells at mid-step, without slopes.
+    /// Puts the outer states into the ghost cells at mid-step: on open sides without slopes, elsewhere the
+    /// reflected inner ones, so that what the side holds at zero is zero to the last bit.
     pub fn impose_outer<const N: usize>(
         &self,
         mesh: &Mesh<N>,
@@ -63,7 +64,8 @@ impl Boundaries {
     ) {
         let id = mesh.tree().leaves()[slot];
         for side in Side::ALL {
-            if self.kind(side) != Boundary::NonReflecting || !mesh.touches(slot, side) {
+            let kind = self.kind(side);
+            if kind == Boundary::Interface || !mesh.touches(slot, side) {
                 continue;
             }
             let across_z = matches!(side, Side::ZMin | Side::ZMax);
@@ -77,6 +79,14 @@ impl Boundaries {
                     Side::RMax => (a, n),
                 };
                 let k = Padded::<N>::index(i, j);
+                if kind != Boundary::NonReflecting {
+                    let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
+                    for component in 0..6 {
+                        let row = half.component_mut(component);
+                        row[k] = parity(kind, side, component).unwrap_or(1.0) * row[inner];
+                    }
+                    continue;
+                }
                 let state = self.initial[side as usize][first + along].to_array();
                 for (component, value) in state.into_iter().enumerate() {
                     half.component_mut(component)[k] = value;

@@ -42,6 +42,11 @@ impl Interface {
         self.floored
     }
 
+    /// Whether there is a last step to tell of.
+    pub fn has_met(&self) -> bool {
+        !self.stars.is_empty()
+    }
+
     /// Writes the means of the last step over the faces of the fluid, row by row of a [`RegisterRow`].
     pub fn write_register(&self, mut put: impl FnMut(RegisterRow, usize, f64)) {
         let star = |k: usize| &self.stars[k];

@@ -1,0 +1,153 @@
+//! What the tests share: media, grids, norms, orders of convergence, Bessel functions.
+
+use fluid::{Boundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, StiffenedGas};
+use mesh::{Domain, Geometry, Limiter};
+
+pub const LIQUID: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
+pub const GAS: StiffenedGas = StiffenedGas { gamma: 1.4, pi: 0.0 };
+
+/// Courant number of the runs, that of the cases.
+pub const CFL: f64 = 0.45;
+
+pub const PERIODIC: [Boundary; 4] = [Boundary::Periodic; 4];
+pub const WALLS: [Boundary; 4] = [Boundary::Wall; 4];
+/// Axis, and walls elsewhere.
+pub const CYLINDER: [Boundary; 4] = [Boundary::Wall, Boundary::Wall, Boundary::Axis, Boundary::Wall];
+
+pub const PLANAR: Geometry = Geometry::Planar;
+pub const AXIAL: Geometry = Geometry::Axisymmetric;
+
+/// Water and gas, HLLC and the MC limiter, on `cells` over [0, 1] × [0, 1] m.
+pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -> FluidSetup {
+    FluidSetup {
+        domain: Domain { geometry, z: [0.0, 1.0], r: [0.0, 1.0] },
+        coarsest: cells,
+        levels: 0,
+        liquid: LIQUID,
+        gas: GAS,
+        model: Model::SaurelAbgrall,
+        riemann: RiemannSolver::Hllc,
+        limiter: Limiter::Mc,
+        boundaries,
+        inflow: None,
+    }
+}
+
+/// Liquid of 1000 kg/m³ at rest.
+pub fn still(pressure: f64) -> Primitive {
+    Primitive { density: 1000.0, v_z: 0.0, v_r: 0.0, pressure, phi: 0.0 }
+}
+
+pub fn run_to<const N: usize>(fluid: &mut FluidSolver<N>, end: f64) {
+    while fluid.time() < end * (1.0 - 1e-12) {
+        let dt = fluid.time_step_limit(CFL).min(end - fluid.time());
+        fluid.step(dt).unwrap();
+    }
+}
+
+pub fn run_steps<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) {
+    for _ in 0..steps {
+        fluid.step(fluid.time_step_limit(CFL)).unwrap();
+    }
+}
+
+/// Visits every cell: its place, its global indices, its state.
+pub fn each_cell<const N: usize>(
+    fluid: &FluidSolver<N>,
+    mut visit: impl FnMut([f64; 2], [usize; 2], Primitive),
+) {
+    let mesh = fluid.mesh();
+    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+        for j in 0..N {
+            for i in 0..N {
+                let index = [id.i as usize * N + i, id.j as usize * N + j];
+                visit(mesh.centre(*id, i, j), index, fluid.cell(slot, i, j));
+            }
+        }
+    }
+}
+
+/// All conserved variables by global cell, `[j][i]`, whatever the blocks are.
+pub fn global<const N: usize>(fluid: &FluidSolver<N>) -> Vec<Vec<[f64; 5]>> {
+    let [h_z, h_r] = fluid.mesh().widths(fluid.mesh().tree().leaves()[0].level);
+    let Domain { z, r, .. } = *fluid.mesh().domain();
+    let count = |range: [f64; 2], h: f64| ((range[1] - range[0]) / h).round() as usize;
+    let mut cells = vec![vec![[0.0; 5]; count(z, h_z)]; count(r, h_r)];
+    for (slot, id) in fluid.mesh().tree().leaves().iter().enumerate() {
+        for j in 0..N {
+            for i in 0..N {
+                cells[id.j as usize * N + j][id.i as usize * N + i] =
+                    std::array::from_fn(|c| fluid.state().component(slot, c)[j * N + i]);
+            }
+        }
+    }
+    cells
+}
+
+/// L1 error over cells divided by the L1 norm of the reference at their centres. Every cell counts the same:
+/// those at the axis are not weighted down by their small volumes.
+pub fn l1<const N: usize, const K: usize>(
+    fluid: &FluidSolver<N>,
+    exact: impl Fn([f64; 2]) -> Primitive,
+    pick: impl Fn(Primitive) -> [f64; K],
+) -> f64 {
+    let (mut error, mut norm) = (0.0, 0.0);
+    each_cell(fluid, |place, _, got| {
+        for (got, want) in pick(got).into_iter().zip(pick(exact(place))) {
+            error += (got - want).abs();
+            norm += want.abs();
+        }
+    });
+    error / norm
+}
+
+/// Errors on grids each twice as fine as the one before; prints them and returns the order between the last two.
+pub fn order(what: &str, errors: &[f64]) -> f64 {
+    let orders: Vec<f64> = errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
+    eprintln!("{what:58} errors {} orders {orders:.2?}", scientific(errors));
+    orders[orders.len() - 1]
+}
+
+/// Numbers with three digits each.
+pub fn scientific(numbers: &[f64]) -> String {
+    numbers.iter().map(|number| format!("{number:.2e} ")).collect()
+}
+
+/// J0 by its power series; 13 digits for |x| < 10.
+pub fn j0(x: f64) -> f64 {
+    series(x, 0)
+}
+
+/// J1, likewise.
+pub fn j1(x: f64) -> f64 {
+    0.5 * x * series(x, 1)
+}
+
+/// Zeros of J1.
+pub const J1_ZEROS: [f64; 2] = [3.831_705_970_207_512, 7.015_586_669_815_619];
+
+/// Σ (−x²/4)^k / (k! (k + n)!) for n = 0, 1.
+fn series(x: f64, n: u32) -> f64 {
+    let q = -0.25 * x * x;
+    let (mut term, mut sum) = (1.0, 1.0);
+    for k in 1..60 {
+        term *= q / (f64::from(k) * f64::from(k + n));
+        sum += term;
+    }
+    sum
+}
+
+#[test]
+fn bessel_functions_at_tabulated_points() {
+    // Abramowitz & Stegun, tables 9.1 and 9.5.
+    for (got, want) in [
+        (j0(1.0), 0.765_197_686_557_966_6),
+        (j1(1.0), 0.440_050_585_744_933_5),
+        (j0(7.0), 0.300_079_270_519_555_6),
+        (j1(7.0), -0.004_682_823_482_345_8),
+        (j1(J1_ZEROS[0]), 0.0),
+        (j1(J1_ZEROS[1]), 0.0),
+    ] {
+        assert!((got - want).abs() < 1e-13, "{got} {want}");
+    }
+}

@@ -1,0 +1,12 @@
+//! Numerical verification of the fluid solver: errors, orders, invariants. Run in release mode.
+
+#![allow(clippy::unwrap_used, reason = "a test that fails to step has failed")]
+
+mod boundaries;
+mod bubble;
+mod contact;
+mod helpers;
+mod ledgers;
+mod orders;
+mod shock_tubes;
+mod symmetry;

@@ -1,0 +1,9 @@
+//! Numerical verification of the solid's solver: errors, orders, invariants. Run in release mode.
+
+#![allow(clippy::unwrap_used, reason = "a test that fails to step has failed")]
+
+mod boundaries;
+mod helpers;
+mod ledgers;
+mod orders;
+mod symmetry;
