@@ -35,6 +35,12 @@ pub enum RunError {
         /// "fluid" or "solid".
         limited_by: &'static str,
     },
+    /// One side of a case that has no other.
+    #[error("coupling.scheme: this case couples no two media, so `cav {side}` has no peer; use `cav run`")]
+    NoPeer {
+        /// "fluid" or "solid".
+        side: &'static str,
+    },
     /// The peer or the way to it failed.
     #[error(transparent)]
     Coupler(#[from] CouplerError),
@@ -75,7 +81,7 @@ impl RunError {
     /// The process's exit code, see `docs/command-line.md`.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Directory(_) => 2,
+            Self::Case(_) | Self::Directory(_) | Self::NoPeer { .. } => 2,
             Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
             Self::Coupler(_) | Self::Start { .. } => 4,
@@ -93,7 +99,7 @@ impl RunError {
             Self::Output(_) | Self::Directory(_) => Fault::Output,
             Self::Coupler(_) => Fault::Protocol,
             Self::Interrupted | Self::Terminated => Fault::Stopped,
-            Self::Case(_) | Self::Child { .. } | Self::Start { .. } => Fault::Other,
+            Self::Case(_) | Self::NoPeer { .. } | Self::Child { .. } | Self::Start { .. } => Fault::Other,
         }
     }
 }

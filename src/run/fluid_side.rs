@@ -55,6 +55,8 @@ pub struct FluidSide {
     pending: Option<Plan>,
     /// The solid's velocities for the weak scheme.
     received: Vec<f64>,
+    /// The fluid's own pressure and velocity on the wall at mid-step, for the weak scheme.
+    own: Vec<[f64; 2]>,
     limited_by: &'static str,
     smallest_step: f64,
     last_dt: f64,
@@ -72,6 +74,7 @@ impl FluidSide {
         Ok(Self {
             edges: solver.wall_edges(),
             received: vec![0.0; solver.wall_faces()],
+            own: vec![[0.0; 2]; solver.wall_faces()],
             solver,
             record,
             schedule: Schedule::new(&case.time.snapshots),
@@ -129,8 +132,8 @@ impl FluidSide {
 
     /// Paper eq. (36): the wall moves with the solid's old velocity, times κ̂ where the paper's factor is on.
     fn step_weakly(&mut self, plan: Plan) -> Result<(), RunError> {
-        let faces = self.solver.wall_faces();
-        let mut own = vec![[0.0; 2]; faces];
+        let own = &mut self.own;
+        own.fill([0.0; 2]);
         let half = 0.5 * plan.dt;
         self.solver.write_trace(plan.dt, |row, face, value| match row {
             TraceRow::Pressure => own[face][0] += value,

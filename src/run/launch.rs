@@ -351,6 +351,11 @@ pub fn run_side(
     stop: &Stop,
     on_directory: impl FnOnce(&Path) + Send,
 ) -> Result<(), RunError> {
+    // Before anything is made.
+    coupler::check_run_id(&joining.run_id)?;
+    if case.fluid.is_none() || case.solid.is_none() {
+        return Err(RunError::NoPeer { side: joining.participant.name() });
+    }
     let path = directory_of(case, options.out.as_deref());
     let leads = joining.participant == Participant::Fluid && !child;
     // By hand the fluid makes the directory before the solid can find it, and both leave the summary.

@@ -31,6 +31,6 @@ pub use frame::{Expected, FRAME_VERSION, Fault, Frame, FrameHeader, FrameKind};
 pub use link::{Link, LinkCounters, Participant};
 pub use mapping::{CommonRefinement, SubFace};
 pub use options::{Kappa, Scheme, StarSolver};
-pub use process::{Endpoint, Interrupt, ProcessLink};
+pub use process::{Endpoint, Interrupt, ProcessLink, check_run_id};
 pub use star::{FluidTrace, InterfaceStar, SolidTrace, acoustic_star, exact_star, star_density};
 pub use weak::KappaFactor;

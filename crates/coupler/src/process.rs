@@ -324,7 +324,10 @@ fn ask(interrupt: &mut Option<Interrupt>) -> Result<(), CouplerError> {
     interrupt.as_mut().map_or(Ok(()), |hook| hook())
 }
 
-fn check_run_id(run_id: &str) -> Result<(), CouplerError> {
+/// Whether a run id can be part of a service name.
+///
+/// - errors: [`CouplerError::BadRunId`].
+pub fn check_run_id(run_id: &str) -> Result<(), CouplerError> {
     let fits = (1..=64).contains(&run_id.len())
         && run_id.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_.-".contains(&byte));
     if fits { Ok(()) } else { Err(CouplerError::BadRunId { run_id: run_id.to_owned() }) }

@@ -18,6 +18,8 @@ pub struct Interface {
     refinement: CommonRefinement,
     stars: Vec<InterfaceStar>,
     traces: Vec<SurfaceTrace>,
+    /// Velocities of the cells under the surface, for the weak scheme.
+    cells: Vec<f64>,
     floored: u64,
 }
 
@@ -156,12 +158,13 @@ impl<const N: usize> SolidSolver<N> {
         mut put: impl FnMut(RegisterRow, usize, f64),
     ) {
         self.refine(interface, edges);
-        let mut cells = Vec::with_capacity(self.surface.len());
+        let Interface { refinement, cells, .. } = interface;
+        cells.clear();
         for &slot in &self.surface_blocks {
             cells.extend((0..N).map(|j| self.state.component(slot, V_Z)[j * N + N - 1]));
         }
-        let velocity = |k: usize| cells[interface.refinement.sub_faces()[k].second];
-        interface.refinement.means(false, velocity, |f, v| put(RegisterRow::NormalVelocity, f, v));
+        let velocity = |k: usize| cells[refinement.sub_faces()[k].second];
+        refinement.means(false, velocity, |f, v| put(RegisterRow::NormalVelocity, f, v));
     }
 
     /// The surface's state during the last step.

@@ -1,0 +1,110 @@
+//! A step of a coupled run makes no allocation of the size of a frame's row.
+
+#![allow(unsafe_code)]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+
+use cav::case::Case;
+use cav::run::fluid_side::{FluidSide, Turn};
+use cav::run::solid_side::SolidSide;
+use cav::run::stop::Stop;
+use coupler::direct_pair;
+
+/// Counts allocations of at least [`SIZE`] bytes.
+struct Counting;
+
+static SIZE: AtomicUsize = AtomicUsize::new(usize::MAX);
+static COUNT: AtomicU64 = AtomicU64::new(0);
+
+fn count(size: usize) {
+    if size >= SIZE.load(Ordering::Relaxed) {
+        COUNT.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+// SAFETY: every call is handed on to the system's allocator as it came.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count(layout.size());
+        // SAFETY: the caller's promises are the system allocator's demands.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count(size);
+        // SAFETY: as above.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// A bubble over steel, 64 fluid faces on 48 solid ones.
+const CASE: &str = r#"
+[time]
+end = 1e-4
+[fluid]
+z = [0.01, 0.06]
+r = [0.0, 0.05]
+cells = [4, 4]
+levels = 4
+[fluid.liquid]
+gamma = 7.15
+pi = 3e8
+[fluid.ambient]
+density = 1000.0
+pressure = 5e7
+[[fluid.region]]
+shape = "sphere"
+centre = [0.03, 0.0]
+radius = 0.01
+phase = "gas"
+density = 0.0266
+pressure = 2118.0
+[solid]
+z = [-0.04, 0.01]
+r = [0.0, 0.05]
+cells = [48, 48]
+material = "structural-steel"
+"#;
+
+// One function: the counter is the whole process's.
+#[test]
+fn a_coupled_step_allocates_nothing_of_a_rows_size() {
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
+    let weak = "coupling.scheme=weak";
+    for sets in [&[][..], &[weak], &[weak, "coupling.kappa=printed"], &[weak, "coupling.kappa=jump"]] {
+        let count = threads.install(|| allocations(sets));
+        assert_eq!(count, 0, "{sets:?}");
+    }
+}
+
+/// Allocations of the size of the shorter side's row in 20 steps.
+fn allocations(sets: &[&str]) -> u64 {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let case = Case::from_toml(CASE, "allocations", &sets).unwrap_or_else(|errors| panic!("{errors}"));
+    let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) else { panic!("both media") };
+    let mut fluid = FluidSide::new(&case, fluid, None).expect("the fluid");
+    let mut solid = SolidSide::new(&case, solid, None).expect("the solid");
+    let (mut to_solid, mut to_fluid) = direct_pair(case.hash());
+    let stop = Stop::default();
+    solid.open(&mut to_fluid, &stop).expect("opens");
+    let mut round = || {
+        assert_eq!(fluid.turn(&mut to_solid, &stop).expect("the fluid's turn"), Turn::Continues);
+        assert_eq!(solid.turn(&mut to_fluid, &stop).expect("the solid's turn"), Turn::Continues);
+    };
+    // What grows once, grows here.
+    (0..5).for_each(|_| round());
+    COUNT.store(0, Ordering::Relaxed);
+    SIZE.store(48 * size_of::<f64>(), Ordering::Relaxed);
+    (0..20).for_each(|_| round());
+    SIZE.store(usize::MAX, Ordering::Relaxed);
+    COUNT.load(Ordering::Relaxed)
+}

@@ -1,0 +1,491 @@
+//! The built binary: bad input ends with exit code 2, the key and the remedy; good input leaves all that is promised.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use cav::case::Case;
+
+/// A tiny coupled case that is right, 16 × 16 cells a side.
+const GOOD: &str = r#"
+geometry = "axisymmetric"
+[time]
+end = 2e-6
+snapshots = [1e-6]
+[fluid]
+z = [0.0, 0.01]
+r = [0.0, 0.01]
+cells = [4, 4]
+levels = 2
+[fluid.liquid]
+gamma = 7.15
+pi = 3e8
+[fluid.ambient]
+density = 1000.0
+pressure = 1e6
+[[fluid.region]]
+shape = "sphere"
+centre = [0.004, 0.0]
+radius = 0.002
+phase = "gas"
+density = 1.2
+pressure = 1e5
+[solid]
+z = [-0.01, 0.0]
+r = [0.0, 0.01]
+cells = [4, 4]
+levels = 2
+material = "structural-steel"
+[coupling]
+scheme = "riemann"
+[[probe]]
+name = "wall"
+position = [0.0, 0.0]
+medium = "fluid"
+[[probe]]
+name = "steel"
+position = [-0.002, 0.001]
+medium = "solid"
+"#;
+
+/// A bad input must be refused before anything is computed; this is far above a process's start.
+const AT_ONCE: Duration = Duration::from_secs(2);
+
+struct Workshop {
+    directory: tempfile::TempDir,
+}
+
+impl Workshop {
+    fn new() -> Self {
+        let workshop = Self { directory: tempfile::tempdir().expect("a temporary directory") };
+        workshop.write("case.toml", GOOD);
+        workshop
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).expect("the file is written");
+    }
+
+    /// `cav ARGUMENTS` in the workshop.
+    fn cav(&self, arguments: &[&str]) -> Output {
+        let mut cav = Command::new(env!("CARGO_BIN_EXE_cav"));
+        cav.args(arguments).current_dir(self.directory.path()).stdin(Stdio::null());
+        cav.output().expect("cav starts")
+    }
+
+    /// The names of all that lies in the workshop.
+    fn content(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.directory.path()).expect("the workshop is listed").flatten();
+        let mut names: Vec<_> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+}
+
+fn text(output: &Output) -> String {
+    format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
+}
+
+fn good_run(workshop: &Workshop, arguments: &[&str]) -> Output {
+    let output = workshop.cav(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output));
+    output
+}
+
+/// What is done to the good case.
+enum Edit {
+    /// This text in place of this.
+    Replace(&'static str, &'static str),
+    /// This text behind it.
+    Append(&'static str),
+    /// These arguments behind `cav run case.toml`.
+    With(&'static [&'static str]),
+    /// These arguments instead of them.
+    Instead(&'static [&'static str]),
+}
+use Edit::{Append, Instead, Replace, With};
+
+/// Edit, then what standard error must have in it: the key or the path, and the remedy.
+#[rustfmt::skip]
+const BAD: &[(Edit, &[&str])] = &[
+    // The file.
+    (Instead(&["run", "absent.toml"]), &["absent.toml", "check the path", "cases/"]),
+    (Instead(&["run", "folder"]), &["folder", "give the TOML file in it"]),
+    (Instead(&["run", "latin.toml"]), &["latin.toml", "UTF-8"]),
+    (Instead(&["check", "absent.toml"]), &["absent.toml", "check the path"]),
+    (Instead(&["fluid", "absent.toml", "--run", "a"]), &["absent.toml", "check the path"]),
+    (Replace("[time]", "[time"), &["not TOML", "https://toml.io"]),
+    // Keys and types.
+    (Replace("levels = 2", "level = 2"), &["fluid.level", "unknown key", "did you mean `levels`?"]),
+    (Append("[outputs]\n"), &["unknown key `outputs`", "did you mean `output`?"]),
+    (Replace("end = 2e-6", "end = \"2e-6\""), &["time.end", "must be a number", "without quotes"]),
+    (Replace("levels = 2", "levels = 2.5"), &["fluid.levels", "whole number"]),
+    (Replace("end = 2e-6", ""), &["time.end", "is missing", "in s"]),
+    // Numbers that make no sense.
+    (Replace("radius = 0.002", "radius = -0.002"), &["fluid.region.0.radius", "must be positive", "in m"]),
+    (Replace("end = 2e-6\nsnapshots = [1e-6]", "end = 0"), &["time.end", "must be positive", "in s"]),
+    (Replace("snapshots = [1e-6]", "snapshots = [3e-6]"), &["time.snapshots", "3e-6", "make `end` later"]),
+    (Replace("snapshots = [1e-6]", "cfl = 1.5"), &["time.cfl", "(0, 0.9]", "0.45"]),
+    (Replace("cells = [4, 4]", "cells = [0, 4]"), &["fluid.cells", "from 1 to"]),
+    (Replace("cells = [4, 4]", "cells = [5, 4]"), &["fluid.cells", "no whole number of blocks", "nearest", "cells = [4, 4]"]),
+    // Where things are.
+    (Replace("centre = [0.004, 0.0]", "centre = [0.04, 0.0]"), &["fluid.region.0.centre", "outside the fluid", "z = 0.0 to 0.01 m"]),
+    (Replace("z = [-0.01, 0.0]", "z = [-0.01, -0.001]"), &["solid.z", "do not meet", "end the solid where the fluid begins"]),
+    (Append("[[fluid.region]]\nshape = \"box\"\nz = [0.02, 0.03]\nr = [0.0, 0.01]\nphase = \"gas\"\ndensity = 1\npressure = 1e5"), &["fluid.region.1.z", "outside the fluid", "z = 0.0 to 0.01 m"]),
+    (Replace("position = [0.0, 0.0]", "position = [0.0, 0.02]"), &["probe.0.position", "outside the fluid", "r = 0.0 to 0.01 m"]),
+    (Replace("name = \"steel\"", "name = \"wall\""), &["probe.1.name", "another probe is called `wall`"]),
+    // Equations of state.
+    (Replace("gamma = 7.15", "gamma = 1.0"), &["fluid.liquid.gamma", "greater than 1", "7.15 for water"]),
+    (Replace("pi = 3e8", "pi = -1.0"), &["fluid.liquid.pi", "must not be negative", "3e8 Pa"]),
+    (Replace("density = 1.2", "density = 0.0"), &["fluid.region.0.density", "must be positive", "kg/m3"]),
+    (Replace("pressure = 1e6", "pressure = -3e8"), &["fluid.ambient.pressure", "p + pi > 0", "give a pressure above"]),
+    // Materials.
+    (Replace("\"structural-steel\"", "\"alumnium\""), &["solid.material", "unknown material", "did you mean `aluminium`?"]),
+    (Append("[solid.material]\ndensity = 7800\nc1 = 5990\nc2 = 3458"), &["material"]),
+    (Replace("\"structural-steel\"", "{ density = 7800, c1 = 5990, c2 = 3458, young = 2e11, poisson = 0.3 }"), &["solid.material", "exactly one pair"]),
+    // Choices by name.
+    (Replace("scheme = \"riemann\"", "scheme = \"strong\""), &["coupling.scheme", "`strong`", "`riemann`", "`weak`"]),
+    (Replace("[fluid.liquid]", "riemann = \"roe\"\n[fluid.liquid]"), &["fluid.riemann", "`roe`", "`hllc`"]),
+    (Replace("[fluid.liquid]", "model = \"baer-nunziato\"\n[fluid.liquid]"), &["fluid.model", "`baer-nunziato`", "`saurel-abgrall`"]),
+    (Replace("[fluid.liquid]", "limiter = \"minmood\"\n[fluid.liquid]"), &["fluid.limiter", "did you mean `minmod`?"]),
+    (Replace("scheme = \"riemann\"", "kappa = \"jump\""), &["coupling.kappa", "scheme = \"weak\""]),
+    // Boundaries.
+    (Append("[fluid.boundary]\nz_max = \"inflow\""), &["fluid.inflow", "pressure history is missing", "[fluid.inflow]"]),
+    (Append("[fluid.boundary]\nz_max = \"periodic\""), &["fluid.boundary.z_max", "periodic", "both sides"]),
+    // Changes.
+    (With(&["--set", "time.end"]), &["--set time.end", "KEY=VALUE"]),
+    (With(&["--set", "fluid.limitter=mc"]), &["fluid.limitter", "did you mean `limiter`?"]),
+    (With(&["--set", "fluid.region.3.radius=1e-3"]), &["fluid.region.3.radius", "no element `3`", "number 0"]),
+    (With(&["--set", "fluid.region.0.radius=-1"]), &["fluid.region.0.radius", "must be positive"]),
+    // The run directory.
+    (With(&["--out", "case.toml/run"]), &["case.toml/run", "choose another directory with --out"]),
+    (With(&["--out", "case.toml"]), &["case.toml", "choose another directory with --out"]),
+    (With(&["--out", "/proc/cav-run"]), &["/proc/cav-run", "choose another directory with --out"]),
+    (With(&["--out", "folder"]), &["folder", "notes.txt", "choose an empty or new directory with --out"]),
+    (Append("[output]\ndirectory = \"folder\""), &["folder", "choose an empty or new directory with --out"]),
+    // The command line itself.
+    (Instead(&["fluid", "case.toml", "--run", "a b/c"]), &["a b/c", "give 1 to 64 of the characters"]),
+    (Instead(&["solid", "case.toml", "--run", ""]), &["run id", "give 1 to 64 of the characters"]),
+    (Instead(&["fluid", "case.toml", "--run", "a", "--set", "coupling.scheme=rigid"]), &["coupling.scheme", "no peer", "use `cav run`"]),
+    (Instead(&["fluid", "case.toml"]), &["--run"]),
+    (With(&["--threads", "0"]), &["--threads", "0 is not in 1.."]),
+    (With(&["--in-proces"]), &["--in-proces", "--in-process"]),
+    (With(&["--quiet", "--verbose"]), &["--quiet", "--verbose"]),
+    (Instead(&["rum", "case.toml"]), &["rum", "run"]),
+    (Instead(&["run"]), &["<CASE>"]),
+];
+
+#[test]
+fn bad_input_ends_with_code_2_the_key_and_the_remedy() {
+    assert!(BAD.len() >= 30);
+    let workshop = Workshop::new();
+    fs::create_dir(workshop.path("folder")).expect("a folder");
+    workshop.write("folder/notes.txt", "mine");
+    workshop.write("latin.toml", b"# gr\xfc\xdfe\n");
+    let before = workshop.content();
+    let mut wrong = String::new();
+    for (number, (edit, fragments)) in BAD.iter().enumerate() {
+        let case = match edit {
+            Replace(from, to) => {
+                assert!(GOOD.contains(from), "the good case has no `{from}`");
+                GOOD.replacen(from, to, 1)
+            }
+            Append(more) => format!("{GOOD}\n{more}\n"),
+            With(_) | Instead(_) => GOOD.to_owned(),
+        };
+        workshop.write("case.toml", case);
+        let arguments = match edit {
+            With(more) => [&["run", "case.toml"], *more].concat(),
+            Instead(all) => all.to_vec(),
+            Replace(..) | Append(_) => vec!["run", "case.toml"],
+        };
+        let begin = Instant::now();
+        let output = workshop.cav(&arguments);
+        let (took, said) = (begin.elapsed(), String::from_utf8_lossy(&output.stderr).into_owned());
+        let mut complain = |what: String| wrong += &format!("row {number} {arguments:?}: {what}\n{said}\n");
+        if output.status.code() != Some(2) {
+            complain(format!("ended with {:?}", output.status));
+        }
+        for fragment in fragments.iter().filter(|fragment| !said.contains(**fragment)) {
+            complain(format!("does not say `{fragment}`"));
+        }
+        if took > AT_ONCE {
+            complain(format!("took {took:?}"));
+        }
+        if !output.stdout.is_empty() {
+            complain("errors belong on standard error".to_owned());
+        }
+        if workshop.content() != before {
+            complain(format!("left something behind: {:?}", workshop.content()));
+            let _ = fs::remove_dir_all(workshop.path("runs"));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+    assert_eq!(fs::read_to_string(workshop.path("folder/notes.txt")).expect("still there"), "mine");
+}
+
+#[test]
+fn a_finished_run_is_replaced_only_by_force() {
+    let workshop = Workshop::new();
+    let run = ["run", "case.toml", "--in-process", "--out", "out", "-q"];
+    good_run(&workshop, &run);
+    workshop.write("out/thoughts.txt", "mine");
+    let history = fs::read(workshop.path("out/history.h5")).expect("a history");
+    let output = workshop.cav(&run);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output));
+    for fragment in ["out holds a finished run", "--out", "--force"] {
+        assert!(text(&output).contains(fragment), "{}", text(&output));
+    }
+    assert!(fs::read(workshop.path("out/history.h5")).expect("still there") == history);
+    good_run(&workshop, &[&run[..], &["--force", "--set", "time.end=1.5e-6"]].concat());
+    assert_eq!(summary(&workshop.path("out"))["t_end"].as_f64(), Some(1.5e-6));
+    assert_eq!(fs::read_to_string(workshop.path("out/thoughts.txt")).expect("kept"), "mine");
+    assert_eq!(workshop.content(), ["case.toml", "out"]);
+}
+
+#[test]
+fn without_arguments_it_says_what_to_type_next() {
+    let workshop = Workshop::new();
+    let said = text(&good_run(&workshop, &[]));
+    for fragment in ["What to type next", "run cases/dickopp2012-coarse.toml", "check", "materials", "--help"] {
+        assert!(said.contains(fragment), "{said}");
+    }
+    for flag in ["--help", "--version"] {
+        assert!(text(&good_run(&workshop, &[flag])).contains("cav"));
+    }
+}
+
+#[test]
+fn check_says_what_a_run_would_cost_and_leaves_nothing() {
+    let workshop = Workshop::new();
+    let said = text(&good_run(&workshop, &["check", "case.toml"]));
+    for fragment in [
+        "16 x 16 = 256 cells",
+        "MiB",
+        "time step",
+        "Rayleigh collapse time",
+        "impedance",
+        "reflection coefficient",
+        "run time",
+        "hash",
+    ] {
+        assert!(said.contains(fragment), "no `{fragment}` in\n{said}");
+    }
+    let finer = text(&good_run(&workshop, &["check", "case.toml", "--set", "fluid.levels=4"]));
+    assert!(finer.contains("64 x 64 = 4096 cells"), "{finer}");
+    assert_eq!(workshop.content(), ["case.toml"]);
+}
+
+#[test]
+fn materials_are_listed_with_yield_strength_and_source() {
+    let said = text(&good_run(&Workshop::new(), &["materials"]));
+    for material in solid::Material::library() {
+        let row = said.lines().find(|row| row.starts_with(&format!("{} ", material.name())));
+        let row = row.unwrap_or_else(|| panic!("no {} in\n{said}", material.name()));
+        let strength = material.yield_strength().map_or(" - ".to_owned(), |y| format!(" {:.0} ", y / 1e6));
+        assert!(row.contains(&strength), "no `{strength}` in {row}");
+        assert!(row.contains(material.source()), "no source in {row}");
+    }
+    for name in ["structural-steel", "stainless-steel", "aluminium", "copper", "pmma"] {
+        assert!(said.contains(name), "{said}");
+    }
+}
+
+fn summary(directory: &Path) -> serde_json::Value {
+    let text = fs::read_to_string(directory.join("summary.json")).expect("there is a summary");
+    serde_json::from_str(&text).expect("it is JSON")
+}
+
+/// Datasets with their lengths; those of the first list are as long as the run has steps, the first state included.
+const EVERY_STEP: [&str; 25] = [
+    "/time",
+    "/bubble/volume",
+    "/bubble/equivalent_radius",
+    "/bubble/centroid_z",
+    "/bubble/jet_tip_z",
+    "/bubble/jet_velocity",
+    "/probes/wall/time",
+    "/probes/wall/pressure",
+    "/probes/wall/density",
+    "/probes/wall/velocity_z",
+    "/probes/wall/velocity_r",
+    "/probes/wall/gas_fraction",
+    "/probes/steel/time",
+    "/probes/steel/velocity_z",
+    "/probes/steel/velocity_r",
+    "/probes/steel/stress_zz",
+    "/probes/steel/stress_zr",
+    "/probes/steel/stress_rr",
+    "/probes/steel/stress_phiphi",
+    "/solid/time",
+    "/solid/von_mises_max",
+    "/solid/von_mises_max_position",
+    "/solid/yielded_volume",
+    "/time_step",
+    "/wall/pressure_axis",
+];
+const SOME_STEPS: [&str; 15] = [
+    "/interface/time",
+    "/interface/r",
+    "/interface/pressure",
+    "/interface/normal_velocity",
+    "/interface/impulse",
+    "/conservation/fluid/time",
+    "/conservation/fluid/mass",
+    "/conservation/fluid/energy",
+    "/conservation/fluid/momentum_z",
+    "/conservation/fluid/mass_in_z_min",
+    "/conservation/fluid/interface_impulse",
+    "/conservation/solid/time",
+    "/conservation/solid/energy",
+    "/conservation/solid/momentum_z",
+    "/conservation/solid/momentum_in_z_max",
+];
+
+#[test]
+fn a_run_leaves_all_that_is_promised() {
+    let workshop = Workshop::new();
+    for (out, flags) in [("one", &["--in-process"][..]), ("two", &[])] {
+        let run = good_run(&workshop, &[&["run", "case.toml", "--out", out], flags].concat());
+        assert!(run.stdout.is_empty(), "{}", text(&run));
+        complete_directory(&workshop, out);
+    }
+    // The effective case runs as well as its source.
+    let again = ["run", "one/case.toml", "--out", "again", "--in-process", "-q"];
+    good_run(&workshop, &again);
+    assert_eq!(
+        fs::read(workshop.path("one/case.toml")).expect("a case"),
+        fs::read(workshop.path("again/case.toml")).expect("a case")
+    );
+}
+
+fn complete_directory(workshop: &Workshop, out: &str) {
+    let directory = workshop.path(out);
+    for name in ["fluid.vtkhdf", "solid.vtkhdf", "fluid.h5", "solid.h5", "history.h5", "summary.json", "case.toml"]
+    {
+        assert!(directory.join(name).is_file(), "{out} has no {name}");
+    }
+
+    let summary = summary(&directory);
+    assert_eq!(summary["completed"], true);
+    assert_eq!(summary["t_end"].as_f64(), Some(2e-6));
+    let steps = summary["steps"].as_u64().expect("steps") as usize;
+    assert!(steps > 3, "{summary}");
+    assert_eq!((&summary["cells"]["fluid"], &summary["cells"]["solid"]), (&256.into(), &256.into()));
+    for key in [
+        "wall_seconds",
+        "wall_pressure_peak",
+        "wall_pressure_peak_time",
+        "wall_pressure_peak_interface",
+        "wall_pressure_peak_anywhere",
+        "von_mises_peak",
+        "von_mises_peak_time",
+    ] {
+        assert!(summary[key].is_number(), "{key}: {summary}");
+    }
+    assert_eq!(summary["von_mises_peak_position"].as_array().map(Vec::len), Some(2));
+    // So short a run has no collapse; the keys are there all the same.
+    for key in ["collapse_time", "min_equivalent_radius"] {
+        assert!(summary.get(key).is_some_and(serde_json::Value::is_null), "{key}: {summary}");
+    }
+    for key in ["first_order", "floored", "floor_energy", "floored_stars"] {
+        assert!(summary["fixups"][key].is_number(), "{key}: {summary}");
+    }
+    assert!(summary["coupling"]["exchanges"].as_u64() >= Some(steps as u64), "{summary}");
+    for side in ["fluid", "solid"] {
+        for key in ["seconds_waited", "seconds_computing", "seconds_recording"] {
+            assert!(summary["coupling"][side][key].is_number(), "{side}.{key}: {summary}");
+        }
+    }
+
+    let history = hdf5::File::open(directory.join("history.h5")).expect("the history opens");
+    for name in EVERY_STEP.iter().chain(&SOME_STEPS) {
+        let dataset = history.dataset(name).unwrap_or_else(|error| panic!("{out}: {name}: {error}"));
+        let units = dataset.attr("units").unwrap_or_else(|error| panic!("{out}: units of {name}: {error}"));
+        let units = units.read_scalar::<hdf5::types::VarLenUnicode>().expect("a text");
+        assert!(!units.is_empty(), "{name}");
+        let rows = dataset.shape()[0];
+        if EVERY_STEP.contains(name) {
+            assert_eq!(rows, steps + 1, "{out}: {name}");
+        } else {
+            assert!(rows > 1, "{out}: {name} has {rows} rows");
+        }
+    }
+    let times = history.dataset("/time").and_then(|times| times.read_raw::<f64>()).expect("times");
+    assert_eq!(times.first().copied(), Some(0.0));
+    assert!((times[steps] - 2e-6).abs() <= 1e-12 * 2e-6, "the run ends where it should, to round-off");
+
+    let load = |name: &str| {
+        let path = if name.is_empty() { workshop.path("case.toml") } else { directory.join(name) };
+        Case::load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"))
+    };
+    assert_eq!(load("case.toml").hash(), load("").hash());
+    let hash: String = load("").hash().iter().map(|byte| format!("{byte:02x}")).collect();
+    let attribute = history.attr("case_hash").expect("the hash").read_scalar::<hdf5::types::VarLenUnicode>();
+    assert_eq!(attribute.expect("a text").as_str(), hash);
+
+    for (name, fields) in [
+        ("fluid.vtkhdf", &["density", "pressure", "velocity", "gas_fraction", "schlieren"][..]),
+        (
+            "solid.vtkhdf",
+            &["velocity", "stress_zz", "stress_zr", "stress_rr", "stress_phiphi", "von_mises", "yield_function"],
+        ),
+    ] {
+        let file = hdf5::File::open(directory.join(name)).expect("it opens");
+        let times = file.dataset("/VTKHDF/Steps/Values").and_then(|values| values.read_raw::<f64>());
+        // At the start, where the case asks for it, at the end.
+        assert_eq!(times.expect("times").len(), 3, "{name}");
+        for field in fields {
+            let data = file.dataset(&format!("/VTKHDF/CellData/{field}")).expect("the field is there");
+            assert_eq!(data.shape()[0], 3 * 256, "{name}: {field}");
+        }
+    }
+}
+
+#[test]
+fn one_medium_runs_alone() {
+    let workshop = Workshop::new();
+    let (fluid, solid) = GOOD.split_once("[solid]").expect("both media");
+    let coupling = solid.find("[coupling]").expect("the coupling follows");
+    let (head, _) = fluid.split_once("[fluid]").expect("a head");
+    let none = "[coupling]\nscheme = \"none\"\n";
+    workshop.write("fluid.toml", format!("{fluid}{none}"));
+    workshop.write("solid.toml", format!("{head}[solid]{}{none}", &solid[..coupling]));
+    for (out, case, more, present) in [
+        ("rigid", "case.toml", &["--set", "coupling.scheme=rigid"][..], ["wall_pressure_peak", "wall_pressure_peak"]),
+        ("fluid", "fluid.toml", &[], ["jet_velocity_peak", "final_equivalent_radius"]),
+        ("solid", "solid.toml", &[], ["von_mises_peak", "von_mises_peak_time"]),
+    ] {
+        let output = good_run(&workshop, &[&["run", case, "--out", out], more].concat());
+        let summary = summary(&workshop.path(out));
+        assert_eq!(summary["completed"], true, "{out}: {}", text(&output));
+        for key in present {
+            assert!(summary[key].is_number(), "{out}: {key}: {summary}");
+        }
+        let sides = ["fluid.vtkhdf", "solid.vtkhdf"].map(|name| workshop.path(out).join(name).exists());
+        assert_eq!(sides, [out != "solid", out == "solid"], "{out}");
+        let history = hdf5::File::open(workshop.path(out).join("history.h5")).expect("the history opens");
+        let times = history.dataset("/time").and_then(|times| times.read_raw::<f64>()).expect("times");
+        assert_eq!(times.len() as u64, summary["steps"].as_u64().expect("steps") + 1, "{out}");
+    }
+}
+
+#[test]
+fn progress_is_plain_where_nobody_watches_and_absent_when_quiet() {
+    let workshop = Workshop::new();
+    let run = good_run(&workshop, &["run", "case.toml", "--out", "plain"]);
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(!said.contains(['\u{1b}', '\r']), "{said:?}");
+    let progress = said.lines().find(|line| line.contains(" %  t = ")).unwrap_or_else(|| panic!("{said}"));
+    for fragment in ["step", "Δt = ", "(solid)", "512 cells", "left"] {
+        assert!(progress.contains(fragment), "{progress}");
+    }
+    assert!(said.contains("done: "), "{said}");
+    let quiet = good_run(&workshop, &["run", "case.toml", "--out", "quiet", "-q"]);
+    assert_eq!(text(&quiet), "");
+}
