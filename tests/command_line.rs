@@ -81,7 +81,8 @@ impl Workshop {
     /// The names of all that lies in the workshop.
     fn content(&self) -> Vec<String> {
         let entries = fs::read_dir(self.directory.path()).expect("the workshop is listed").flatten();
-        let mut names: Vec<_> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
         names.sort();
         names
     }
@@ -252,7 +253,8 @@ fn a_finished_run_is_replaced_only_by_force() {
 fn without_arguments_it_says_what_to_type_next() {
     let workshop = Workshop::new();
     let said = text(&good_run(&workshop, &[]));
-    for fragment in ["What to type next", "run cases/dickopp2012-coarse.toml", "check", "materials", "--help"] {
+    for fragment in ["What to type next", "run cases/dickopp2012-coarse.toml", "check", "materials", "--help"]
+    {
         assert!(said.contains(fragment), "{said}");
     }
     for flag in ["--help", "--version"] {
@@ -366,7 +368,8 @@ fn a_run_leaves_all_that_is_promised() {
 
 fn complete_directory(workshop: &Workshop, out: &str) {
     let directory = workshop.path(out);
-    for name in ["fluid.vtkhdf", "solid.vtkhdf", "fluid.h5", "solid.h5", "history.h5", "summary.json", "case.toml"]
+    for name in
+        ["fluid.vtkhdf", "solid.vtkhdf", "fluid.h5", "solid.h5", "history.h5", "summary.json", "case.toml"]
     {
         assert!(directory.join(name).is_file(), "{out} has no {name}");
     }
@@ -433,7 +436,15 @@ fn complete_directory(workshop: &Workshop, out: &str) {
         ("fluid.vtkhdf", &["density", "pressure", "velocity", "gas_fraction", "schlieren"][..]),
         (
             "solid.vtkhdf",
-            &["velocity", "stress_zz", "stress_zr", "stress_rr", "stress_phiphi", "von_mises", "yield_function"],
+            &[
+                "velocity",
+                "stress_zz",
+                "stress_zr",
+                "stress_rr",
+                "stress_phiphi",
+                "von_mises",
+                "yield_function",
+            ],
         ),
     ] {
         let file = hdf5::File::open(directory.join(name)).expect("it opens");
@@ -457,7 +468,12 @@ fn one_medium_runs_alone() {
     workshop.write("fluid.toml", format!("{fluid}{none}"));
     workshop.write("solid.toml", format!("{head}[solid]{}{none}", &solid[..coupling]));
     for (out, case, more, present) in [
-        ("rigid", "case.toml", &["--set", "coupling.scheme=rigid"][..], ["wall_pressure_peak", "wall_pressure_peak"]),
+        (
+            "rigid",
+            "case.toml",
+            &["--set", "coupling.scheme=rigid"][..],
+            ["wall_pressure_peak", "wall_pressure_peak"],
+        ),
         ("fluid", "fluid.toml", &[], ["jet_velocity_peak", "final_equivalent_radius"]),
         ("solid", "solid.toml", &[], ["von_mises_peak", "von_mises_peak_time"]),
     ] {
