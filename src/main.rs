@@ -111,7 +111,7 @@ const NEXT: &str = "\
 cav: a cavitation bubble collapsing near an elastic solid, and what it does to the wall.
 
 What to type next:
-  cargo run --release -- run cases/dickopp2012-coarse.toml     run the main case, about a minute
+  cargo run --release -- run cases/dickopp2012-coarse.toml     run the main case, half a minute
   cargo run --release -- check cases/dickopp2012-coarse.toml   what it would cost, without running it
   cargo run --release -- materials                             the library of materials
   cargo run --release -- --help                                everything else

@@ -15,11 +15,39 @@ use super::fluid_side::{Clock, FluidSide, Turn};
 use super::solid_side::SolidSide;
 use super::stop::Stop;
 use crate::case::Case;
-use crate::output::run_directory::{FLUID_SUMMARY, SOLID_SUMMARY};
 use crate::output::{ProgressLine, RunDirectory, summary};
 
 /// Told of every step.
 pub type OnStep<'a> = dyn FnMut(&ProgressLine) + 'a;
+
+/// What the loops need of either side; [`FluidSide`] and [`SolidSide`] are the two.
+pub trait Side {
+    /// "fluid" or "solid".
+    const NAME: &'static str;
+    /// The file of its part of the summary.
+    const SUMMARY: &'static str;
+
+    /// One step without the other side; `false` when the run is over.
+    fn step_alone(&mut self) -> Result<bool, RunError>;
+    /// Its part of a coupled step.
+    fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError>;
+    /// Writes what is still in memory; after a numerical failure the last good state, too.
+    fn close(&mut self, failed: bool) -> Result<(), RunError>;
+    /// Its part of the summary.
+    fn summary(&self) -> Map<String, Value>;
+    /// Simulated time and steps so far.
+    fn reached(&self) -> (f64, u64);
+    /// Where the wall time went.
+    fn clock(&self) -> Clock;
+    /// What a progress line says of it; `cells` are its own, `wall` is left at 0.
+    fn line(&self) -> ProgressLine;
+}
+
+/// A side's progress since `begin`, with the cells of the other side added.
+fn line(side: &impl Side, other_cells: u64, begin: Instant) -> ProgressLine {
+    let line = side.line();
+    ProgressLine { cells: line.cells + other_cells, wall: begin.elapsed().as_secs_f64(), ..line }
+}
 
 /// One medium, or a fluid over a rigid wall.
 pub fn alone(
@@ -28,34 +56,33 @@ pub fn alone(
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {
-    let begin = Instant::now();
     match (&case.fluid, &case.solid) {
         (Some(fluid), _) => {
-            let mut side = FluidSide::new(case, fluid, Some(directory))?;
-            let result = loop {
-                match side.step_alone() {
-                    Err(error) => break Err(error),
-                    Ok(None) => break Ok(Turn::Over(0)),
-                    Ok(Some(_)) if stop.flags() != 0 => break Ok(Turn::Over(stop.flags())),
-                    Ok(Some(_)) => on_step(&fluid_line(&side, 0, begin)),
-                }
-            };
-            end_fluid(&mut side, directory, result, LinkCounters::default(), begin)
+            step_alone(FluidSide::new(case, fluid, Some(directory))?, directory, stop, on_step)
         }
         (None, Some(solid)) => {
-            let mut side = SolidSide::new(case, solid, Some(directory))?;
-            let result = loop {
-                match side.step_alone() {
-                    Err(error) => break Err(error),
-                    Ok(None) => break Ok(Turn::Over(0)),
-                    Ok(Some(_)) if stop.flags() != 0 => break Ok(Turn::Over(stop.flags())),
-                    Ok(Some(_)) => on_step(&solid_line(&side, begin)),
-                }
-            };
-            end_solid(&mut side, directory, result, LinkCounters::default(), begin)
+            step_alone(SolidSide::new(case, solid, Some(directory))?, directory, stop, on_step)
         }
         (None, None) => unreachable!("a case has at least one medium"),
     }
+}
+
+fn step_alone(
+    mut side: impl Side,
+    directory: &RunDirectory,
+    stop: &Stop,
+    on_step: &mut OnStep<'_>,
+) -> Result<(), RunError> {
+    let begin = Instant::now();
+    let result = loop {
+        match side.step_alone() {
+            Err(error) => break Err(error),
+            Ok(false) => break Ok(Turn::Over(0)),
+            Ok(true) if stop.flags() != 0 => break Ok(Turn::Over(stop.flags())),
+            Ok(true) => on_step(&line(&side, 0, begin)),
+        }
+    };
+    end(&mut side, directory, result, LinkCounters::default(), begin)
 }
 
 /// Both media in this process, turn by turn through the same frames.
@@ -80,7 +107,7 @@ pub fn in_process(
                 solid.turn(&mut to_fluid, stop)?;
                 return Ok(over);
             }
-            on_step(&fluid_line(&fluid, solid_cells, begin));
+            on_step(&line(&fluid, solid_cells, begin));
             solid.turn(&mut to_fluid, stop)?;
         }
     };
@@ -89,8 +116,8 @@ pub fn in_process(
         Ok(turn) => Ok(*turn),
         Err(_) => Ok(Turn::Over(coupler::FrameHeader::STOP_TERMINATE)),
     };
-    let fluid_end = end_fluid(&mut fluid, directory, result, to_solid.counters(), begin);
-    let solid_end = end_solid(&mut solid, directory, error_of_solid, to_fluid.counters(), begin);
+    let fluid_end = end(&mut fluid, directory, result, to_solid.counters(), begin);
+    let solid_end = end(&mut solid, directory, error_of_solid, to_fluid.counters(), begin);
     fluid_end.and(solid_end)
 }
 
@@ -136,12 +163,12 @@ pub fn joined(
             let mut side = told(FluidSide::new(case, fluid, Some(&directory)), &mut link)?;
             let result = loop {
                 match side.turn(&mut link, stop) {
-                    Ok(Turn::Continues) => on_step(&fluid_line(&side, solid_cells, begin)),
+                    Ok(Turn::Continues) => on_step(&line(&side, solid_cells, begin)),
                     other => break other,
                 }
             };
             let result = tell(result, &mut link, side.solver().steps());
-            end_fluid(&mut side, &directory, result, link.counters(), begin)
+            end(&mut side, &directory, result, link.counters(), begin)
         }
         Participant::Solid => {
             let mut side = told(SolidSide::new(case, solid, Some(&directory)), &mut link)?;
@@ -149,14 +176,14 @@ pub fn joined(
                 side.open(&mut link, stop)?;
                 loop {
                     match side.turn(&mut link, stop)? {
-                        Turn::Continues => on_step(&solid_line(&side, begin)),
+                        Turn::Continues => on_step(&line(&side, 0, begin)),
                         over => return Ok(over),
                     }
                 }
             };
             let result = rounds();
             let result = tell(result, &mut link, side.solver().steps());
-            end_solid(&mut side, &directory, result, link.counters(), begin)
+            end(&mut side, &directory, result, link.counters(), begin)
         }
     }
 }
@@ -177,8 +204,9 @@ fn tell<T>(result: Result<T, RunError>, link: &mut ProcessLink, step: u64) -> Re
     result
 }
 
-fn end_fluid(
-    side: &mut FluidSide,
+/// Writes what is left to write of a side, and its part of the summary.
+fn end<S: Side>(
+    side: &mut S,
     directory: &RunDirectory,
     result: Result<Turn, RunError>,
     counters: LinkCounters,
@@ -186,26 +214,9 @@ fn end_fluid(
 ) -> Result<(), RunError> {
     let failed = matches!(&result, Err(error) if error.exit_code() == 3);
     side.close(failed)?;
-    let (solver, clock) = (side.solver(), side.clock());
     let mut part = side.summary();
-    part.extend(progress_part("fluid", solver.time(), solver.steps(), &result, begin, clock, counters));
-    summary::write(directory, FLUID_SUMMARY, &part)?;
-    concluded(result)
-}
-
-fn end_solid(
-    side: &mut SolidSide,
-    directory: &RunDirectory,
-    result: Result<Turn, RunError>,
-    counters: LinkCounters,
-    begin: Instant,
-) -> Result<(), RunError> {
-    let failed = matches!(&result, Err(error) if error.exit_code() == 3);
-    side.close(failed)?;
-    let (solver, clock) = (side.solver(), side.clock());
-    let mut part = side.summary();
-    part.extend(progress_part("solid", solver.time(), solver.steps(), &result, begin, clock, counters));
-    summary::write(directory, SOLID_SUMMARY, &part)?;
+    part.extend(progress_part(side, &result, begin, counters));
+    summary::write(directory, S::SUMMARY, &part)?;
     concluded(result)
 }
 
@@ -217,21 +228,19 @@ fn concluded(result: Result<Turn, RunError>) -> Result<(), RunError> {
 }
 
 /// What the summary says of a side's part in the run.
-fn progress_part(
-    side: &str,
-    time: f64,
-    steps: u64,
+fn progress_part<S: Side>(
+    side: &S,
     result: &Result<Turn, RunError>,
     begin: Instant,
-    clock: Clock,
     counters: LinkCounters,
 ) -> Map<String, Value> {
     let completed = matches!(result, Ok(Turn::Over(0)));
+    let ((time, steps), clock) = (side.reached(), side.clock());
     let mut coupling = json!({
         "exchanges": counters.received,
         "bytes": counters.bytes,
     });
-    coupling[side] = json!({
+    coupling[S::NAME] = json!({
         "seconds_computing": clock.computing.as_secs_f64(),
         "seconds_recording": clock.recording.as_secs_f64(),
         "seconds_waited": counters.waited.as_secs_f64(),
@@ -247,28 +256,4 @@ fn progress_part(
         part.insert("error".to_owned(), json!(error.to_string()));
     }
     part
-}
-
-fn fluid_line(side: &FluidSide, other_cells: u64, begin: Instant) -> ProgressLine {
-    let solver = side.solver();
-    ProgressLine {
-        time: solver.time(),
-        step: solver.steps(),
-        dt: side.last_dt(),
-        limited_by: side.limited_by().to_owned(),
-        cells: solver.mesh().cells() as u64 + other_cells,
-        wall: begin.elapsed().as_secs_f64(),
-    }
-}
-
-fn solid_line(side: &SolidSide, begin: Instant) -> ProgressLine {
-    let solver = side.solver();
-    ProgressLine {
-        time: solver.time(),
-        step: solver.steps(),
-        dt: side.last_dt(),
-        limited_by: "solid".to_owned(),
-        cells: solver.mesh().cells() as u64,
-        wall: begin.elapsed().as_secs_f64(),
-    }
 }

@@ -14,12 +14,14 @@ use mesh::BLOCK;
 use serde_json::{Map, Value};
 
 use super::RunError;
+use super::drive::Side;
 use super::fluid_record::FluidRecord;
 use super::schedule::{Plan, Schedule};
 use super::setup::fluid_solver;
 use super::stop::Stop;
 use crate::case::{Case, FluidCase};
-use crate::output::RunDirectory;
+use crate::output::run_directory::FLUID_SUMMARY;
+use crate::output::{ProgressLine, RunDirectory};
 
 /// What a turn came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,96 +93,6 @@ impl FluidSide {
     /// The solver.
     pub fn solver(&self) -> &FluidSolver<BLOCK> {
         &self.solver
-    }
-
-    /// Writes what is still in memory; after a numerical failure the last good state, too.
-    pub fn close(&mut self, failed: bool) -> Result<(), RunError> {
-        if let Some(record) = &mut self.record {
-            record.close(&self.solver, failed)?;
-        }
-        Ok(())
-    }
-
-    /// This side's part of the summary.
-    pub fn summary(&self) -> Map<String, Value> {
-        self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver))
-    }
-
-    /// Which side limits the step.
-    pub fn limited_by(&self) -> &'static str {
-        self.limited_by
-    }
-
-    /// The last step's length, s.
-    pub fn last_dt(&self) -> f64 {
-        self.last_dt
-    }
-
-    /// Where the time went.
-    pub fn clock(&self) -> Clock {
-        self.clock
-    }
-
-    /// One step without a solid. `None` when the run is over.
-    pub fn step_alone(&mut self) -> Result<Option<Plan>, RunError> {
-        let start = Instant::now();
-        let Some(plan) = self.plan(f64::INFINITY)? else { return Ok(None) };
-        self.solver.step(plan.dt)?;
-        self.clock.computing += start.elapsed();
-        self.recorded(plan)?;
-        Ok(Some(plan))
-    }
-
-    /// The fluid's turn: takes the solid's answer, finishes the step under way, begins the next one.
-    pub fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
-        let answer = self.take_answer(link)?;
-        if let Some(plan) = self.pending.take() {
-            let start = Instant::now();
-            self.solver.step(plan.dt)?;
-            self.clock.computing += start.elapsed();
-            self.recorded(plan)?;
-        }
-        let stopped =
-            answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
-        if stopped != 0 || self.schedule.is_over() {
-            let header =
-                FrameHeader { flags: stopped | FrameHeader::LAST, ..self.header(FrameKind::Trace, 0, 0.0) };
-            link.send(header, |_| {})?;
-            return Ok(Turn::Over(stopped));
-        }
-        let start = Instant::now();
-        let Some(plan) = self.plan(answer.dt_max)? else { return Ok(Turn::Over(0)) };
-        let faces = self.solver.wall_faces();
-        let mut header = self.header(FrameKind::Trace, faces, plan.dt);
-        if plan.snapshot {
-            header.flags |= FrameHeader::SNAPSHOT;
-        }
-        header.fields = TraceRow::COUNT as u64;
-        if self.scheme == Scheme::Weak {
-            self.step_weakly(plan)?;
-        }
-        let (solver, edges, weak) = (&self.solver, &self.edges, self.scheme == Scheme::Weak);
-        let mut filled = Duration::ZERO;
-        link.send(header, |payload| {
-            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
-            if weak {
-                solver.wall_cells(|face, pressure, velocity| {
-                    payload[TraceRow::Pressure as usize * faces + face] = pressure;
-                    payload[TraceRow::NormalVelocity as usize * faces + face] = velocity;
-                });
-            } else {
-                solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
-            }
-            filled = start.elapsed();
-        })?;
-        // What comes after the frame is filled is the exchange.
-        self.clock.computing += filled;
-        if weak {
-            self.recorded(plan)?;
-        } else {
-            self.pending = Some(plan);
-        }
-        Ok(Turn::Continues)
     }
 
     /// Reads the solid's register frame in place.
@@ -264,5 +176,100 @@ impl FluidSide {
         }
         self.clock.recording += start.elapsed();
         Ok(())
+    }
+}
+
+impl Side for FluidSide {
+    const NAME: &'static str = "fluid";
+    const SUMMARY: &'static str = FLUID_SUMMARY;
+
+    fn step_alone(&mut self) -> Result<bool, RunError> {
+        let start = Instant::now();
+        let Some(plan) = self.plan(f64::INFINITY)? else { return Ok(false) };
+        self.solver.step(plan.dt)?;
+        self.clock.computing += start.elapsed();
+        self.recorded(plan)?;
+        Ok(true)
+    }
+
+    fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
+        let answer = self.take_answer(link)?;
+        if let Some(plan) = self.pending.take() {
+            let start = Instant::now();
+            self.solver.step(plan.dt)?;
+            self.clock.computing += start.elapsed();
+            self.recorded(plan)?;
+        }
+        let stopped =
+            answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
+        if stopped != 0 || self.schedule.is_over() {
+            let header =
+                FrameHeader { flags: stopped | FrameHeader::LAST, ..self.header(FrameKind::Trace, 0, 0.0) };
+            link.send(header, |_| {})?;
+            return Ok(Turn::Over(stopped));
+        }
+        let start = Instant::now();
+        let Some(plan) = self.plan(answer.dt_max)? else { return Ok(Turn::Over(0)) };
+        let faces = self.solver.wall_faces();
+        let mut header = self.header(FrameKind::Trace, faces, plan.dt);
+        if plan.snapshot {
+            header.flags |= FrameHeader::SNAPSHOT;
+        }
+        header.fields = TraceRow::COUNT as u64;
+        if self.scheme == Scheme::Weak {
+            self.step_weakly(plan)?;
+        }
+        let (solver, edges, weak) = (&self.solver, &self.edges, self.scheme == Scheme::Weak);
+        let mut filled = Duration::ZERO;
+        link.send(header, |payload| {
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
+            if weak {
+                solver.wall_cells(|face, pressure, velocity| {
+                    payload[TraceRow::Pressure as usize * faces + face] = pressure;
+                    payload[TraceRow::NormalVelocity as usize * faces + face] = velocity;
+                });
+            } else {
+                solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
+            }
+            filled = start.elapsed();
+        })?;
+        // What comes after the frame is filled is the exchange.
+        self.clock.computing += filled;
+        if weak {
+            self.recorded(plan)?;
+        } else {
+            self.pending = Some(plan);
+        }
+        Ok(Turn::Continues)
+    }
+
+    fn close(&mut self, failed: bool) -> Result<(), RunError> {
+        if let Some(record) = &mut self.record {
+            record.close(&self.solver, failed)?;
+        }
+        Ok(())
+    }
+
+    fn summary(&self) -> Map<String, Value> {
+        self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver))
+    }
+
+    fn reached(&self) -> (f64, u64) {
+        (self.solver.time(), self.solver.steps())
+    }
+
+    fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    fn line(&self) -> ProgressLine {
+        ProgressLine {
+            time: self.solver.time(),
+            step: self.solver.steps(),
+            dt: self.last_dt,
+            limited_by: self.limited_by.to_owned(),
+            cells: self.solver.mesh().cells() as u64,
+            wall: 0.0,
+        }
     }
 }

@@ -129,28 +129,26 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     let completed = !parts.is_empty() && parts.iter().all(|part| part["completed"] == json!(true));
     let mut whole = summary::merge(&parts);
     whole.insert("completed".to_owned(), json!(completed));
-    if let Some((by_difference, by_latency)) = exchange_shares(&whole) {
-        whole["coupling"]["exchange_share"] = json!(by_difference);
-        whole["coupling"]["exchange_latency_share"] = json!(by_latency);
+    if let Some(share) = exchange_share(&whole) {
+        whole["coupling"]["exchange_share"] = json!(share);
     }
     summary::write(directory, SUMMARY, &whole)?;
     Ok(whole)
 }
 
-/// What the exchange cost, as shares of the wall time: (by difference, by latency).
+/// (wall time − both sides' compute − output) / wall time: what the exchange cost.
 ///
-/// By difference: wall time − both sides' compute − output. The sides compute at the same time where they can, so
-/// that this may be negative. By latency: the time in which a frame was complete and its reader, asking for it, had
-/// not got it yet.
-fn exchange_shares(whole: &Map<String, Value>) -> Option<(f64, f64)> {
+/// Negative where the sides compute at the same time. What each waited for frames that were ready is in
+/// `seconds_exchanging`; that has the waits for a processor in it which the other side is using.
+fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
     let wall = whole.get("wall_seconds")?.as_f64()?;
-    let seconds = |side: &str, key: &str| whole.get("coupling")?.get(side)?.get(key)?.as_f64();
-    let (mut rest, mut latency) = (wall, 0.0);
+    let mut rest = wall;
     for side in ["fluid", "solid"] {
-        rest -= seconds(side, "seconds_computing")? + seconds(side, "seconds_recording")?;
-        latency += seconds(side, "seconds_exchanging")?;
+        for key in ["seconds_computing", "seconds_recording"] {
+            rest -= whole.get("coupling")?.get(side)?.get(key)?.as_f64()?;
+        }
     }
-    Some((rest / wall, latency / wall))
+    Some(rest / wall)
 }
 
 fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {

@@ -8,13 +8,15 @@ use serde_json::{Map, Value, json};
 use solid::{Interface, SolidSolver};
 
 use super::RunError;
+use super::drive::Side;
 use super::fluid_side::{Clock, Turn};
 use super::schedule::{Plan, Schedule};
 use super::setup::solid_solver;
 use super::solid_record::SolidRecord;
 use super::stop::Stop;
 use crate::case::{Case, SolidCase};
-use crate::output::RunDirectory;
+use crate::output::run_directory::SOLID_SUMMARY;
+use crate::output::{ProgressLine, RunDirectory};
 
 /// The solid with its place in a run.
 pub struct SolidSide {
@@ -65,50 +67,69 @@ impl SolidSide {
         &self.solver
     }
 
-    /// Writes what is still in memory; after a numerical failure the last good state, too.
-    pub fn close(&mut self, failed: bool) -> Result<(), RunError> {
-        if let Some(record) = &mut self.record {
-            record.close(&self.solver, failed)?;
-        }
-        Ok(())
-    }
-
-    /// This side's part of the summary.
-    pub fn summary(&self) -> Map<String, Value> {
-        let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
-        part.insert("fixups".to_owned(), json!({ "floored_stars": self.interface.floored() }));
-        part
-    }
-
-    /// The last step's length, s.
-    pub fn last_dt(&self) -> f64 {
-        self.last_dt
-    }
-
-    /// Where the time went.
-    pub fn clock(&self) -> Clock {
-        self.clock
-    }
-
-    /// One step without a fluid. `None` when the run is over.
-    pub fn step_alone(&mut self) -> Result<Option<Plan>, RunError> {
-        let start = Instant::now();
-        let limit = self.solver.time_step_limit(self.cfl);
-        let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(None) };
-        self.last_dt = plan.dt;
-        self.solver.step(plan.dt)?;
-        self.clock.computing += start.elapsed();
-        self.recorded(plan)?;
-        Ok(Some(plan))
-    }
-
     /// The first word: how long a step the solid allows, and in the weak scheme its velocities.
     pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
         self.answer(link, stop)
     }
 
-    /// The solid's turn: takes the fluid's trace, makes the step, answers.
-    pub fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
+    /// Sends the register of the last step, the admissible next step, and what this side was asked to do.
+    fn answer(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
+        let start = Instant::now();
+        let faces = self.fluid_edges.len();
+        let header = FrameHeader {
+            step: self.solver.steps(),
+            time: self.solver.time(),
+            dt: self.last_dt,
+            dt_max: self.solver.time_step_limit(self.cfl),
+            fields: RegisterRow::COUNT as u64,
+            count: faces as u64,
+            flags: stop.flags(),
+            ..FrameHeader::new(FrameKind::Register)
+        };
+        let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
+        let (weak, first) = (self.scheme == Scheme::Weak, !interface.has_met());
+        let mut filled = Duration::ZERO;
+        link.send(header, |payload| {
+            let put =
+                |row: RegisterRow, face: usize, value: f64| payload[row as usize * faces + face] = value;
+            if weak {
+                solver.write_cell_velocities(interface, edges, put);
+            } else if !first {
+                interface.write_register(put);
+            }
+            filled = start.elapsed();
+        })?;
+        // What comes after the frame is filled is the exchange.
+        self.clock.computing += filled;
+        Ok(())
+    }
+
+    fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
+        let start = Instant::now();
+        if let Some(record) = &mut self.record {
+            record.after_step(&self.solver, plan)?;
+        }
+        self.clock.recording += start.elapsed();
+        Ok(())
+    }
+}
+
+impl Side for SolidSide {
+    const NAME: &'static str = "solid";
+    const SUMMARY: &'static str = SOLID_SUMMARY;
+
+    fn step_alone(&mut self) -> Result<bool, RunError> {
+        let start = Instant::now();
+        let limit = self.solver.time_step_limit(self.cfl);
+        let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(false) };
+        self.last_dt = plan.dt;
+        self.solver.step(plan.dt)?;
+        self.clock.computing += start.elapsed();
+        self.recorded(plan)?;
+        Ok(true)
+    }
+
+    fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         let (scheme, star, kappa, cfl) = (self.scheme, self.star, self.kappa, self.cfl);
         let (solver, interface, factor, edges) =
             (&mut self.solver, &mut self.interface, &mut self.factor, &mut self.fluid_edges);
@@ -159,44 +180,35 @@ impl SolidSide {
         Ok(Turn::Continues)
     }
 
-    /// Sends the register of the last step, the admissible next step, and what this side was asked to do.
-    fn answer(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
-        let start = Instant::now();
-        let faces = self.fluid_edges.len();
-        let header = FrameHeader {
-            step: self.solver.steps(),
-            time: self.solver.time(),
-            dt: self.last_dt,
-            dt_max: self.solver.time_step_limit(self.cfl),
-            fields: RegisterRow::COUNT as u64,
-            count: faces as u64,
-            flags: stop.flags(),
-            ..FrameHeader::new(FrameKind::Register)
-        };
-        let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
-        let (weak, first) = (self.scheme == Scheme::Weak, !interface.has_met());
-        let mut filled = Duration::ZERO;
-        link.send(header, |payload| {
-            let put =
-                |row: RegisterRow, face: usize, value: f64| payload[row as usize * faces + face] = value;
-            if weak {
-                solver.write_cell_velocities(interface, edges, put);
-            } else if !first {
-                interface.write_register(put);
-            }
-            filled = start.elapsed();
-        })?;
-        // What comes after the frame is filled is the exchange.
-        self.clock.computing += filled;
+    fn close(&mut self, failed: bool) -> Result<(), RunError> {
+        if let Some(record) = &mut self.record {
+            record.close(&self.solver, failed)?;
+        }
         Ok(())
     }
 
-    fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
-        let start = Instant::now();
-        if let Some(record) = &mut self.record {
-            record.after_step(&self.solver, plan)?;
+    fn summary(&self) -> Map<String, Value> {
+        let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
+        part.insert("fixups".to_owned(), json!({ "floored_stars": self.interface.floored() }));
+        part
+    }
+
+    fn reached(&self) -> (f64, u64) {
+        (self.solver.time(), self.solver.steps())
+    }
+
+    fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    fn line(&self) -> ProgressLine {
+        ProgressLine {
+            time: self.solver.time(),
+            step: self.solver.steps(),
+            dt: self.last_dt,
+            limited_by: "solid".to_owned(),
+            cells: self.solver.mesh().cells() as u64,
+            wall: 0.0,
         }
-        self.clock.recording += start.elapsed();
-        Ok(())
     }
 }

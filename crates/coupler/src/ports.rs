@@ -68,12 +68,13 @@ impl Ports {
         watch: &Arc<PeerWatch>,
     ) -> Result<Self, CouplerError> {
         let node_name = NodeName::new(&format!("{run_id}/{name}")).map_err(failed("naming the node"))?;
-        let node = NodeBuilder::new()
-            .config(config)
-            .name(&node_name)
-            .signal_handling_mode(SignalHandlingMode::Disabled)
-            .create::<Ipc>()
-            .map_err(failed("creating the node"))?;
+        let node = patiently("creating the node", || {
+            NodeBuilder::new()
+                .config(config)
+                .name(&node_name)
+                .signal_handling_mode(SignalHandlingMode::Disabled)
+                .create::<Ipc>()
+        })?;
         let outward = service_name(run_id, name)?;
         let inward = service_name(run_id, name.peer())?;
 

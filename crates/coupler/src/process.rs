@@ -159,9 +159,17 @@ impl ProcessLink {
         self.peer_pid
     }
 
-    /// The peer is no more: clears away what it left and says so.
+    /// The peer is no more: passes on its last word if there is one, else clears away what it left and says so.
     fn lost(&mut self) -> CouplerError {
         self.parted = true;
+        while let Ok(Some(sample)) = self.ports.subscriber.receive() {
+            let frame = Frame { header: sample.user_header(), payload: sample.payload() };
+            if let Err(word @ (CouplerError::PeerClosed { .. } | CouplerError::PeerFailed { .. })) =
+                self.talk.accept(&frame)
+            {
+                return word;
+            }
+        }
         if let Err(error) = remove_dead(&self.config) {
             tracing::warn!(%error, "what the dead peer left in shared memory stays until the next run");
         }
