@@ -1,0 +1,196 @@
+//! Two ways to drive both media: as a run does, from a case; and by hand, from functions of the place.
+
+use cav::case::Case;
+use cav::run::fluid_side::{FluidSide, Turn};
+use cav::run::solid_side::SolidSide;
+use cav::run::stop::Stop;
+use coupler::{DirectLink, RegisterRow, StarSolver, TraceRow, WallRegister, direct_pair};
+use fluid::{
+    Boundary as FluidBoundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, StiffenedGas,
+};
+use mesh::{BLOCK, Domain, Geometry, Limiter};
+use solid::{Boundary as SolidBoundary, ElasticState, Interface, SolidSetup, SolidSolver, WaveSpeeds};
+
+/// The fluid's solver as runs use it.
+pub type Fluid = FluidSolver<BLOCK>;
+/// The solid's solver as runs use it.
+pub type Solid = SolidSolver<BLOCK>;
+
+/// Water.
+pub const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
+/// Structural steel: density, c1, c2.
+pub const STEEL: [f64; 3] = [7800.0, 5990.0, 3458.0];
+
+/// The speed of sound in water of 1000 kg/m³.
+pub fn sound(pressure: f64) -> f64 {
+    (WATER.gamma * (pressure + WATER.pi) / 1000.0).sqrt()
+}
+
+/// Reads a case from text.
+pub fn case(text: &str) -> Case {
+    Case::from_toml(text, "coupled", &[]).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Both sides of a case, as a run in one process has them.
+pub struct Sides {
+    pub fluid: FluidSide,
+    pub solid: SolidSide,
+    to_solid: DirectLink,
+    to_fluid: DirectLink,
+    stop: Stop,
+}
+
+impl Sides {
+    /// Ready for the first step, without a run directory.
+    pub fn of(case: &Case) -> Self {
+        let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) else { panic!("both media") };
+        let (to_solid, mut to_fluid) = direct_pair(case.hash());
+        let stop = Stop::default();
+        let fluid = FluidSide::new(case, fluid, None).expect("the fluid");
+        let mut solid = SolidSide::new(case, solid, None).expect("the solid");
+        solid.open(&mut to_fluid, &stop).expect("the solid opens");
+        Self { fluid, solid, to_solid, to_fluid, stop }
+    }
+
+    /// A round of turns; `look` sees both between their turns: at the same time, in the weak scheme the fluid one
+    /// step ahead.
+    ///
+    /// - returns: whether the run goes on.
+    pub fn round(&mut self, mut look: impl FnMut(&Fluid, &Solid)) -> bool {
+        let turn = self.fluid.turn(&mut self.to_solid, &self.stop).expect("the fluid's turn");
+        look(self.fluid.solver(), self.solid.solver());
+        self.solid.turn(&mut self.to_fluid, &self.stop).expect("the solid's turn");
+        turn == Turn::Continues
+    }
+
+    /// To the end of the case.
+    pub fn run(&mut self, mut look: impl FnMut(&Fluid, &Solid)) {
+        while self.round(&mut look) {}
+    }
+}
+
+/// Both media coupled by hand, in the steps that the sides of a run make.
+pub struct Pair {
+    pub fluid: Fluid,
+    pub solid: Solid,
+    interface: Interface,
+    star: StarSolver,
+    trace: Vec<f64>,
+    register: Vec<f64>,
+}
+
+impl Pair {
+    /// Of two solvers with the interface between them.
+    pub fn of(fluid: Fluid, solid: Solid) -> Self {
+        let faces = fluid.wall_faces();
+        let mut trace = vec![0.0; TraceRow::COUNT * faces];
+        trace[..faces].copy_from_slice(&fluid.wall_edges());
+        Self {
+            trace,
+            register: vec![0.0; RegisterRow::COUNT * faces],
+            interface: Interface::default(),
+            star: StarSolver::Exact,
+            fluid,
+            solid,
+        }
+    }
+
+    /// One step of `dt`.
+    pub fn step(&mut self, dt: f64) {
+        let Self { fluid, solid, interface, star, trace, register } = self;
+        let faces = fluid.wall_faces();
+        fluid.write_trace(dt, |row, face, value| trace[row as usize * faces + face] = value);
+        solid.meet_fluid(interface, trace, faces, dt, *star);
+        interface.write_register(|row, face, value| register[row as usize * faces + face] = value);
+        fluid.set_wall(&WallRegister::of(register, faces));
+        solid.step(dt).expect("the solid's step");
+        fluid.step(dt).expect("the fluid's step");
+    }
+
+    /// Steps at the Courant number `cfl` until `end`, all of one length.
+    pub fn run(&mut self, end: f64, cfl: f64, mut look: impl FnMut(&Fluid, &Solid)) {
+        // The fluid hardly moves in the problems that are driven so: a little room is enough.
+        let limit = self.fluid.time_step_limit(cfl).min(self.solid.time_step_limit(cfl)) / 1.001;
+        let steps = (end / limit).ceil();
+        for _ in 0..steps as usize {
+            self.step(end / steps);
+            look(&self.fluid, &self.solid);
+        }
+    }
+}
+
+/// Water on a grid.
+pub fn water(
+    domain: Domain,
+    cells: [usize; 2],
+    limiter: Limiter,
+    boundaries: [FluidBoundary; 4],
+    state: impl Fn([f64; 2]) -> Primitive,
+) -> Fluid {
+    let setup = FluidSetup {
+        domain,
+        coarsest: cells,
+        levels: 0,
+        liquid: WATER,
+        gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
+        model: Model::SaurelAbgrall,
+        riemann: RiemannSolver::Hllc,
+        limiter,
+        boundaries,
+        inflow: None,
+    };
+    Fluid::from_fn(&setup, state).expect("water")
+}
+
+/// A solid on a grid.
+pub fn elastic(
+    domain: Domain,
+    cells: [usize; 2],
+    [density, c1, c2]: [f64; 3],
+    limiter: Limiter,
+    boundaries: [SolidBoundary; 4],
+    state: impl Fn([f64; 2]) -> ElasticState,
+) -> Solid {
+    let setup = SolidSetup {
+        domain,
+        coarsest: cells,
+        levels: 0,
+        speeds: WaveSpeeds { density, c1, c2 },
+        yield_strength: f64::INFINITY,
+        limiter,
+        boundaries,
+    };
+    Solid::new(setup, state).expect("a solid")
+}
+
+/// A strip in planar geometry.
+pub fn strip(z: [f64; 2], r: f64) -> Domain {
+    Domain { geometry: Geometry::Planar, z, r: [0.0, r] }
+}
+
+/// The value farthest from zero, with its sign.
+pub fn extreme(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
+}
+
+/// All cells of a fluid: centre and state.
+pub fn fluid_cells(fluid: &Fluid) -> Vec<([f64; 2], Primitive)> {
+    let mut cells = Vec::new();
+    for (slot, id) in fluid.mesh().tree().leaves().iter().enumerate() {
+        for j in 0..BLOCK {
+            cells.extend((0..BLOCK).map(|i| (fluid.mesh().centre(*id, i, j), fluid.cell(slot, i, j))));
+        }
+    }
+    cells
+}
+
+/// All cells of a solid: centre and state.
+pub fn solid_cells(solid: &Solid) -> Vec<([f64; 2], ElasticState)> {
+    let mut cells = Vec::new();
+    for (slot, id) in solid.mesh().tree().leaves().iter().enumerate() {
+        for j in 0..BLOCK {
+            cells.extend((0..BLOCK).map(|i| (solid.mesh().centre(*id, i, j), solid.cell(slot, i, j))));
+        }
+    }
+    cells
+}

@@ -1,0 +1,103 @@
+//! What one side gives the other gets; what a closed box has it keeps.
+
+use crate::harness::{Sides, case};
+
+/// A gas bubble that collapses in a closed box over steel, on cells that do not match.
+fn closed_box(geometry: &str) -> Sides {
+    let (centre, sides) = match geometry {
+        "planar" => ("[0.004, 0.005]", ["r_min = \"wall\"", "r_min = \"symmetry\""]),
+        _ => ("[0.004, 0.0]", [""; 2]),
+    };
+    let text = format!(
+        r#"
+geometry = "{geometry}"
+[time]
+end = 8e-6
+[fluid]
+z = [0.0, 0.01]
+r = [0.0, 0.01]
+cells = [32, 32]
+limiter = "minmod"
+[fluid.liquid]
+gamma = 7.15
+pi = 3e8
+[fluid.ambient]
+density = 1000.0
+pressure = 5e7
+[[fluid.region]]
+shape = "sphere"
+centre = {centre}
+radius = 0.002
+phase = "gas"
+density = 0.0266
+pressure = 2118.0
+[fluid.boundary]
+{}
+z_max = "wall"
+r_max = "wall"
+[solid]
+z = [-0.01, 0.0]
+r = [0.0, 0.01]
+cells = [32, 48]
+material = "structural-steel"
+[solid.boundary]
+{}
+z_min = "fixed"
+r_max = "symmetry"
+"#,
+        sides[0], sides[1]
+    );
+    Sides::of(&case(&text))
+}
+
+/// Round-off of sums over some thousand cells and some hundred steps, relative to the sums of absolute values.
+const ROUND_OFF: f64 = 1e-13;
+
+#[test]
+fn a_coupled_box_keeps_its_ledgers() {
+    for geometry in ["planar", "axisymmetric"] {
+        let mut sides = closed_box(geometry);
+        let before = (sides.fluid.solver().totals(), sides.solid.solver().totals());
+        // Sums of absolute values that the round-off is to be measured by: impulse, work, both at the wall.
+        let [mut impulse, mut work] = [0.0, 0.0];
+        let mut last = [0.0; 2];
+        sides.run(|fluid, _| {
+            let ledger = fluid.ledger();
+            impulse += (ledger.wall_impulse - last[0]).abs();
+            work += (ledger.wall_work - last[1]).abs();
+            last = [ledger.wall_impulse, ledger.wall_work];
+        });
+        let (fluid, solid) = (sides.fluid.solver(), sides.solid.solver());
+        let (now, ledger, fixups) = (fluid.totals(), fluid.ledger(), fluid.fixups());
+        assert!(fluid.steps() > 100 && fluid.bubble().volume > 0.0, "{} steps", fluid.steps());
+        let moved = solid.totals().kinetic;
+        assert!(moved > 0.0 && work > 0.0, "the wall moves");
+
+        let sum = |sides: [f64; 4]| sides.iter().sum::<f64>();
+        let size = |sides: [f64; 4]| sides.iter().map(|side| side.abs()).sum::<f64>();
+        let check = |what: &str, found: f64, wanted: f64, scale: f64| {
+            let error = (found - wanted).abs() / scale;
+            eprintln!("{geometry}: {what} {found:e}, off by {error:.1e}");
+            assert!(error < ROUND_OFF, "{geometry}: {what}: {found:e} of {wanted:e}, off by {error:.1e}");
+        };
+        check("fluid mass", now.mass - before.0.mass, sum(ledger.mass), now.mass);
+        let wanted = sum(ledger.energy) + fixups.floor_energy;
+        check("fluid energy", now.energy - before.0.energy, wanted, now.energy);
+        let gained = now.momentum_z - before.0.momentum_z;
+        check("fluid momentum", gained, sum(ledger.momentum), size(ledger.momentum));
+        let below = solid.ledger();
+        let gained = solid.totals().momentum_z - before.1.momentum_z;
+        check("solid momentum", gained, sum(below.momentum), size(below.momentum));
+        let z_max = mesh::Side::ZMax as usize;
+        check("impulse to the solid", -below.momentum[z_max], ledger.wall_impulse, impulse);
+        check("work on the solid", -below.energy[z_max], ledger.wall_work, work);
+        // Walls and the fixed bottom do no work.
+        assert_eq!(ledger.mass[1..], [0.0; 3]);
+        assert_eq!(ledger.energy[1..], [0.0; 3]);
+        assert_eq!(below.energy[0], 0.0);
+        // The solid's scheme may lose energy, never gain it.
+        let totals = |t: &solid::Totals| t.kinetic + t.elastic;
+        let dissipated = totals(&before.1) + below.energy.iter().sum::<f64>() - totals(&solid.totals());
+        assert!(dissipated > -ROUND_OFF * totals(&solid.totals()), "{dissipated:e}");
+    }
+}

@@ -1,0 +1,10 @@
+//! Fluid and solid together, in this process: what the interface does to waves, impulse and work.
+
+mod collapse;
+mod hammer;
+mod harness;
+mod ledgers;
+mod modes;
+mod pulse;
+mod rest;
+mod weak;
