@@ -1,11 +1,7 @@
 //! Two ways to drive both media: as a run does, from a case; and by hand, from functions of the place.
 
 use cav::case::Case;
-<<<<<<< HEAD
-use cav::run::drive::Side;
-=======
 use cav::run::drive::Side as _;
->>>>>>> transport
 use cav::run::fluid_side::{FluidSide, Turn};
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;
