@@ -116,7 +116,7 @@ pub fn attributes(case: &Case) -> Vec<(&'static str, String)> {
     let hash = case.hash().iter().map(|byte| format!("{byte:02x}")).collect();
     vec![
         ("program", format!("cav {}", env!("CARGO_PKG_VERSION"))),
-        ("git_revision", option_env!("CAV_GIT_REVISION").unwrap_or("unknown").to_owned()),
+        ("git_revision", env!("CAV_GIT_REVISION").to_owned()),
         ("case_name", case.name.clone()),
         ("case_hash", hash),
         ("case", case.effective_toml()),
