@@ -3,8 +3,9 @@
 use mesh::{Field, Limiter, Mesh, Padded, Side, limited_differences};
 
 use crate::boundary::{Boundaries, WallState};
-use crate::rows::{self, Extremes, FaceRows, Metric, Reconstruction};
+use crate::rows::{self, FaceRows, Reconstruction};
 use crate::state::conserved::COUNT;
+use crate::update::{Extremes, Metric, update};
 use crate::{Boundary, Mixture, RiemannSolver};
 
 /// What all blocks of a step share.
@@ -189,7 +190,7 @@ pub(crate) fn step_block<const N: usize>(
     };
     let old = ctx.old.block(slot);
     let [speed_z, speed_r, floor] = scratch.speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
-    let extremes = rows::update(
+    let extremes = update(
         std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
         &scratch.z_faces,
         &scratch.r_faces,

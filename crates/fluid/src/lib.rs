@@ -21,6 +21,7 @@ mod participant;
 mod rows;
 mod solver;
 mod state;
+mod update;
 
 pub use boundary::{PressureHistory, WallState};
 pub use diagnostics::{AxisState, Bubble, Snapshot, TRACE_GAS, Totals, WallPressures};
