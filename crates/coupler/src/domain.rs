@@ -62,7 +62,8 @@ impl Domain {
 /// Held by every participant for as long as it may have shared objects; the system lets go of it if it is killed.
 #[derive(Debug)]
 pub(crate) struct Presence {
-    _shared_lock: File,
+    shared_lock: File,
+    domain: Domain,
 }
 
 impl Presence {
@@ -80,7 +81,17 @@ impl Presence {
             root.unlock().map_err(refuse)?;
         }
         root.lock_shared().map_err(refuse)?;
-        Ok(Self { _shared_lock: root })
+        Ok(Self { shared_lock: root, domain: domain.clone() })
+    }
+}
+
+impl Drop for Presence {
+    /// The last one out sweeps, too: what a killed peer left cannot always be taken apart while it dies.
+    fn drop(&mut self) {
+        let alone = self.shared_lock.unlock().and_then(|()| self.shared_lock.try_lock().map_err(Into::into));
+        if alone.is_ok() {
+            sweep(&self.domain);
+        }
     }
 }
 

@@ -50,7 +50,9 @@ fn what_two_killed_participants_left_is_cleared_away_by_the_next_or_on_request()
             fluid.end().assert_done();
             solid.end().assert_done();
         } else {
-            assert!(clean_up_dead(&scene.domain).unwrap() > 0);
+            // How many it counts is open: the solid may have been killed while it was clearing away the fluid, and
+            // what is half cleared away goes with the sweep. That all is gone is what counts.
+            clean_up_dead(&scene.domain).unwrap();
         }
         scene.assert_clean();
     }
