@@ -13,6 +13,7 @@
 
 #![forbid(unsafe_code)]
 
+mod adaptation;
 mod domain;
 mod field;
 mod geometry;
@@ -22,6 +23,7 @@ mod parallel;
 mod quadtree;
 mod reduce;
 
+pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use domain::{Domain, Mesh, MeshError};
 pub use field::Field;
 pub use geometry::{Geometry, Side};
