@@ -20,6 +20,7 @@ mod domain;
 mod field;
 mod geometry;
 mod ghosts;
+mod horizon;
 mod limiter;
 mod marks;
 mod multiresolution;
@@ -30,11 +31,13 @@ mod quadtree;
 mod reduce;
 mod register;
 mod remap;
+mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use domain::{Domain, Mesh, MeshError};
 pub use field::Field;
 pub use geometry::{Geometry, Side};
+pub use horizon::Horizon;
 pub use limiter::{Limiter, limited_differences};
 pub use multiresolution::{MOST_COMPONENTS, Multiresolution};
 pub use padded::{GHOSTS, Padded};
@@ -44,6 +47,7 @@ pub use quadtree::{BlockId, Neighbour, Offset, Quadtree};
 pub use reduce::maximum;
 pub use register::FluxRegister;
 pub use remap::{Adapted, Origin};
+pub use side_states::SideStates;
 
 /// Cells along one side of a block, unless a test chooses otherwise.
 pub const BLOCK: usize = 16;
