@@ -156,7 +156,10 @@ impl<const N: usize> FluidSolver<N> {
                 crate::adapt::initial_mesh(setup, periodic, adaptation, &analysis, initial, asks_for_finer)?
             }
         };
-        let sides = SideStates::new(&mesh, initial);
+        // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
+        let sides = SideStates::new(&mesh, |centre, widths| {
+            Primitive::from_conserved(initial(centre, widths).to_conserved(&mixture), &mixture)
+        });
         let mut solver = Self {
             reports: vec![BlockReport::default(); mesh.blocks()],
             next: state.clone(),

@@ -72,23 +72,19 @@ fn fill<const N: usize>(mesh: &Mesh<N>, initial: &(impl Fn([f64; 2]) -> ElasticS
 }
 
 impl<const N: usize> SolidSolver<N> {
-    /// Adapts the grid if it is time to; to be called after a step. Returns whether the mesh changed: slots, faces
-    /// of the surface and their number are then new ones.
-    ///
-    /// - `dt`: about the length of the steps to come, s.
-    pub fn adapt_if_due(&mut self, dt: f64) -> bool {
-        self.is_adaptation_due(dt) && self.adapt(dt)
-    }
-
-    /// Whether the grid should adapt before the next step; to be asked once after each step.
-    pub fn is_adaptation_due(&mut self, dt: f64) -> bool {
+    /// Whether [`SolidSolver::adapt`] should follow the step about to be made, of length `dt`; to be asked once
+    /// before each step.
+    pub fn adaptation_follows(&mut self, dt: f64) -> bool {
         let Some(every) = self.setup.adaptation.as_ref().map(|adaptation| adaptation.every) else {
             return false;
         };
-        self.horizon.is_due(every, self.time, dt)
+        self.horizon.is_due(every, self.time + dt, dt)
     }
 
-    /// Adapts the grid to the present state. Returns whether the mesh changed.
+    /// Adapts the grid to the present state. Returns whether the mesh changed: slots, faces of the surface and
+    /// their number are then new ones.
+    ///
+    /// - `dt`: about the length of the steps to come, s.
     pub fn adapt(&mut self, dt: f64) -> bool {
         let Some(adaptation) = &self.setup.adaptation else { return false };
         // Waves cross a cell of a level in this time.
