@@ -78,7 +78,7 @@ mod tests {
         assert_eq!(density(&initial, 5e7, WATER), 1000.0 - 0.0266);
         // Water of the same state, but moving: the pressure with which it hits the water at rest.
         initial.regions[0].state = PhaseState { velocity: [-30.0, 40.0], ..initial.ambient };
-        let c2 = 7.15 * 3.5e8 / 1000.0;
+        let c2: f64 = 7.15 * 3.5e8 / 1000.0;
         assert!((pressure(&initial, None, WATER) / (1000.0 * c2.sqrt() * 50.0) - 1.0).abs() < 1e-14);
         assert_eq!(density(&initial, 1e6, WATER), 1e6 / (c2.sqrt() * c2.sqrt()));
         let inflow = Inflow { pressure: vec![[0.0, 5e7], [1.0, -2e8]] };

@@ -43,6 +43,7 @@ pub struct Mesh<const N: usize> {
     domain: Domain,
     coarsest: [usize; 2],
     tree: Quadtree,
+    generation: u64,
 }
 
 impl<const N: usize> Mesh<N> {
@@ -67,12 +68,18 @@ impl<const N: usize> Mesh<N> {
         let whole = |level: &u8| coarsest.iter().all(|cells| (cells << level).is_multiple_of(N));
         let root_level = (0..=levels).find(whole).expect("the finest level is whole");
         let roots = coarsest.map(|cells| u32::try_from((cells << root_level) / N).expect("fits 32 bits"));
-        Ok(Self { domain, coarsest, tree: Quadtree::uniform(root_level, roots, levels, periodic) })
+        let tree = Quadtree::uniform(root_level, roots, levels, periodic);
+        Ok(Self { domain, coarsest, tree, generation: 0 })
     }
 
     /// The domain.
     pub fn domain(&self) -> &Domain {
         &self.domain
+    }
+
+    /// A number that changes whenever the mesh does.
+    pub fn generation(&self) -> u64 {
+        self.generation
     }
 
     /// The tree of blocks.
