@@ -89,7 +89,6 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("[time]", "[tmie]"), &["unknown key `tmie`", "did you mean `time`?", "`time` is missing"]),
     (Append("[fluids]\n"), &["fluids: unknown key", "did you mean `fluid`?"]),
     (Append("adapt = true\n"), &["unknown key `adapt`"]),
-    (Replace("[fluid.liquid]", "adapt = true\n[fluid.liquid]"), &["fluid.adapt: unknown key", "allowed: "]),
     (Replace("radius = 0.002", "raduis = 0.002"), &["fluid.region.0.raduis: unknown key", "did you mean `radius`?", "fluid.region.0.radius: `radius` is missing", "in m"]),
     (Replace("levels = 3", "level = 3"), &["fluid.level: unknown key", "did you mean `levels`?"]),
     (Append("[[probe]]\n[probe.x]\n"), &["probe.1.x: unknown key", "probe.1.name: `name` is missing", "probe.1.medium"]),
@@ -122,6 +121,27 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("r = [0.0, 0.01]", "r = [0.001, 0.01]"), &["fluid.r", "must start at the axis", "start at r = 0.0"]),
     (Replace("z = [-0.01, 0.0]", "z = [-0.01, -0.001]"), &["solid.z: the domains do not meet", "z = [-0.01, 0.0]"]),
     (Replace("z = [-0.01, 0.0]\nr = [0.0, 0.01]", "z = [-0.01, 0.0]\nr = [0.0, 0.02]"), &["solid.r: the domains do not meet", "make both ranges r = [0.0, 0.01]"]),
+    // Adaptation.
+    (Replace("[fluid.liquid]", "adapt = \"no\"\n[fluid.liquid]"), &["fluid.adapt: must be true or false", "the string \"no\"", "without quotes"]),
+    (Replace("[fluid.liquid]", "adapts = true\n[fluid.liquid]"), &["fluid.adapts: unknown key", "did you mean `adapt`?"]),
+    (Replace("[fluid.liquid]", "epsilon = 1.0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 1.0", "0.001 is the default"]),
+    (Replace("[fluid.liquid]", "epsilon = 0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 0.0"]),
+    (Replace("[fluid.liquid]", "adapt_every = 0\n[fluid.liquid]"), &["fluid.adapt_every: must be from 1 to 1000, got 0"]),
+    (Replace("[fluid.liquid]", "adapt_every = 1.5\n[fluid.liquid]"), &["fluid.adapt_every: must be a whole number", "1.5"]),
+    (Replace("[fluid.liquid]", "scale_pressure = -1.0\n[fluid.liquid]"), &["fluid.scale_pressure: must be positive, got -1.0", "in Pa"]),
+    (Replace("[fluid.liquid]", "scale_density = 0\n[fluid.liquid]"), &["fluid.scale_density: must be positive, got 0.0", "in kg/m3"]),
+    (Replace("[fluid.liquid]", "scale_stress = 1e6\n[fluid.liquid]"), &["fluid.scale_stress: unknown key", "`scale_pressure`"]),
+    (Replace("material =", "scale_stress = 0\nmaterial ="), &["solid.scale_stress: must be positive, got 0.0", "in Pa"]),
+    (Append("[[fluid.refine]]\nshape = \"interface\""), &["fluid.refine.0: neither at_least nor at_most is given", "levels from 0 to 3"]),
+    (Append("[[fluid.refine]]\nshape = \"interface\"\nat_least = 4"), &["fluid.refine.0.at_least: must be from 0 to 3, got 4"]),
+    (Append("[[solid.refine]]\nshape = \"interface\"\nat_least = 3\nat_most = 2"), &["solid.refine.0.at_least: at_least = 3 is above at_most = 2", "the coarser"]),
+    (Append("[[fluid.refine]]\nat_least = 3"), &["fluid.refine.0.shape: `shape` is missing", "\"interface\""]),
+    (Append("[[fluid.refine]]\nshape = \"spere\"\nat_least = 3"), &["fluid.refine.0.shape", "did you mean `sphere`?"]),
+    (Append("[[fluid.refine]]\nshape = \"sphere\"\nat_least = 3\nradius = 0"), &["fluid.refine.0.centre: `centre` is missing", "fluid.refine.0.radius: must be positive, got 0.0"]),
+    (Append("[[fluid.refine]]\nshape = \"sphere\"\nat_least = 3\ncentre = [0, 0]\nradius = 1e-3\nwhere = \"out\""), &["fluid.refine.0.where", "`out`", "`outside`"]),
+    (Append("[[fluid.refine]]\nshape = \"box\"\nat_least = 3\nz = [0.002, 0.001]\nr = [0, 0.001]"), &["fluid.refine.0.z: must increase", "[0.001, 0.002]"]),
+    (Append("[[fluid.refine]]\nshape = \"box\"\nwhere = \"outside\"\nat_least = 3\nz = [0, 0.001]\nr = [0, 0.001]"), &["fluid.refine.0.where: unknown key"]),
+    (Whole("[time]\nend = 1\n[coupling]\nscheme = \"none\"\n[solid]\nz = [0, 1]\nr = [0, 1]\ncells = [16, 16]\nlevels = 2\nmaterial = \"copper\"\n[[solid.refine]]\nshape = \"interface\"\nat_least = 2"), &["solid.refine.0.shape: scheme = \"none\" has no interface", "\"box\""]),
     // Equations of state and what fills the fluid.
     (Replace("gamma = 7.15", "gamma = 1.0"), &["fluid.liquid.gamma: must be greater than 1, got 1.0", "7.15 for water"]),
     (Replace("pi = 3e8", "pi = -3e8"), &["fluid.liquid.pi: must not be negative", "3e8 Pa for water"]),
@@ -338,6 +358,13 @@ fn every_kind_of_value_survives_being_written_out() {
         "solid.material={ name = \"m\\\"x\", density = 7850, young = 210e9, poisson = 0.29, yield_strength = 3e8 }",
         "solid.initial_stress=hydrostatic",
         "solid.pulse=[{ centre = [-0.004, 0.0], width = 1e-3, amplitude = 1e-9 }]",
+        "fluid.epsilon=2e-4",
+        "fluid.adapt_every=3",
+        "fluid.scale_density=7.5",
+        "fluid.refine=[{ shape = \"sphere\", centre = [0.004, 0.0], radius = 1e-3, at_least = 3 }, \
+         { shape = \"sphere\", centre = [0.004, 0.0], radius = 5e-3, where = \"outside\", at_most = 2 }, \
+         { shape = \"box\", z = [0, 1e-3], r = [1e-3, 2e-3], at_least = 2, at_most = 3 }]",
+        "solid.refine=[{ shape = \"interface\", at_least = 3 }]",
         "coupling.scheme=weak",
         "coupling.kappa=jump",
         "coupling.star=acoustic",
@@ -359,6 +386,45 @@ fn every_kind_of_value_survives_being_written_out() {
     let periodic = solid::Boundary::Periodic;
     assert_eq!(sides, Some([periodic, periodic, solid::Boundary::Symmetry, solid::Boundary::NonReflecting]));
     round_trip(&planar);
+}
+
+#[test]
+fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
+    use mesh::{LevelBound, Side, Zone};
+    let fluid = good().fluid.expect("a fluid");
+    let adaptation = fluid.grid.adaptation.as_ref().expect("adaptive");
+    assert_eq!((fluid.grid.root_level(), fluid.grid.cells_on(2)), (2, [16, 16]));
+    assert_eq!(adaptation.epsilon, cav::case::DEFAULT_EPSILON);
+    assert_eq!((adaptation.every, adaptation.bounds.len()), (8, 0));
+    // The bubble's differences to the liquid; the solid's scale is the fluid's.
+    assert_eq!((fluid.scale_pressure, fluid.scale_density), (9e5, 998.8));
+    assert_eq!(good().solid.map(|solid| solid.scale_stress), Some(9e5));
+
+    let levels = |sets: &[&str]| with(sets).fluid.expect("a fluid").grid.adaptation;
+    assert_eq!(levels(&["fluid.adapt=false"]), None);
+    assert_eq!(levels(&["fluid.cells=[32, 48]", "fluid.levels=0"]), None);
+    assert_eq!(levels(&["fluid.levels=2"]), None, "the roots are on level 2");
+
+    // Levels below the roots' are the roots'; what is not given does not bound.
+    let case = with(&[
+        "fluid.refine=[{ shape = \"sphere\", centre = [0, 0], radius = 0.01, where = \"outside\", at_most = 0 }]",
+        "solid.refine=[{ shape = \"interface\", at_least = 3 }, { shape = \"box\", z = [-1, 0], r = [0, 1], at_least = 1 }]",
+    ]);
+    let bounds = |grid: &cav::case::GridCase| grid.adaptation.as_ref().map(|a| a.bounds.clone());
+    let zone = Zone::Beyond { centre: [0.0; 2], radius: 0.01 };
+    let outside = LevelBound { zone, at_least: 2, at_most: 2 };
+    assert_eq!(case.fluid.as_ref().and_then(|fluid| bounds(&fluid.grid)), Some(vec![outside]));
+    let surface = LevelBound { zone: Zone::Along(Side::ZMax), at_least: 3, at_most: 3 };
+    let all = LevelBound { zone: Zone::Box { z: [-1.0, 0.0], r: [0.0, 1.0] }, at_least: 2, at_most: 3 };
+    assert_eq!(case.solid.as_ref().and_then(|solid| bounds(&solid.grid)), Some(vec![surface, all]));
+    round_trip(&case);
+
+    let text = case.effective_toml();
+    for part in
+        ["adapt = true\nepsilon = 0.001\nadapt_every = 8", "scale_stress = 900000.0", "where = \"outside\""]
+    {
+        assert!(text.contains(part), "no `{part}` in:\n{text}");
+    }
 }
 
 #[test]
@@ -405,6 +471,13 @@ fn the_hash_ignores_form_and_output_and_nothing_else() {
         "fluid.cells=[8, 4]",
         "fluid.riemann=exact",
         "fluid.limiter=minmod",
+        "fluid.adapt=false",
+        "fluid.epsilon=2e-3",
+        "fluid.adapt_every=4",
+        "fluid.scale_pressure=1e6",
+        "fluid.scale_density=1.0",
+        "fluid.refine=[{ shape = \"interface\", at_least = 3 }]",
+        "solid.scale_stress=1e7",
         "fluid.liquid.gamma=7.0",
         "fluid.liquid.pi=3.1e8",
         "fluid.gas.gamma=1.3",
@@ -462,6 +535,20 @@ fn the_report_knows_the_papers_case() {
         "Rayleigh collapse time 40.92 us",
         "reflection coefficient of pressure 0.934501",
         "the solid limits",
+    ] {
+        assert!(report.contains(part), "no `{part}` in:\n{report}");
+    }
+    assert!(!report.contains("adaptive") && !report.contains("warning"), "{report}");
+    let fine = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012.toml"));
+    let report = cav::case::report(&fine);
+    for part in [
+        "adaptive, level 2 to 9: 16 x 16 to 2048 x 2048 cells of 24.41 um",
+        "adaptive, level 0 to 9: 16 x 16 to 8192 x 8192 cells of 6.104 um",
+        "thresholds on the finest level 50 kPa (0.001 of 50 MPa)",
+        "67108864 cells",
+        "if all cells were on the finest level",
+        "409.6 cells per radius at the finest level",
+        "a guess",
     ] {
         assert!(report.contains(part), "no `{part}` in:\n{report}");
     }

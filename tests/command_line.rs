@@ -278,8 +278,13 @@ fn check_says_what_a_run_would_cost_and_leaves_nothing() {
     ] {
         assert!(said.contains(fragment), "no `{fragment}` in\n{said}");
     }
-    let finer = text(&good_run(&workshop, &["check", "case.toml", "--set", "fluid.levels=4"]));
-    assert!(finer.contains("64 x 64 = 4096 cells"), "{finer}");
+    let finer = ["check", "case.toml", "--set", "fluid.levels=4", "--set"];
+    let uniform = text(&good_run(&workshop, &[finer.as_slice(), &["fluid.adapt=false"]].concat()));
+    assert!(uniform.contains("64 x 64 = 4096 cells"), "{uniform}");
+    let adaptive = text(&good_run(&workshop, &[finer.as_slice(), &["fluid.epsilon=0.01"]].concat()));
+    for fragment in ["level 2 to 4: 16 x 16 to 64 x 64 cells", "thresholds", "if all cells were", "guess"] {
+        assert!(adaptive.contains(fragment), "no `{fragment}` in\n{adaptive}");
+    }
     assert_eq!(workshop.content(), ["case.toml"]);
 }
 
@@ -379,7 +384,13 @@ fn complete_directory(workshop: &Workshop, out: &str) {
     assert_eq!(summary["t_end"].as_f64(), Some(2e-6));
     let steps = summary["steps"].as_u64().expect("steps") as usize;
     assert!(steps > 3, "{summary}");
-    assert_eq!((&summary["cells"]["fluid"], &summary["cells"]["solid"]), (&256.into(), &256.into()));
+    for side in ["fluid", "solid"] {
+        let cells = &summary["cells"][side];
+        assert_eq!((&cells["final"], &cells["largest"]), (&256.into(), &256.into()));
+        assert_eq!(summary["cell_updates"][side], 256 * steps);
+        assert!(summary["compute_seconds"][side].as_f64().is_some_and(|seconds| seconds > 0.0), "{summary}");
+        assert_eq!(summary["compute_seconds"][side], summary["coupling"][side]["seconds_computing"]);
+    }
     for key in [
         "wall_seconds",
         "wall_pressure_peak",

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[path = "output/background.rs"]
+mod background;
 #[path = "output/history.rs"]
 mod history;
 #[path = "output/run_directory.rs"]

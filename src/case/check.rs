@@ -3,10 +3,12 @@
 use std::fmt::Write as _;
 
 use coupler::Scheme;
-use fluid::{Phase, PhaseState, PulseShape, Shape, StiffenedGas};
+use fluid::{Phase, PhaseState, PulseShape, Shape};
 use mesh::{BLOCK, Geometry};
 use solid::Material;
 
+use super::format::{duration, hex, mebibytes, si};
+use super::scales::sound_speed;
 use super::warnings::SAFE_CFL;
 use super::{Case, FluidCase, GridCase, SolidCase};
 
@@ -14,6 +16,8 @@ use super::{Case, FluidCase, GridCase, SolidCase};
 const FLUID_NS: f64 = 60.0;
 /// The same of the solid.
 const SOLID_NS: f64 = 30.0;
+/// Share of the finest grid's cells that an adaptive one is guessed to have.
+const GUESSED_SHARE: f64 = 0.1;
 /// Threads the estimate of the run time assumes.
 const THREADS: f64 = 2.0;
 /// Numbers kept per cell: 5 fields, two copies of each, their slopes in two directions and rates.
@@ -35,11 +39,14 @@ pub fn report(case: &Case) -> String {
     line(&mut text, "case", &format!("{}, {geometry}, to {}", case.name, si(case.time.end, "s")));
     line(&mut text, "hash", &hex(&case.hash()));
     if let Some(fluid) = &case.fluid {
-        side(&mut text, "fluid", &fluid.grid, memory(&fluid.grid, FLUID_NUMBERS));
+        side(&mut text, "fluid", &fluid.grid, FLUID_NUMBERS);
+        let [pressure, density] = [(fluid.scale_pressure, "Pa"), (fluid.scale_density, "kg/m3")];
+        adaptation(&mut text, &fluid.grid, &[pressure, density]);
         regions(&mut text, case, fluid);
     }
     if let Some(solid) = &case.solid {
-        side(&mut text, "solid", &solid.grid, memory(&solid.grid, SOLID_NUMBERS));
+        side(&mut text, "solid", &solid.grid, SOLID_NUMBERS);
+        adaptation(&mut text, &solid.grid, &[(solid.scale_stress, "Pa")]);
         material(&mut text, &solid.material);
     }
     if let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) {
@@ -96,27 +103,63 @@ fn line(text: &mut String, label: &str, value: &str) {
     let _ = writeln!(text, "{label:<14}{value}");
 }
 
-fn side(text: &mut String, name: &str, grid: &GridCase, bytes: f64) {
+/// The cells of a side and their memory.
+fn side(text: &mut String, name: &str, grid: &GridCase, numbers: f64) {
     let ([cells_z, cells_r], [blocks_z, blocks_r], [h_z, h_r]) =
         (grid.finest(), grid.blocks(), grid.cell_size());
+    let (count, size) = (grid.cell_count(), format!("{} x {}", si(h_z, "m"), si(h_r, "m")));
+    let bytes = memory(grid.cell_count() as f64, numbers);
+    if grid.adaptation.is_none() {
+        let cells = format!(
+            "{cells_z} x {cells_r} = {count} cells of {size}, {} blocks of {BLOCK} x {BLOCK}, about {}",
+            blocks_z * blocks_r,
+            mebibytes(bytes)
+        );
+        return line(text, name, &cells);
+    }
+    let roots = grid.root_level();
+    let [coarse_z, coarse_r] = grid.cells_on(roots);
     let cells = format!(
-        "{cells_z} x {cells_r} = {} cells of {} x {}, {} blocks of {BLOCK} x {BLOCK}, about {}",
-        grid.cell_count(),
-        si(h_z, "m"),
-        si(h_r, "m"),
-        blocks_z * blocks_r,
-        mebibytes(bytes)
+        "adaptive, level {roots} to {}: {coarse_z} x {coarse_r} to {cells_z} x {cells_r} cells of {size}, \
+         blocks of {BLOCK} x {BLOCK}",
+        grid.levels
     );
     line(text, name, &cells);
+    let bounds = format!(
+        "{count} cells and {} if all cells were on the finest level; a tenth of it is a guess: {}",
+        mebibytes(bytes),
+        mebibytes(GUESSED_SHARE * bytes)
+    );
+    line(text, "  at most", &bounds);
+}
+
+/// The thresholds of an adaptive grid: ε times each reference value.
+fn adaptation(text: &mut String, grid: &GridCase, scales: &[(f64, &str)]) {
+    let Some(adaptation) = &grid.adaptation else { return };
+    let epsilon = adaptation.epsilon;
+    let thresholds: Vec<String> = (scales.iter())
+        .map(|(scale, unit)| {
+            let [scaled, whole] = [epsilon * scale, *scale]
+                .map(|value| if *unit == "Pa" { si(value, unit) } else { format!("{value:.3e} {unit}") });
+            format!("{scaled} ({epsilon:?} of {whole})")
+        })
+        .collect();
+    let numbers = format!(
+        "thresholds on the finest level {}, halved with each coarser one; every {} steps",
+        thresholds.join(", "),
+        adaptation.every
+    );
+    line(text, "  adaptation", &numbers);
 }
 
 fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
     let [h_z, h_r] = fluid.grid.cell_size();
+    let level = if fluid.grid.adaptation.is_some() { " at the finest level" } else { "" };
     let ambient = &fluid.initial.ambient;
     for (number, region) in fluid.initial.regions.iter().enumerate() {
         let Shape::Sphere { centre, radius } = region.shape else { continue };
         let mut parts =
-            vec![format!("R = {}, {:.1} cells per radius", si(radius, "m"), radius / h_z.max(h_r))];
+            vec![format!("R = {}, {:.1} cells per radius{level}", si(radius, "m"), radius / h_z.max(h_r))];
         if case.coupling.scheme != Scheme::None {
             let distance = centre[0] - fluid.grid.z[0];
             parts.push(format!("stand-off d/R = {:.3}", distance / radius));
@@ -128,7 +171,7 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
     }
     for (number, pulse) in fluid.initial.pulses.iter().enumerate() {
         let cells =
-            format!("a = {}, {:.1} cells per width", si(pulse.width, "m"), pulse.width / h_z.max(h_r));
+            format!("a = {}, {:.1} cells per width{level}", si(pulse.width, "m"), pulse.width / h_z.max(h_r));
         line(text, &format!("pulse {number}"), &cells);
     }
 }
@@ -166,11 +209,6 @@ fn impedances(text: &mut String, fluid: &FluidCase, solid: &SolidCase) {
         1.0 + reflection
     );
     line(text, "impedance", &numbers);
-}
-
-/// c = √(γ(p + π)/ρ).
-fn sound_speed(eos: StiffenedGas, density: f64, pressure: f64) -> f64 {
-    (eos.gamma * (pressure + eos.pi) / density).sqrt()
 }
 
 /// The fluid's step at t = 0, s: cfl · min over cells of min(h_z/(|v_z| + c), h_r/(|v_r| + c)).
@@ -232,29 +270,45 @@ fn steps(text: &mut String, case: &Case) {
         ),
     );
     let count = (case.time.end / step).ceil();
-    let cells = |grid: Option<&GridCase>| grid.map_or(0.0, |grid| grid.cell_count() as f64);
-    let per_step = cells(case.fluid.as_ref().map(|side| &side.grid)) * FLUID_NS
-        + cells(case.solid.as_ref().map(|side| &side.grid)) * SOLID_NS;
-    let seconds = count * per_step * 1e-9 / THREADS;
+    let grids = [
+        (case.fluid.as_ref().map(|side| &side.grid), FLUID_NS),
+        (case.solid.as_ref().map(|side| &side.grid), SOLID_NS),
+    ];
+    let seconds = |cells: fn(&GridCase) -> f64| {
+        let per_step: f64 = grids.iter().filter_map(|(grid, ns)| grid.map(|grid| cells(grid) * ns)).sum();
+        count * per_step * 1e-9 / THREADS
+    };
     line(text, "steps", &format!("about {count:.0} of the first one's size; a collapse shortens them"));
-    line(
-        text,
-        "run time",
-        &format!("about {} with {THREADS:.0} threads, release build, output aside", duration(seconds)),
-    );
+    let most = duration(seconds(|grid| grid.cell_count() as f64));
+    let assumed = format!("with {THREADS:.0} threads, release build, output aside");
+    if grids.iter().any(|(grid, _)| grid.is_some_and(|grid| grid.adaptation.is_some())) {
+        let guess = duration(seconds(guessed_cells));
+        let words = format!(
+            "at most {most} if all cells were on the finest level; a tenth of them is a guess: {guess}"
+        );
+        line(text, "run time", &format!("{words}; {assumed}"));
+    } else {
+        line(text, "run time", &format!("about {most} {assumed}"));
+    }
     line(text, "snapshots", &case.time.snapshots.len().to_string());
 }
 
-/// Bytes for the fields of a side.
-fn memory(grid: &GridCase, numbers: f64) -> f64 {
+/// Cells that a grid is expected to have: all of a uniform one, of an adaptive one a guess.
+fn guessed_cells(grid: &GridCase) -> f64 {
+    let share = if grid.adaptation.is_some() { GUESSED_SHARE } else { 1.0 };
+    share * grid.cell_count() as f64
+}
+
+/// Bytes for the fields of so many cells.
+fn memory(cells: f64, numbers: f64) -> f64 {
     let block = BLOCK as f64;
     let with_ghosts = ((block + 2.0 * GHOSTS) / block).powi(2);
-    grid.cell_count() as f64 * with_ghosts * numbers * 8.0
+    cells * with_ghosts * numbers * 8.0
 }
 
 fn memory_warning(case: &Case) -> Option<String> {
-    let needed = case.fluid.as_ref().map_or(0.0, |side| memory(&side.grid, FLUID_NUMBERS))
-        + case.solid.as_ref().map_or(0.0, |side| memory(&side.grid, SOLID_NUMBERS));
+    let needed = case.fluid.as_ref().map_or(0.0, |side| memory(guessed_cells(&side.grid), FLUID_NUMBERS))
+        + case.solid.as_ref().map_or(0.0, |side| memory(guessed_cells(&side.grid), SOLID_NUMBERS));
     let available = available_memory()?;
     (needed > available).then(|| {
         format!(
@@ -272,62 +326,10 @@ fn available_memory() -> Option<f64> {
     row.trim().strip_suffix("kB")?.trim().parse::<f64>().ok().map(|kib| kib * 1024.0)
 }
 
-fn mebibytes(bytes: f64) -> String {
-    let mebi = bytes / f64::from(1 << 20);
-    if mebi < 10_000.0 { format!("{mebi:.0} MiB") } else { format!("{:.0} GiB", mebi / 1024.0) }
-}
-
-fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 100.0 => format!("{s:.0} s"),
-        s if s < 6000.0 => format!("{:.0} min", s / 60.0),
-        s if s < 100.0 * 3600.0 => format!("{:.1} h", s / 3600.0),
-        s => format!("{:.1} days", s / 86400.0),
-    }
-}
-
-/// A value with a prefix: `65.7 us`, `250 MPa`.
-fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [(f64, &str); 8] =
-        [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p")];
-    let (scale, prefix) = PREFIXES
-        .into_iter()
-        .find(|(scale, _)| value.abs() >= *scale * 0.99995)
-        .unwrap_or(if value == 0.0 { (1.0, "") } else { (1e-12, "p") });
-    let scaled = value / scale;
-    let digits = if scaled.abs() < 10.0 {
-        3
-    } else if scaled.abs() < 100.0 {
-        2
-    } else {
-        1
-    };
-    let number = format!("{scaled:.digits$}");
-    let number = number.trim_end_matches('0').trim_end_matches('.');
-    format!("{number} {prefix}{unit}")
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn prefixes() {
-        assert_eq!(si(65.7e-6, "s"), "65.7 us");
-        assert_eq!(si(250e6, "Pa"), "250 MPa");
-        assert_eq!(si(1e-3, "m"), "1 mm");
-        assert_eq!(si(195.3125e-6, "m"), "195.3 um");
-        assert_eq!(si(0.0, "m"), "0 m");
-        assert_eq!(duration(30.0), "30 s");
-        assert_eq!(duration(3600.0 * 5.0), "5.0 h");
-    }
+    use fluid::StiffenedGas;
 
     #[test]
     fn the_papers_bubble_collapses_in_four_microseconds() {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use coupler::Scheme;
 use fluid::{PhaseState, PulseShape, Shape};
-use mesh::Side;
+use mesh::{LevelBound, Side, Zone};
 use sha2::{Digest, Sha256};
 
 use super::{Case, FluidCase, GridCase, SolidCase};
@@ -75,6 +75,9 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     text.name("riemann", &fluid::RiemannSolver::NAMES, fluid.riemann);
     text.name("model", &fluid::Model::NAMES, fluid.model);
     text.name("limiter", &mesh::Limiter::NAMES, fluid.limiter);
+    text.number("scale_pressure", fluid.scale_pressure);
+    text.number("scale_density", fluid.scale_density);
+    write_refine(text, "[[fluid.refine]]", &fluid.grid);
     for (head, eos) in [("[fluid.liquid]", fluid.liquid), ("[fluid.gas]", fluid.gas)] {
         text.head(head);
         text.number("gamma", eos.gamma);
@@ -129,6 +132,8 @@ fn write_solid(text: &mut Lines, solid: &SolidCase) {
     write_grid(text, &solid.grid);
     text.name("initial_stress", &solid::InitialStress::NAMES, solid.initial_stress);
     text.name("limiter", &mesh::Limiter::NAMES, solid.limiter);
+    text.number("scale_stress", solid.scale_stress);
+    write_refine(text, "[[solid.refine]]", &solid.grid);
     // The numbers, not only the name: a case stays what it is when the library changes.
     text.head("[solid.material]");
     let material = &solid.material;
@@ -154,6 +159,34 @@ fn write_grid(text: &mut Lines, grid: &GridCase) {
     text.list("r", &grid.r);
     text.key("cells", format!("[{}, {}]", grid.cells[0], grid.cells[1]));
     text.key("levels", grid.levels);
+    text.key("adapt", grid.adaptation.is_some());
+    if let Some(adaptation) = &grid.adaptation {
+        text.number("epsilon", adaptation.epsilon);
+        text.key("adapt_every", adaptation.every);
+    }
+}
+
+fn write_refine(text: &mut Lines, head: &str, grid: &GridCase) {
+    for LevelBound { zone, at_least, at_most } in grid.adaptation.iter().flat_map(|a| &a.bounds) {
+        text.head(head);
+        match zone {
+            Zone::Within { centre, radius } | Zone::Beyond { centre, radius } => {
+                text.key("shape", "\"sphere\"");
+                text.list("centre", centre);
+                text.number("radius", *radius);
+                let inside = matches!(zone, Zone::Within { .. });
+                text.key("where", quoted(if inside { "inside" } else { "outside" }));
+            }
+            Zone::Box { z, r } => {
+                text.key("shape", "\"box\"");
+                text.list("z", z);
+                text.list("r", r);
+            }
+            Zone::Along(_) => text.key("shape", "\"interface\""),
+        }
+        text.key("at_least", at_least);
+        text.key("at_most", at_most);
+    }
 }
 
 fn write_state(text: &mut Lines, state: &PhaseState) {

@@ -4,11 +4,14 @@ mod check;
 mod cross;
 mod effective;
 mod error;
+mod format;
 mod read;
+mod read_adaptation;
 mod read_fluid;
 mod read_grid;
 mod read_solid;
 mod reader;
+mod scales;
 mod set;
 mod warnings;
 
@@ -16,11 +19,12 @@ use std::path::{Path, PathBuf};
 
 use coupler::{Kappa, Scheme, StarSolver};
 use fluid::{InitialCondition, Model, PhaseState, RiemannSolver, StiffenedGas};
-use mesh::{Geometry, Limiter, Side};
+use mesh::{Adaptation, Geometry, Limiter, Side};
 use solid::{InitialStress, Material, PotentialPulse};
 
 pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
+pub use read_adaptation::{DEFAULT_ADAPT_EVERY, DEFAULT_EPSILON};
 
 /// Cell fields of the fluid that `output.fields` may name.
 pub const FLUID_FIELDS: [&str; 6] = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
@@ -86,7 +90,7 @@ pub struct Time {
 }
 
 /// The cells of one side.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GridCase {
     /// Range in z, m.
     pub z: [f64; 2],
@@ -96,12 +100,24 @@ pub struct GridCase {
     pub cells: [usize; 2],
     /// How often the coarsest cells are halved.
     pub levels: usize,
+    /// How the grid adapts; `None` where all cells are on the finest level.
+    pub adaptation: Option<Adaptation>,
 }
 
 impl GridCase {
+    /// Cells along z and r on a level.
+    pub fn cells_on(&self, level: usize) -> [usize; 2] {
+        self.cells.map(|cells| cells << level)
+    }
+
     /// Cells along z and r on the finest level.
     pub fn finest(&self) -> [usize; 2] {
-        self.cells.map(|cells| cells << self.levels)
+        self.cells_on(self.levels)
+    }
+
+    /// The level of the coarsest blocks: the first whose cells fill whole blocks in both directions.
+    pub fn root_level(&self) -> usize {
+        read_grid::root_level(self.cells, self.levels)
     }
 
     /// Blocks along z and r on the finest level.
@@ -148,6 +164,10 @@ pub struct FluidCase {
     pub model: Model,
     /// The limiter of the reconstruction.
     pub limiter: Limiter,
+    /// Reference value of the pressure in the thresholds of adaptation, Pa.
+    pub scale_pressure: f64,
+    /// The same of the density, kg/m³.
+    pub scale_density: f64,
 }
 
 impl FluidCase {
@@ -182,6 +202,8 @@ pub struct SolidCase {
     pub limiter: Limiter,
     /// Waves that are there at t = 0.
     pub pulses: Vec<PotentialPulse>,
+    /// Reference value of the stresses in the thresholds of adaptation, Pa.
+    pub scale_stress: f64,
 }
 
 /// `[coupling]`.

@@ -49,8 +49,9 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
     let fluid =
         root.table("fluid", &mut faults).and_then(|table| read_fluid::fluid(table, context, &mut faults));
-    let solid =
-        root.table("solid", &mut faults).and_then(|table| read_solid::solid(table, context, &mut faults));
+    let fluid_pressure = fluid.as_ref().map(|(fluid, _)| fluid.scale_pressure);
+    let solid = (root.table("solid", &mut faults))
+        .and_then(|table| read_solid::solid(table, context, fluid_pressure, &mut faults));
     let probes = probes(&mut root, &mut faults);
     let output = output(&mut root, &mut faults);
     root.finish(&mut faults);

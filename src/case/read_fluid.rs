@@ -10,7 +10,7 @@ use mesh::{Geometry, Limiter, Side};
 use super::read::{Context, boundaries, history};
 use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, Given, Table, number, pair};
-use super::{FluidCase, GridCase, Inflow};
+use super::{FluidCase, GridCase, Inflow, scales};
 
 /// The shapes of regions and pulses by name.
 #[derive(Clone, Copy, PartialEq)]
@@ -42,7 +42,7 @@ pub(super) fn fluid(
     context: Context,
     faults: &mut Faults,
 ) -> Option<(FluidCase, GridPlace)> {
-    let placed = grid(&mut table, context, faults);
+    let placed = grid(&mut table, context, Side::ZMin, faults);
     let liquid = if table.has("liquid") {
         table.table("liquid", faults).and_then(|table| stiffened_gas(table, None, faults))
     } else {
@@ -55,26 +55,38 @@ pub(super) fn fluid(
         Some(table) => stiffened_gas(table, Some(air), faults),
         None => Some(air),
     };
-    let setting =
-        Setting { liquid, gas, grid: placed.as_ref().map(|(grid, _)| *grid), geometry: context.geometry };
+    let setting = Setting {
+        liquid,
+        gas,
+        grid: placed.as_ref().map(|(grid, _)| grid.clone()),
+        geometry: context.geometry,
+    };
     let initial = initial(&mut table, &setting, faults);
     let boundary = sides(&mut table, context, faults);
     let inflow = inflow(&mut table, boundary, liquid, faults);
     let riemann = table.choice("riemann", &RiemannSolver::NAMES, faults);
     let model = table.choice("model", &Model::NAMES, faults);
     let limiter = table.choice("limiter", &Limiter::NAMES, faults);
+    let scale_pressure = table.positive("scale_pressure", "Pa", faults);
+    let scale_density = table.positive("scale_density", "kg/m3", faults);
     table.finish(faults);
     let (grid, place) = placed?;
+    let (liquid, gas, initial) = (liquid?, gas?, initial?);
+    let eos = setting.eos(initial.ambient.phase)?;
+    let scale_pressure = scale_pressure.unwrap_or_else(|| scales::pressure(&initial, inflow.as_ref(), eos));
+    let scale_density = scale_density.unwrap_or_else(|| scales::density(&initial, scale_pressure, eos));
     let case = FluidCase {
         grid,
-        liquid: liquid?,
-        gas: gas?,
-        initial: initial?,
+        liquid,
+        gas,
+        initial,
         boundary,
         inflow,
         riemann: riemann.map_or(RiemannSolver::Hllc, |given| given.value),
         model: model.map_or(Model::SaurelAbgrall, |given| given.value),
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),
+        scale_pressure,
+        scale_density,
     };
     Some((case, place))
 }
@@ -194,21 +206,21 @@ fn region(mut table: Table<'_>, setting: &Setting, faults: &mut Faults) -> Optio
         let radius = table.required_positive("radius", "m", faults);
         if let Some(centre) = &centre {
             on_axis(centre, setting.geometry, faults);
-            if let Some(grid) = setting.grid.filter(|grid| !grid.contains(centre.value)) {
+            if let Some(grid) = setting.grid.as_ref().filter(|grid| !grid.contains(centre.value)) {
                 let [z, r] = centre.value;
                 let message = format!("the centre ({z:?}, {r:?}) m is outside the fluid");
-                faults.of(centre, message, extent(&grid));
+                faults.of(centre, message, extent(grid));
             }
         }
         centre.zip(radius).map(|(centre, radius)| Shape::Sphere { centre: centre.value, radius })
     } else {
         let (z, r) = (table.range("z", faults), table.range("r", faults));
-        if let (Some(z), Some(r), Some(grid)) = (&z, &r, setting.grid) {
+        if let (Some(z), Some(r), Some(grid)) = (&z, &r, &setting.grid) {
             for (range, domain) in [(z, grid.z), (r, grid.r)] {
                 let [low, high] = range.value;
                 if high <= domain[0] || low >= domain[1] {
                     let message = format!("the box [{low:?}, {high:?}] m lies outside the fluid");
-                    faults.of(range, message, extent(&grid));
+                    faults.of(range, message, extent(grid));
                 }
             }
         }

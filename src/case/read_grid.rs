@@ -1,9 +1,11 @@
 //! Domain and cells of a side.
 
-use mesh::{BLOCK, Geometry};
+use coupler::Scheme;
+use mesh::{BLOCK, Geometry, Side};
 
 use super::GridCase;
 use super::read::Context;
+use super::read_adaptation::{Levels, adaptation};
 use super::reader::{Faults, Given, Table};
 
 /// More cells than this along one direction are a mistake.
@@ -18,9 +20,12 @@ pub(super) struct GridPlace {
 }
 
 /// Domain and cells of a side.
+///
+/// - `towards_wall`: the side of the domain where the other medium or the rigid wall is, if any.
 pub(super) fn grid(
     table: &mut Table<'_>,
     context: Context,
+    towards_wall: Side,
     faults: &mut Faults,
 ) -> Option<(GridCase, GridPlace)> {
     let z = table.range("z", faults);
@@ -45,12 +50,23 @@ pub(super) fn grid(
         // Present and faulty, or absent: then there is one level.
         None => (!table.has("levels")).then_some(0),
     };
-    let (cells, levels) = (cells?, levels?);
-    if !fits(&cells, levels, faults) {
-        return None;
-    }
-    let (z, r) = (z?, r?);
-    Some((GridCase { z: z.value, r: r.value, cells: cells.value, levels }, GridPlace { z, r }))
+    let sound = cells.as_ref().zip(levels).filter(|(cells, levels)| fits(cells, *levels, faults));
+    let levels = match sound {
+        Some((cells, levels)) => Levels { roots: root_level(cells.value, levels), finest: levels },
+        // Whatever they were meant to be, more there cannot be.
+        None => Levels { roots: 0, finest: MOST_LEVELS },
+    };
+    let interface = (context.scheme != Some(Scheme::None)).then_some(towards_wall);
+    let adaptation = adaptation(table, levels, interface, faults);
+    let ((cells, levels), z, r) = (sound?, z?, r?);
+    let grid = GridCase { z: z.value, r: r.value, cells: cells.value, levels, adaptation };
+    Some((grid, GridPlace { z, r }))
+}
+
+/// The level of the coarsest blocks: the first whose cells fill whole blocks in both directions.
+pub(super) fn root_level(cells: [usize; 2], levels: usize) -> usize {
+    let whole = |level: &usize| cells.iter().all(|cells| (cells << level).is_multiple_of(BLOCK));
+    (0..levels).find(whole).unwrap_or(levels)
 }
 
 /// Whether the finest grid is a whole number of blocks and not absurdly large.

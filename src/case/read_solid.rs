@@ -5,33 +5,39 @@ use mesh::{Geometry, Limiter, Side};
 use solid::{Boundary, InitialStress, Material, MaterialError, PotentialPulse};
 use toml::de::DeValue;
 
-use super::SolidCase;
 use super::error::suggest;
 use super::read::{Context, boundaries};
 use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, Table, describe};
+use super::{SolidCase, scales};
 
+/// - `fluid_pressure`: the pressure scale of the fluid that the case has, if any.
 pub(super) fn solid(
     mut table: Table<'_>,
     context: Context,
+    fluid_pressure: Option<f64>,
     faults: &mut Faults,
 ) -> Option<(SolidCase, GridPlace)> {
-    let placed = grid(&mut table, context, faults);
+    let placed = grid(&mut table, context, Side::ZMax, faults);
     let material = material(&mut table, faults);
     let initial_stress = table.choice("initial_stress", &InitialStress::NAMES, faults);
     let boundary = sides(&mut table, context, faults);
     let limiter = table.choice("limiter", &Limiter::NAMES, faults);
     let pulses: Vec<Option<PotentialPulse>> =
         table.tables("pulse", faults).into_iter().map(|table| pulse(table, context, faults)).collect();
+    let scale_stress = table.positive("scale_stress", "Pa", faults);
     table.finish(faults);
     let (grid, place) = placed?;
+    let material = material?;
+    let pulses: Vec<PotentialPulse> = pulses.into_iter().collect::<Option<_>>()?;
     let case = SolidCase {
         grid,
-        material: material?,
+        scale_stress: scale_stress.unwrap_or_else(|| scales::stress(fluid_pressure, &pulses, &material)),
+        material,
         initial_stress: initial_stress.map_or(InitialStress::Uniaxial, |given| given.value),
         boundary,
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),
-        pulses: pulses.into_iter().collect::<Option<_>>()?,
+        pulses,
     };
     Some((case, place))
 }

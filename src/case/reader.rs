@@ -235,6 +235,17 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// `true` or `false`.
+    pub fn boolean(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<bool>> {
+        let given = self.raw(key)?;
+        if let DeValue::Boolean(value) = given.value {
+            Some(Given { value: *value, path: given.path, span: given.span })
+        } else {
+            wrong_type(&given, "true or false", "write true or false, without quotes".to_owned(), faults);
+            None
+        }
+    }
+
     /// One of a closed set of names.
     pub fn choice<T: Copy>(
         &mut self,

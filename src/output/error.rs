@@ -26,6 +26,12 @@ pub enum OutputError {
         /// The cause.
         source: hdf5::Error,
     },
+    /// A file is not written any more, after an error that was told before.
+    #[error("{} was given up after an earlier error", path.display())]
+    Closed {
+        /// The file.
+        path: PathBuf,
+    },
     /// A JSON file does not hold an object.
     #[error("cannot read {} as a summary: {source}; delete it or take the file of a finished run", path.display())]
     Json {

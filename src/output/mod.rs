@@ -7,12 +7,14 @@
 //! | module | writes |
 //! |---|---|
 //! | [`vtkhdf`] | `fluid.vtkhdf`, `solid.vtkhdf`: cell fields over time |
+//! | [`background`] | the same on a thread of its own |
 //! | [`history`] | `fluid.h5`, `solid.h5`: named series over time |
 //! | [`join`] | `history.h5`: both sides' histories under one roof |
 //! | [`summary`] | `fluid.json`, `solid.json`, `summary.json` |
 //! | [`run_directory`] | the directory itself: made, kept aside, refused or replaced |
 //! | [`progress`] | a bar or plain lines on standard error |
 
+pub mod background;
 pub mod error;
 mod hdf5_attributes;
 pub mod history;
@@ -23,6 +25,7 @@ pub mod safe_file;
 pub mod summary;
 pub mod vtkhdf;
 
+pub use background::{BackgroundWriter, OwnedQuadMesh, Snapshot};
 pub use error::OutputError;
 pub use history::{Column, HistoryFile, SeriesId};
 pub use join::{Join, join_histories};

@@ -144,6 +144,11 @@ impl SeriesWriter {
         self
     }
 
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Number of snapshots.
     pub fn steps(&self) -> usize {
         self.end.steps

@@ -1,33 +1,30 @@
 //! What the fluid's side writes: snapshots, histories, its part of the summary.
 
-use coupler::CommonRefinement;
 use fluid::{Bubble, FluidSolver};
 use mesh::{BLOCK, Geometry, Side};
 use serde_json::{Map, Value, json};
 
 use super::collapse::CollapseFinder;
-use super::record::{CellGeometry, ProbeSeries, Ticker, attributes, between_faces, column, probe_series};
+use super::interface_history::InterfaceHistory;
+use super::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
 use super::schedule::Plan;
+use super::side_files::{SideFiles, SideNames};
+use super::wall_faces::WallFaces;
 use crate::case::{Case, FLUID_FIELDS, Medium};
 use crate::output::run_directory::{FLUID_FIELDS as FIELDS_FILE, FLUID_HISTORY};
-use crate::output::{
-    Column, FieldSpec, HistoryFile, OutputError, QuadMesh, RunDirectory, SeriesId, SeriesWriter, Storage,
-};
+use crate::output::{Column, FieldSpec, OutputError, RunDirectory, SeriesId, Storage};
 
 /// Everything that the fluid's side writes.
 pub struct FluidRecord {
-    history: HistoryFile,
-    snapshots: SeriesWriter,
-    fields: Vec<&'static str>,
-    geometry: CellGeometry,
+    files: SideFiles,
     steps: SeriesId,
     interface: Option<InterfaceHistory>,
     conservation: SeriesId,
     ticker: Ticker,
     probes: Vec<ProbeSeries>,
-    edges: Vec<f64>,
-    begin: f64,
+    faces: WallFaces,
     wall_pressures: Vec<f64>,
+    cells: CellCount,
     collapse: CollapseFinder,
     peaks: Peaks,
     last_bubble: Bubble,
@@ -42,15 +39,6 @@ struct Peaks {
     jet: [f64; 2],
 }
 
-/// The history of the wall on a fixed radial grid.
-struct InterfaceHistory {
-    series: SeriesId,
-    map: CommonRefinement,
-    cells: usize,
-    initial: Vec<f64>,
-    impulse: Vec<f64>,
-}
-
 impl FluidRecord {
     /// Makes the files of the fluid's side and writes the state at t = 0.
     pub fn create(
@@ -58,64 +46,70 @@ impl FluidRecord {
         directory: &RunDirectory,
         solver: &FluidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
-        let owned = attributes(case);
-        let attributes: Vec<(&str, &str)> =
-            owned.iter().map(|(name, value)| (*name, value.as_str())).collect();
-        let mut history = HistoryFile::create(&directory.file(FLUID_HISTORY), &attributes)?;
+        let mesh = solver.mesh();
+        let names = SideNames {
+            history: FLUID_HISTORY,
+            snapshots: FIELDS_FILE,
+            fields: FLUID_FIELDS.to_vec(),
+            spec: field_spec,
+        };
+        let mut files = SideFiles::create(case, directory, names)?;
+        let history = &mut files.history;
         let steps = history.add_series("", &STEP_COLUMNS)?;
-        let edges = solver.wall_edges();
-        let begin = solver.mesh().domain().r[0];
-        let axisymmetric = case.geometry == Geometry::Axisymmetric;
+        let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.wall_edges());
+        let mut wall_pressures = Vec::new();
+        solver.wall_cells(|_, pressure, _| wall_pressures.push(pressure));
         // With a boundary of its own at z_min there is no wall to record.
-        let interface = if case.fluid.as_ref().is_some_and(|fluid| {
+        let wall = case.fluid.as_ref().filter(|fluid| {
             matches!(fluid.boundary[Side::ZMin as usize], fluid::Boundary::Interface | fluid::Boundary::Wall)
-        }) {
-            Some(InterfaceHistory::create(case, &edges, begin, axisymmetric, solver, &mut history)?)
-        } else {
-            None
+        });
+        let interface = match wall {
+            Some(fluid) => {
+                let cells = case.output.interface_cells.unwrap_or(fluid.grid.finest()[1]);
+                let axisymmetric = case.geometry == Geometry::Axisymmetric;
+                Some(InterfaceHistory::create(&faces, cells, axisymmetric, &wall_pressures, history)?)
+            }
+            None => None,
         };
         let conservation = history.add_series("/conservation/fluid", &CONSERVATION_COLUMNS)?;
-        let interface_z = case.solid.as_ref().map(|_| solver.mesh().domain().z[0]);
-        let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, &mut history)?;
-
-        let fields: Vec<&'static str> = (FLUID_FIELDS.iter())
-            .filter(|name| case.output.fields.as_ref().is_none_or(|wanted| wanted.iter().any(|w| w == *name)))
-            .copied()
-            .collect();
-        let specs: Vec<FieldSpec<'_>> = fields.iter().map(|name| field_spec(name)).collect();
-        let path = directory.file(FIELDS_FILE);
-        let snapshots = SeriesWriter::create(&path, &specs, case.output.compression, &attributes)?;
+        let interface_z = case.solid.as_ref().map(|_| mesh.domain().z[0]);
+        let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, history)?;
         let mut record = Self {
-            history,
-            snapshots,
-            fields,
-            geometry: CellGeometry::of(solver.mesh()),
+            files,
             steps,
             interface,
             conservation,
             ticker: Ticker::of(case),
             probes,
-            edges,
-            begin,
-            wall_pressures: Vec::new(),
+            faces,
+            wall_pressures,
+            cells: CellCount::default(),
             collapse: CollapseFinder::default(),
             peaks: Peaks::default(),
             last_bubble: Bubble::default(),
         };
+        record.cells.start(mesh.cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
-        record.history.flush()?;
+        record.files.history.flush()?;
         Ok(record)
     }
 
     /// Takes notice of a finished step.
     pub fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
+        let mesh = solver.mesh();
+        self.cells.step(mesh.cells());
+        if self.faces.update(mesh.generation(), || solver.wall_edges())
+            && let Some(interface) = &mut self.interface
+        {
+            interface.follow(&self.faces);
+        }
+        solver.wall_face_pressures(&mut self.wall_pressures);
         self.write(solver, plan.dt)?;
         if plan.snapshot {
             self.snapshot(solver)?;
         }
-        self.history.flush_if_due()?;
-        Ok(())
+        self.files.after_step()
     }
 
     /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
@@ -123,7 +117,7 @@ impl FluidRecord {
         if failed {
             self.snapshot(solver)?;
         }
-        self.history.flush()
+        self.files.close()
     }
 
     fn write(&mut self, solver: &FluidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
@@ -132,14 +126,9 @@ impl FluidRecord {
         let axis = solver.axis();
         let wall = solver.wall_pressures();
         let fixups = solver.fixups();
-        if dt > 0.0 {
-            solver.wall_face_pressures(&mut self.wall_pressures);
-        } else {
-            self.wall_pressures.clear();
-            solver.wall_cells(|_, pressure, _| self.wall_pressures.push(pressure));
-        }
         let limit = |value: f64| if value.is_nan() { 0.0 } else { value };
-        self.history.push(
+        let history = &mut self.files.history;
+        history.push(
             self.steps,
             &[
                 time,
@@ -175,7 +164,8 @@ impl FluidRecord {
         if let Some(interface) = &mut self.interface {
             interface.add(&self.wall_pressures, dt);
             if due {
-                interface.write(time, &self.wall_pressures, solver, &mut self.history)?;
+                let velocity = |face: usize| solver.wall().get(face).map_or(0.0, |wall| wall.velocity);
+                interface.write(time, velocity, history)?;
             }
         }
         if due {
@@ -186,38 +176,34 @@ impl FluidRecord {
                 row.extend([ledger.mass[side], ledger.momentum[side], ledger.energy[side]]);
             }
             row.extend([fixups.floor_energy, ledger.wall_impulse, ledger.wall_work]);
-            self.history.push(self.conservation, &row)?;
+            history.push(self.conservation, &row)?;
         }
         for probe in &self.probes {
             let Some(state) = solver.sample(probe.probe.position) else { continue };
             let [mut pressure, mut v_z] = [state.pressure, state.v_z];
             if probe.on_interface && dt > 0.0 {
-                let at = |value: &dyn Fn(usize) -> f64| {
-                    between_faces(&self.edges, self.begin, probe.probe.position[1], value)
-                };
-                pressure = at(&|k| self.wall_pressures[k]);
-                v_z = at(&|k| solver.wall()[k].velocity);
+                let r = probe.probe.position[1];
+                pressure = self.faces.at(r, |k| self.wall_pressures[k]);
+                v_z = self.faces.at(r, |k| solver.wall()[k].velocity);
             }
             let row = [time, pressure, state.density, v_z, state.v_r, state.phi];
-            self.history.push(probe.series, &row)?;
+            history.push(probe.series, &row)?;
         }
         Ok(())
     }
 
     fn snapshot(&mut self, solver: &FluidSolver<BLOCK>) -> Result<(), OutputError> {
-        let snapshot = solver.snapshot();
-        let values: Vec<&[f64]> = (self.fields.iter())
-            .map(|name| match *name {
-                "density" => snapshot.density.as_slice(),
-                "pressure" => &snapshot.pressure,
-                "velocity" => &snapshot.velocity,
-                "gas_fraction" => &snapshot.gas_fraction,
-                "schlieren" => &snapshot.schlieren,
-                _ => &snapshot.level,
+        let mut snapshot = solver.snapshot();
+        self.files.snapshot(solver.time(), solver.mesh(), |name| {
+            std::mem::take(match name {
+                "density" => &mut snapshot.density,
+                "pressure" => &mut snapshot.pressure,
+                "velocity" => &mut snapshot.velocity,
+                "gas_fraction" => &mut snapshot.gas_fraction,
+                "schlieren" => &mut snapshot.schlieren,
+                _ => &mut snapshot.level,
             })
-            .collect();
-        let mesh = QuadMesh { points: &self.geometry.points, quads: &self.geometry.quads };
-        self.snapshots.append(solver.time(), &mesh, 0, &values)
+        })
     }
 
     /// The fluid's part of the summary.
@@ -232,7 +218,6 @@ impl FluidRecord {
         let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
         let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
         let value = json!({
-            "cells": { "fluid": solver.mesh().cells() },
             "collapse_time": collapse.map(|c| c.time),
             "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
             "final_equivalent_radius": self.last_bubble.equivalent_radius,
@@ -252,73 +237,12 @@ impl FluidRecord {
             },
         });
         match value {
-            Value::Object(map) => map,
+            Value::Object(mut map) => {
+                map.extend(self.cells.summary("fluid"));
+                map
+            }
             _ => unreachable!("an object was written"),
         }
-    }
-}
-
-impl InterfaceHistory {
-    fn create(
-        case: &Case,
-        edges: &[f64],
-        begin: f64,
-        axisymmetric: bool,
-        solver: &FluidSolver<BLOCK>,
-        history: &mut HistoryFile,
-    ) -> Result<Self, OutputError> {
-        let end = edges.last().copied().unwrap_or(begin);
-        let cells = case.output.interface_cells.unwrap_or(edges.len());
-        let grid: Vec<f64> = if cells == edges.len() {
-            edges.to_vec()
-        } else {
-            (1..=cells)
-                .map(|k| if k == cells { end } else { begin + (end - begin) * k as f64 / cells as f64 })
-                .collect()
-        };
-        let mut map = CommonRefinement::default();
-        map.update(begin, edges, &grid, axisymmetric);
-        let centres: Vec<f64> =
-            (0..cells).map(|k| 0.5 * (grid[k] + if k == 0 { begin } else { grid[k - 1] })).collect();
-        history.put("/interface/r", "m", "centres of the radial grid", &centres);
-        let wide = |name, unit, description| Column { name, unit, description, width: cells };
-        let series = history.add_series(
-            "/interface",
-            &[
-                column("time", "s", "end of the step"),
-                wide("pressure", "Pa", "pressure of the star state, mean over the step"),
-                wide("normal_velocity", "m/s", "velocity of the star state along +z, mean over the step"),
-                wide("impulse", "Pa s", "time integral of the pressure minus that at t = 0"),
-            ],
-        )?;
-        let mut initial = Vec::with_capacity(edges.len());
-        solver.wall_cells(|_, pressure, _| initial.push(pressure));
-        Ok(Self { series, map, cells, impulse: vec![0.0; initial.len()], initial })
-    }
-
-    fn add(&mut self, pressures: &[f64], dt: f64) {
-        for ((impulse, pressure), initial) in self.impulse.iter_mut().zip(pressures).zip(&self.initial) {
-            *impulse += dt * (pressure - initial);
-        }
-    }
-
-    fn write(
-        &self,
-        time: f64,
-        pressures: &[f64],
-        solver: &FluidSolver<BLOCK>,
-        history: &mut HistoryFile,
-    ) -> Result<(), OutputError> {
-        let mut row = vec![0.0; 1 + 3 * self.cells];
-        row[0] = time;
-        let face = |k: usize| self.map.sub_faces()[k].first;
-        let mut put = |block: usize, value: &dyn Fn(usize) -> f64| {
-            self.map.means(true, |k| value(face(k)), |cell, mean| row[1 + block * self.cells + cell] = mean);
-        };
-        put(0, &|face| pressures[face]);
-        put(1, &|face| solver.wall().get(face).map_or(0.0, |wall| wall.velocity));
-        put(2, &|face| self.impulse[face]);
-        history.push(self.series, &row)
     }
 }
 

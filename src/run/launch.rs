@@ -8,16 +8,14 @@ use std::time::{Duration, Instant, SystemTime};
 
 use coupler::{Participant, clean_up_dead};
 use rustix::process::{Pid, Signal, kill_process};
-use serde_json::{Map, Value, json};
 
+use super::conclusion::{closing_words, conclude};
 use super::drive::{alone, in_process};
 use super::stop::Stop;
 use super::{RunError, drive};
 use crate::case::Case;
-use crate::output::run_directory::{
-    CASE, FLUID_HISTORY, FLUID_SUMMARY, LOG, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY,
-};
-use crate::output::{Join, Progress, ProgressLine, RunDirectory, join_histories, summary};
+use crate::output::run_directory::{CASE, FLUID_HISTORY, LOG, SOLID_HISTORY};
+use crate::output::{Join, Progress, ProgressLine, RunDirectory, join_histories};
 
 /// What the command line says besides the case.
 #[derive(Clone, Debug, Default)]
@@ -112,63 +110,6 @@ pub fn thread_pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError
     rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build().map_err(|error| {
         RunError::Start { what: "the worker threads".to_owned(), source: std::io::Error::other(error) }
     })
-}
-
-/// Joins the histories and the parts of the summary.
-pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError> {
-    let differing = join_histories(directory.path(), &[FLUID_HISTORY, SOLID_HISTORY], Join::Copy)?;
-    if !differing.is_empty() {
-        tracing::warn!(?differing, "both sides wrote these, and not the same");
-    }
-    let mut parts = Vec::new();
-    for name in [SOLID_SUMMARY, FLUID_SUMMARY] {
-        if directory.file(name).exists() {
-            parts.push(summary::read(&directory.file(name))?);
-        }
-    }
-    let completed = !parts.is_empty() && parts.iter().all(|part| part["completed"] == json!(true));
-    let mut whole = summary::merge(&parts);
-    whole.insert("completed".to_owned(), json!(completed));
-    if let Some(share) = exchange_share(&whole) {
-        whole["coupling"]["exchange_share"] = json!(share);
-    }
-    summary::write(directory, SUMMARY, &whole)?;
-    Ok(whole)
-}
-
-/// (wall time − both sides' compute − output) / wall time: what the exchange cost.
-///
-/// Negative where the sides compute at the same time. What each waited for frames that were ready is in
-/// `seconds_exchanging`; that has the waits for a processor in it which the other side is using.
-fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
-    let wall = whole.get("wall_seconds")?.as_f64()?;
-    let mut rest = wall;
-    for side in ["fluid", "solid"] {
-        for key in ["seconds_computing", "seconds_recording"] {
-            rest -= whole.get("coupling")?.get(side)?.get(key)?.as_f64()?;
-        }
-    }
-    Some(rest / wall)
-}
-
-fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
-    let number = |key: &str| whole.get(key).and_then(Value::as_f64);
-    let mut words = vec![format!(
-        "done: {} steps in {:.1} s",
-        whole.get("steps").and_then(Value::as_u64).unwrap_or(0),
-        number("wall_seconds").unwrap_or(f64::NAN)
-    )];
-    if let (Some(peak), Some(time)) = (number("wall_pressure_peak"), number("wall_pressure_peak_time")) {
-        words.push(format!("wall pressure {:.4e} Pa at {:.4e} s", peak, time));
-    }
-    if let (Some(peak), Some(time)) = (number("von_mises_peak"), number("von_mises_peak_time")) {
-        words.push(format!("von Mises {:.4e} Pa at {:.4e} s", peak, time));
-    }
-    if let (Some(radius), Some(time)) = (number("min_equivalent_radius"), number("collapse_time")) {
-        words.push(format!("smallest equivalent radius {:.4e} m at {:.4e} s", radius, time));
-    }
-    words.push(format!("see {}", directory.display()));
-    words.join("\n")
 }
 
 /// A side's process.

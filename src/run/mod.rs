@@ -6,23 +6,30 @@
 //! | [`schedule`] | when to stop, when to write, and so how long a step may be |
 //! | [`fluid_side`], [`solid_side`] | one side's part of the step loop |
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
+//! | [`side_files`] | into which files |
+//! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`drive`] | the step loop of a side alone, of both in one process, of one of two processes |
 //! | [`launch`] | `cav run`: two processes started and watched |
+//! | [`conclusion`] | one history and one summary of both sides' parts |
 //! | [`stop`] | signals, and a launcher that is gone |
 //! | [`error`] | what can go wrong, and the exit code it means |
 
 pub mod collapse;
+pub mod conclusion;
 pub mod drive;
 pub mod error;
 pub mod fluid_record;
 pub mod fluid_side;
+pub mod interface_history;
 pub mod launch;
 pub mod record;
 pub mod schedule;
 pub mod setup;
+pub mod side_files;
 pub mod solid_record;
 pub mod solid_side;
 pub mod stop;
+pub mod wall_faces;
 
 pub use error::RunError;
 pub use launch::{Options, run};

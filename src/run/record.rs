@@ -1,41 +1,63 @@
 //! What both sides' records have in common.
 
 use mesh::{BLOCK, Mesh};
+use serde_json::{Map, Value, json};
 
 use crate::case::{Case, Probe};
-use crate::output::{Column, HistoryFile, OutputError, SeriesId};
+use crate::output::{Column, HistoryFile, OutputError, OwnedQuadMesh, SeriesId};
 
-/// Points and quadrilaterals of all cells: (BLOCK + 1)² points a block, cells in the order of snapshots.
-pub struct CellGeometry {
-    /// x = z, y = r, z = 0.
-    pub points: Vec<f64>,
-    /// Corners of each cell.
-    pub quads: Vec<[usize; 4]>,
-}
-
-impl CellGeometry {
-    /// Of all blocks of a mesh.
-    pub fn of(mesh: &Mesh<BLOCK>) -> Self {
-        let row = BLOCK + 1;
-        let mut points = Vec::with_capacity(mesh.blocks() * row * row * 3);
-        let mut quads = Vec::with_capacity(mesh.cells());
-        for (slot, id) in mesh.tree().leaves().iter().enumerate() {
-            let [h_z, h_r] = mesh.widths(id.level);
-            let [z, r] = mesh.origin(*id);
-            for j in 0..row {
-                for i in 0..row {
-                    points.extend([z + i as f64 * h_z, r + j as f64 * h_r, 0.0]);
-                }
-            }
-            let first = slot * row * row;
-            for j in 0..BLOCK {
-                for i in 0..BLOCK {
-                    let low = first + j * row + i;
-                    quads.push([low, low + 1, low + row + 1, low + row]);
-                }
+/// Points and quadrilaterals of all cells of a mesh: (BLOCK + 1)² points a block, cells in the order of snapshots.
+pub fn cell_geometry(mesh: &Mesh<BLOCK>) -> OwnedQuadMesh {
+    let row = BLOCK + 1;
+    let mut points = Vec::with_capacity(mesh.blocks() * row * row * 3);
+    let mut quads = Vec::with_capacity(mesh.cells());
+    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+        let [h_z, h_r] = mesh.widths(id.level);
+        let [z, r] = mesh.origin(*id);
+        for j in 0..row {
+            for i in 0..row {
+                points.extend([z + i as f64 * h_z, r + j as f64 * h_r, 0.0]);
             }
         }
-        Self { points, quads }
+        let first = slot * row * row;
+        for j in 0..BLOCK {
+            for i in 0..BLOCK {
+                let low = first + j * row + i;
+                quads.push([low, low + 1, low + row + 1, low + row]);
+            }
+        }
+    }
+    OwnedQuadMesh { points, quads }
+}
+
+/// How many cells there were, and how many were advanced.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CellCount {
+    last: usize,
+    largest: usize,
+    updates: u64,
+}
+
+impl CellCount {
+    /// Takes notice of the cells before the first step.
+    pub fn start(&mut self, cells: usize) {
+        self.last = cells;
+        self.largest = self.largest.max(cells);
+    }
+
+    /// Takes notice of a step that advanced all of so many cells.
+    pub fn step(&mut self, cells: usize) {
+        self.start(cells);
+        self.updates += cells as u64;
+    }
+
+    /// `cells` and `cell_updates` of a side's part of the summary.
+    pub fn summary(&self, side: &str) -> Map<String, Value> {
+        let (cells, updates) = (json!({ "final": self.last, "largest": self.largest }), self.updates);
+        Map::from_iter([
+            ("cells".to_owned(), json!({ side: cells })),
+            ("cell_updates".to_owned(), json!({ side: updates })),
+        ])
     }
 }
 
@@ -97,20 +119,6 @@ pub fn probe_series(
         .collect()
 }
 
-/// A value between the centres of interface faces, linear in r, constant beyond the first and the last centre.
-pub fn between_faces(edges: &[f64], begin: f64, r: f64, value: impl Fn(usize) -> f64) -> f64 {
-    let centre = |k: usize| 0.5 * (edges[k] + if k == 0 { begin } else { edges[k - 1] });
-    let above = (0..edges.len()).find(|k| centre(*k) >= r);
-    match above {
-        None => value(edges.len() - 1),
-        Some(0) => value(0),
-        Some(k) => {
-            let share = (r - centre(k - 1)) / (centre(k) - centre(k - 1));
-            value(k - 1) + share * (value(k) - value(k - 1))
-        }
-    }
-}
-
 /// The attributes that every file of a run carries.
 pub fn attributes(case: &Case) -> Vec<(&'static str, String)> {
     let hash = case.hash().iter().map(|byte| format!("{byte:02x}")).collect();
@@ -137,12 +145,14 @@ mod tests {
     }
 
     #[test]
-    fn values_between_faces_are_linear() {
-        let edges = [1.0, 2.0, 3.0];
-        let value = |k: usize| 10.0 * (k as f64 + 0.5);
-        assert_eq!(between_faces(&edges, 0.0, 1.5, value), 15.0);
-        assert_eq!(between_faces(&edges, 0.0, 2.0, value), 20.0);
-        assert_eq!(between_faces(&edges, 0.0, 0.1, value), 5.0);
-        assert_eq!(between_faces(&edges, 0.0, 3.0, value), 25.0);
+    fn cells_are_counted_step_by_step() {
+        let mut count = CellCount::default();
+        count.start(4);
+        [4, 10, 6].into_iter().for_each(|cells| count.step(cells));
+        let expected = json!({
+            "cells": { "solid": { "final": 6, "largest": 10 } },
+            "cell_updates": { "solid": 20 },
+        });
+        assert_eq!(Value::Object(count.summary("solid")), expected);
     }
 }

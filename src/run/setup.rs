@@ -23,8 +23,8 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         limiter: fluid.limiter,
         boundaries: fluid.boundary,
         inflow: fluid.inflow.as_ref().and_then(|inflow| PressureHistory::new(inflow.pressure.clone())),
-        adaptation: None,
-        scales: fluid::Scales { pressure: 5e7, density: 1e3 },
+        adaptation: fluid.grid.adaptation.clone(),
+        scales: fluid::Scales { pressure: fluid.scale_pressure, density: fluid.scale_density },
     }
 }
 
@@ -47,8 +47,8 @@ pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
         yield_strength: solid.material.yield_strength().unwrap_or(f64::INFINITY),
         limiter: solid.limiter,
         boundaries: solid.boundary,
-        adaptation: None,
-        stress_scale: 5e7,
+        adaptation: solid.grid.adaptation.clone(),
+        stress_scale: solid.scale_stress,
     }
 }
 

@@ -4,28 +4,25 @@ use mesh::BLOCK;
 use serde_json::{Map, Value, json};
 use solid::SolidSolver;
 
-use super::record::{CellGeometry, ProbeSeries, Ticker, attributes, between_faces, column, probe_series};
+use super::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
 use super::schedule::Plan;
+use super::side_files::{SideFiles, SideNames};
+use super::wall_faces::WallFaces;
 use crate::case::{Case, Medium, SOLID_FIELDS};
 use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
-use crate::output::{
-    Column, FieldSpec, HistoryFile, OutputError, QuadMesh, RunDirectory, SeriesId, SeriesWriter, Storage,
-};
+use crate::output::{Column, FieldSpec, OutputError, RunDirectory, SeriesId, Storage};
 
 /// Everything that the solid's side writes.
 pub struct SolidRecord {
-    history: HistoryFile,
-    snapshots: SeriesWriter,
-    fields: Vec<&'static str>,
-    geometry: CellGeometry,
+    files: SideFiles,
     steps: SeriesId,
     /// `/time`, which the fluid writes where there is one.
     time: Option<SeriesId>,
     conservation: SeriesId,
     ticker: Ticker,
     probes: Vec<ProbeSeries>,
-    edges: Vec<f64>,
-    begin: f64,
+    faces: WallFaces,
+    cells: CellCount,
     peak: Peak,
     initial_energy: f64,
 }
@@ -45,58 +42,56 @@ impl SolidRecord {
         directory: &RunDirectory,
         solver: &SolidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
-        let owned = attributes(case);
-        let attributes: Vec<(&str, &str)> =
-            owned.iter().map(|(name, value)| (*name, value.as_str())).collect();
-        let mut history = HistoryFile::create(&directory.file(SOLID_HISTORY), &attributes)?;
+        let mesh = solver.mesh();
+        // A material without a yield strength has no yield function.
+        let has_yield_strength = solver.setup().yield_strength.is_finite();
+        let fields = SOLID_FIELDS.into_iter().filter(|name| has_yield_strength || *name != "yield_function");
+        let names = SideNames {
+            history: SOLID_HISTORY,
+            snapshots: FIELDS_FILE,
+            fields: fields.collect(),
+            spec: field_spec,
+        };
+        let mut files = SideFiles::create(case, directory, names)?;
+        let history = &mut files.history;
         let steps = history.add_series("/solid", &STEP_COLUMNS)?;
         let time = match &case.fluid {
             Some(_) => None,
             None => Some(history.add_series("", &[column("time", "s", "time after the step")])?),
         };
         let conservation = history.add_series("/conservation/solid", &CONSERVATION_COLUMNS)?;
-        let interface_z = case.fluid.as_ref().map(|_| solver.mesh().domain().z[1]);
-        let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, &mut history)?;
-        let has_yield_strength = solver.setup().yield_strength.is_finite();
-        let fields: Vec<&'static str> = (SOLID_FIELDS.iter())
-            .filter(|name| case.output.fields.as_ref().is_none_or(|wanted| wanted.iter().any(|w| w == *name)))
-            // A material without a yield strength has no yield function.
-            .filter(|name| has_yield_strength || **name != "yield_function")
-            .copied()
-            .collect();
-        let specs: Vec<FieldSpec<'_>> = fields.iter().map(|name| field_spec(name)).collect();
-        let path = directory.file(FIELDS_FILE);
-        let snapshots = SeriesWriter::create(&path, &specs, case.output.compression, &attributes)?;
+        let interface_z = case.fluid.as_ref().map(|_| mesh.domain().z[1]);
+        let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, history)?;
         let totals = solver.totals();
         let mut record = Self {
-            history,
-            snapshots,
-            fields,
-            geometry: CellGeometry::of(solver.mesh()),
+            files,
             steps,
             time,
             conservation,
             ticker: Ticker::of(case),
             probes,
-            edges: solver.surface_edges(),
-            begin: solver.mesh().domain().r[0],
+            faces: WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.surface_edges()),
+            cells: CellCount::default(),
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
         };
+        record.cells.start(mesh.cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
-        record.history.flush()?;
+        record.files.history.flush()?;
         Ok(record)
     }
 
     /// Takes notice of a finished step.
     pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
+        let mesh = solver.mesh();
+        self.cells.step(mesh.cells());
+        self.faces.update(mesh.generation(), || solver.surface_edges());
         self.write(solver, plan.dt)?;
         if plan.snapshot {
             self.snapshot(solver)?;
         }
-        self.history.flush_if_due()?;
-        Ok(())
+        self.files.after_step()
     }
 
     /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
@@ -104,17 +99,17 @@ impl SolidRecord {
         if failed {
             self.snapshot(solver)?;
         }
-        self.history.flush()
+        self.files.close()
     }
 
     fn write(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
         let time = solver.time();
         let mises = solver.mises_peak();
         let yielded = solver.yielded_volume();
-        self.history
-            .push(self.steps, &[time, mises.stress, mises.position[0], mises.position[1], yielded])?;
+        let history = &mut self.files.history;
+        history.push(self.steps, &[time, mises.stress, mises.position[0], mises.position[1], yielded])?;
         if let Some(series) = self.time {
-            self.history.push(series, &[time])?;
+            history.push(series, &[time])?;
         }
         if mises.stress > self.peak.stress {
             self.peak = Peak { stress: mises.stress, time, position: mises.position, ..self.peak };
@@ -137,7 +132,7 @@ impl SolidRecord {
             for side in 0..4 {
                 row.extend([ledger.momentum[side], ledger.energy[side]]);
             }
-            self.history.push(self.conservation, &row)?;
+            history.push(self.conservation, &row)?;
         }
         for probe in &self.probes {
             let Some(state) = solver.sample(probe.probe.position) else { continue };
@@ -151,42 +146,37 @@ impl SolidRecord {
                 state.stress_phiphi,
             ];
             if probe.on_interface && dt > 0.0 {
-                let at = |value: &dyn Fn(usize) -> f64| {
-                    between_faces(&self.edges, self.begin, probe.probe.position[1], value)
-                };
-                row[1] = at(&|k| solver.surface()[k].velocity);
-                row[3] = at(&|k| -solver.surface()[k].pressure);
+                let r = probe.probe.position[1];
+                row[1] = self.faces.at(r, |k| solver.surface()[k].velocity);
+                row[3] = self.faces.at(r, |k| -solver.surface()[k].pressure);
                 // No shear is passed to the fluid.
                 row[4] = 0.0;
             }
-            self.history.push(probe.series, &row)?;
+            history.push(probe.series, &row)?;
         }
         Ok(())
     }
 
     fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
-        let snapshot = solver.snapshot();
-        let values: Vec<&[f64]> = (self.fields.iter())
-            .map(|name| match *name {
-                "velocity" => snapshot.velocity.as_slice(),
-                "stress_zz" => &snapshot.stress_zz,
-                "stress_zr" => &snapshot.stress_zr,
-                "stress_rr" => &snapshot.stress_rr,
-                "stress_phiphi" => &snapshot.stress_phiphi,
-                "von_mises" => &snapshot.von_mises,
-                "yield_function" => &snapshot.yield_function,
-                _ => &snapshot.level,
+        let mut snapshot = solver.snapshot();
+        self.files.snapshot(solver.time(), solver.mesh(), |name| {
+            std::mem::take(match name {
+                "velocity" => &mut snapshot.velocity,
+                "stress_zz" => &mut snapshot.stress_zz,
+                "stress_zr" => &mut snapshot.stress_zr,
+                "stress_rr" => &mut snapshot.stress_rr,
+                "stress_phiphi" => &mut snapshot.stress_phiphi,
+                "von_mises" => &mut snapshot.von_mises,
+                "yield_function" => &mut snapshot.yield_function,
+                _ => &mut snapshot.level,
             })
-            .collect();
-        let mesh = QuadMesh { points: &self.geometry.points, quads: &self.geometry.quads };
-        self.snapshots.append(solver.time(), &mesh, 0, &values)
+        })
     }
 
     /// The solid's part of the summary.
     pub fn summary(&self, solver: &SolidSolver<BLOCK>) -> Map<String, Value> {
         let strength = solver.setup().yield_strength;
         let value = json!({
-            "cells": { "solid": solver.mesh().cells() },
             "von_mises_peak": self.peak.stress,
             "von_mises_peak_time": self.peak.time,
             "von_mises_peak_position": self.peak.position,
@@ -194,7 +184,10 @@ impl SolidRecord {
             "yielded_volume_peak": self.peak.yielded,
         });
         match value {
-            Value::Object(map) => map,
+            Value::Object(mut map) => {
+                map.extend(self.cells.summary("solid"));
+                map
+            }
             _ => unreachable!("an object was written"),
         }
     }

@@ -11,6 +11,9 @@ use super::{End, FieldSpec, QuadMesh, Storage};
 
 /// Cells (or points) per chunk, 64 KiB of a scalar field.
 const CHUNK_ROWS: usize = 8192;
+/// Rows written in one call of the HDF5 library, which serves one thread at a time: so many chunks that are compressed
+/// before another thread has its turn.
+const PIECE_ROWS: usize = 4 * CHUNK_ROWS;
 /// Steps per chunk of the small datasets that have one entry per step or mesh.
 const CHUNK_STEPS: usize = 64;
 /// VTK's number of the quadrilateral cell type.
@@ -89,21 +92,22 @@ fn create_dataset<T: H5Type>(
 
 /// Writes `values` from row `row` on and ends the dataset with them.
 pub(super) fn append_rows<T: H5Type>(dataset: &Dataset, values: &[T], row: usize) -> hdf5::Result<()> {
-    match dataset.shape().get(1).copied() {
-        None => {
-            let end = row + values.len();
-            dataset.resize(end)?;
-            dataset.write_slice(values, row..end)
+    let columns = dataset.shape().get(1).copied();
+    let width = columns.unwrap_or(1).max(1);
+    set_rows(dataset, row + values.len() / width)?;
+    let mut start = row;
+    for piece in values.chunks(PIECE_ROWS * width) {
+        let end = start + piece.len() / width;
+        match columns {
+            None => dataset.write_slice(piece, start..end)?,
+            Some(columns) => {
+                let piece = ArrayView2::from_shape((end - start, columns), piece)?;
+                dataset.write_slice(piece, ndarray::s![start..end, ..])?;
+            }
         }
-        Some(columns) => {
-            let rows = values.len() / columns.max(1);
-            dataset.resize((row + rows, columns))?;
-            dataset.write_slice(
-                ArrayView2::from_shape((rows, columns), values)?,
-                ndarray::s![row..row + rows, ..],
-            )
-        }
+        start = end;
     }
+    Ok(())
 }
 
 /// Cuts a dataset down to `rows` rows.

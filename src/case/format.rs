@@ -1,0 +1,61 @@
+//! Numbers as they are said: with prefixes, as durations, as sizes.
+
+use std::fmt::Write as _;
+
+pub(super) fn mebibytes(bytes: f64) -> String {
+    let mebi = bytes / f64::from(1 << 20);
+    if mebi < 10_000.0 { format!("{mebi:.0} MiB") } else { format!("{:.0} GiB", mebi / 1024.0) }
+}
+
+pub(super) fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 100.0 => format!("{s:.0} s"),
+        s if s < 6000.0 => format!("{:.0} min", s / 60.0),
+        s if s < 100.0 * 3600.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86400.0),
+    }
+}
+
+/// A value with a prefix: `65.7 us`, `250 MPa`.
+pub(super) fn si(value: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 8] =
+        [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p")];
+    let (scale, prefix) = PREFIXES
+        .into_iter()
+        .find(|(scale, _)| value.abs() >= *scale * 0.99995)
+        .unwrap_or(if value == 0.0 { (1.0, "") } else { (1e-12, "p") });
+    let scaled = value / scale;
+    let digits = if scaled.abs() < 10.0 {
+        3
+    } else if scaled.abs() < 100.0 {
+        2
+    } else {
+        1
+    };
+    let number = format!("{scaled:.digits$}");
+    let number = number.trim_end_matches('0').trim_end_matches('.');
+    format!("{number} {prefix}{unit}")
+}
+
+pub(super) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prefixes() {
+        assert_eq!(si(65.7e-6, "s"), "65.7 us");
+        assert_eq!(si(250e6, "Pa"), "250 MPa");
+        assert_eq!(si(1e-3, "m"), "1 mm");
+        assert_eq!(si(195.3125e-6, "m"), "195.3 um");
+        assert_eq!(si(0.0, "m"), "0 m");
+        assert_eq!(duration(30.0), "30 s");
+        assert_eq!(duration(3600.0 * 5.0), "5.0 h");
+    }
+}

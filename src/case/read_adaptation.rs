@@ -1,0 +1,122 @@
+//! How the grid of a side adapts: `adapt`, `epsilon`, `adapt_every` and `[[....refine]]`.
+
+use mesh::{Adaptation, LevelBound, Side, Zone};
+
+use super::reader::{Faults, Table};
+
+/// Threshold of the details where a case does not say.
+pub const DEFAULT_EPSILON: f64 = 1e-3;
+/// Steps between two adaptations where a case does not say.
+pub const DEFAULT_ADAPT_EVERY: usize = 8;
+/// More steps than this between two adaptations are a mistake.
+const MOST_STEPS: usize = 1000;
+
+/// The shapes of zones by name.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Sphere,
+    Box,
+    Interface,
+}
+
+/// The levels of a side's blocks.
+#[derive(Clone, Copy)]
+pub(super) struct Levels {
+    /// The coarsest there are.
+    pub roots: usize,
+    /// The finest there are.
+    pub finest: usize,
+}
+
+/// How a grid adapts; `None` where all its cells are on the finest level.
+///
+/// - `interface`: the side that meets the other medium or the rigid wall.
+pub(super) fn adaptation(
+    table: &mut Table<'_>,
+    levels: Levels,
+    interface: Option<Side>,
+    faults: &mut Faults,
+) -> Option<Adaptation> {
+    let adapt = table.boolean("adapt", faults).is_none_or(|given| given.value);
+    let epsilon = table.number("epsilon", "1", faults);
+    if let Some(epsilon) = &epsilon
+        && !(epsilon.value > 0.0 && epsilon.value < 1.0)
+    {
+        let message = format!("must lie in (0, 1), got {:?}", epsilon.value);
+        let help = format!("{DEFAULT_EPSILON:?} is the default; a smaller one keeps more cells");
+        faults.of(epsilon, message, help);
+    }
+    let every = table.whole("adapt_every", 1..=MOST_STEPS, faults);
+    let bounds: Vec<Option<LevelBound>> = (table.tables("refine", faults).into_iter())
+        .map(|table| bound(table, levels, interface, faults))
+        .collect();
+    (adapt && levels.roots < levels.finest).then(|| Adaptation {
+        epsilon: epsilon.map_or(DEFAULT_EPSILON, |given| given.value),
+        every: every.map_or(DEFAULT_ADAPT_EVERY, |given| given.value) as u32,
+        bounds: bounds.into_iter().flatten().collect(),
+    })
+}
+
+/// One element of `[[....refine]]`.
+fn bound(
+    mut table: Table<'_>,
+    levels: Levels,
+    interface: Option<Side>,
+    faults: &mut Faults,
+) -> Option<LevelBound> {
+    let zone = zone(&mut table, interface, faults);
+    let at_least = table.whole("at_least", 0..=levels.finest, faults);
+    let at_most = table.whole("at_most", 0..=levels.finest, faults);
+    if !table.has("at_least") && !table.has("at_most") {
+        let help =
+            format!("give `at_least = ...`, `at_most = ...` or both, levels from 0 to {}", levels.finest);
+        faults.at(&table.path, &table.span, "neither at_least nor at_most is given", help);
+    }
+    if let (Some(least), Some(most)) = (&at_least, &at_most)
+        && least.value > most.value
+    {
+        let message = format!("at_least = {} is above at_most = {}", least.value, most.value);
+        faults.of(least, message, "give at_least the coarser level, or remove one of the two");
+    }
+    table.finish(faults);
+    // There is nothing coarser than the roots.
+    let level = |given: Option<usize>, default| given.unwrap_or(default).max(levels.roots) as u8;
+    Some(LevelBound {
+        zone: zone?,
+        at_least: level(at_least.map(|given| given.value), levels.roots),
+        at_most: level(at_most.map(|given| given.value), levels.finest),
+    })
+}
+
+fn zone(table: &mut Table<'_>, interface: Option<Side>, faults: &mut Faults) -> Option<Zone> {
+    const KINDS: [(&str, Kind); 3] =
+        [("sphere", Kind::Sphere), ("box", Kind::Box), ("interface", Kind::Interface)];
+    if !table.has("shape") {
+        table.missing("shape", "give `shape = ` one of \"sphere\", \"box\", \"interface\"", faults);
+    }
+    let kind = table.choice("shape", &KINDS, faults)?;
+    match kind.value {
+        Kind::Sphere => {
+            let centre = table.required_pair("centre", "m, as [z, r]", faults);
+            let radius = table.required_positive("radius", "m", faults);
+            let inside = table.choice("where", &[("inside", true), ("outside", false)], faults);
+            let (centre, radius) = (centre?.value, radius?);
+            Some(if inside.is_none_or(|given| given.value) {
+                Zone::Within { centre, radius }
+            } else {
+                Zone::Beyond { centre, radius }
+            })
+        }
+        Kind::Box => {
+            let (z, r) = (table.range("z", faults), table.range("r", faults));
+            Some(Zone::Box { z: z?.value, r: r?.value })
+        }
+        Kind::Interface => {
+            if interface.is_none() {
+                let help = "take shape = \"box\" with the ranges z and r, or couple two media";
+                faults.of(&kind, "scheme = \"none\" has no interface", help);
+            }
+            interface.map(Zone::Along)
+        }
+    }
+}

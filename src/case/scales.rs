@@ -1,0 +1,104 @@
+//! Reference values of a case, to which the thresholds of adaptation are relative.
+
+use fluid::{InitialCondition, PhaseState, StiffenedGas};
+use solid::{Material, PotentialPulse};
+
+use super::Inflow;
+
+/// Stress scale of a solid on which nothing acts, Pa.
+const QUIET_STRESS: f64 = 1e6;
+
+/// c = √(γ(p + π)/ρ).
+pub(super) fn sound_speed(eos: StiffenedGas, density: f64, pressure: f64) -> f64 {
+    (eos.gamma * (pressure + eos.pi) / density).sqrt()
+}
+
+/// The largest difference of pressure in a fluid, Pa: of regions, pulses and inflow to the ambient, and ρc times the
+/// differences of velocity; where there is none, the ambient pressure.
+///
+/// - `eos`: that of the ambient phase.
+pub(super) fn pressure(initial: &InitialCondition, inflow: Option<&Inflow>, eos: StiffenedGas) -> f64 {
+    let ambient = &initial.ambient;
+    let impedance = ambient.density * sound_speed(eos, ambient.density, ambient.pressure);
+    let regions = initial.regions.iter().flat_map(|region| {
+        let [v_z, v_r] = [0, 1].map(|k| region.state.velocity[k] - ambient.velocity[k]);
+        [region.state.pressure - ambient.pressure, impedance * v_z.hypot(v_r)]
+    });
+    let pulses = initial.pulses.iter().map(|pulse| pulse.amplitude);
+    let inflow = inflow.into_iter().flat_map(|inflow| &inflow.pressure).map(|row| row[1] - ambient.pressure);
+    largest(regions.chain(pulses).chain(inflow)).or_else(|| largest([ambient.pressure])).unwrap_or(1.0)
+}
+
+/// The largest difference of density in a fluid, kg/m³; where no region differs, that of a wave of `pressure`.
+///
+/// - `eos`: that of the ambient phase.
+pub(super) fn density(initial: &InitialCondition, pressure: f64, eos: StiffenedGas) -> f64 {
+    let ambient: &PhaseState = &initial.ambient;
+    let c = sound_speed(eos, ambient.density, ambient.pressure);
+    largest(initial.regions.iter().map(|region| region.state.density - ambient.density))
+        .or_else(|| largest([pressure / (c * c)]))
+        .unwrap_or(1.0)
+}
+
+/// The largest stress in a solid, Pa: under a fluid the fluid's pressure scale, else that of its pulses.
+pub(super) fn stress(fluid_pressure: Option<f64>, pulses: &[PotentialPulse], material: &Material) -> f64 {
+    // At the centre of u = ∇(Φ exp(−R²/a²)) the strains are −2Φ/a².
+    let modulus = material.lambda() + 2.0 * material.mu();
+    let of_pulse = |pulse: &PotentialPulse| 2.0 * modulus * pulse.amplitude / (pulse.width * pulse.width);
+    fluid_pressure.or_else(|| largest(pulses.iter().map(of_pulse))).unwrap_or(QUIET_STRESS)
+}
+
+/// The largest magnitude; `None` if all are zero. What overflows is the largest number there is.
+fn largest(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let largest = values.into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    (largest > 0.0).then_some(largest.min(f64::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluid::{Phase, Pulse, PulseShape, Region, Shape};
+
+    const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
+
+    fn at_rest(pressure: f64) -> InitialCondition {
+        let ambient = PhaseState { phase: Phase::Liquid, density: 1000.0, pressure, velocity: [0.0; 2] };
+        InitialCondition { ambient, regions: vec![], pulses: vec![] }
+    }
+
+    #[test]
+    fn scales_are_the_largest_differences() {
+        let mut initial = at_rest(5e7);
+        assert_eq!(pressure(&initial, None, WATER), 5e7);
+        assert_eq!(pressure(&at_rest(0.0), None, WATER), 1.0);
+        let gas = PhaseState { phase: Phase::Gas, density: 0.0266, pressure: 2118.0, velocity: [0.0; 2] };
+        let shape = Shape::Sphere { centre: [0.03, 0.0], radius: 0.01 };
+        initial.regions.push(Region { shape, state: gas });
+        assert_eq!(pressure(&initial, None, WATER), 5e7 - 2118.0);
+        assert_eq!(density(&initial, 5e7, WATER), 1000.0 - 0.0266);
+        // Water of the same state, but moving: the pressure with which it hits the water at rest.
+        initial.regions[0].state = PhaseState { velocity: [-30.0, 40.0], ..initial.ambient };
+        let c2: f64 = 7.15 * 3.5e8 / 1000.0;
+        assert!((pressure(&initial, None, WATER) / (1000.0 * c2.sqrt() * 50.0) - 1.0).abs() < 1e-14);
+        assert_eq!(density(&initial, 1e6, WATER), 1e6 / (c2.sqrt() * c2.sqrt()));
+        let inflow = Inflow { pressure: vec![[0.0, 5e7], [1.0, -2e8]] };
+        assert_eq!(pressure(&initial, Some(&inflow), WATER), 2.5e8);
+        initial.pulses.push(Pulse {
+            shape: PulseShape::Sphere,
+            centre: [0.0; 2],
+            width: 1.0,
+            amplitude: -3e8,
+        });
+        assert_eq!(pressure(&initial, Some(&inflow), WATER), 3e8);
+    }
+
+    #[test]
+    fn a_solid_takes_the_fluids_scale_or_its_pulses() {
+        let steel = Material::from_speeds(7800.0, 6000.0, 3000.0).expect("a material");
+        let pulse = |amplitude| PotentialPulse { centre: [0.0; 2], width: 1e-3, amplitude };
+        assert_eq!(stress(Some(5e7), &[pulse(1.0)], &steel), 5e7);
+        assert_eq!(stress(None, &[], &steel), QUIET_STRESS);
+        let expected = 2.0 * 7800.0 * 3.6e7 * 3e-9 / 1e-6;
+        assert!((stress(None, &[pulse(1e-9), pulse(-3e-9)], &steel) / expected - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,116 @@
+//! Snapshots written by a thread of their own, so that the solver does not wait for compression and disk.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
+
+use super::{OutputError, QuadMesh, SeriesWriter};
+
+/// A mesh of quadrilaterals with its own data; see [`QuadMesh`].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OwnedQuadMesh {
+    /// Coordinates, x y z of one point after the other; the third is 0.
+    pub points: Vec<f64>,
+    /// Points of each cell, counted around it.
+    pub quads: Vec<[usize; 4]>,
+}
+
+impl OwnedQuadMesh {
+    /// As [`SeriesWriter::append`] takes it.
+    pub fn view(&self) -> QuadMesh<'_> {
+        QuadMesh { points: &self.points, quads: &self.quads }
+    }
+}
+
+/// A snapshot with its own data.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    /// Time, s.
+    pub time: f64,
+    /// The mesh.
+    pub mesh: Arc<OwnedQuadMesh>,
+    /// Equal to that of the snapshot before where the mesh is the same.
+    pub mesh_id: u64,
+    /// Values of each field, one cell after the other.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// A [`SeriesWriter`] on a thread of its own.
+///
+/// A snapshot is handed over when the one before is in the file, so a kill loses no more than the one being written,
+/// and no more than one takes memory. Dropping it writes what it has, as [`close`](Self::close) does.
+#[derive(Debug)]
+pub struct BackgroundWriter {
+    /// Both are there until the thread is asked to end.
+    thread: Option<(SyncSender<Snapshot>, JoinHandle<Result<(), OutputError>>)>,
+    path: std::path::PathBuf,
+}
+
+impl BackgroundWriter {
+    /// Starts the thread.
+    pub fn start(writer: SeriesWriter) -> Result<Self, OutputError> {
+        // No room in between: handing over is meeting the thread when it has nothing to do.
+        let (sender, receiver) = sync_channel(0);
+        let path = writer.path().to_path_buf();
+        let handle = std::thread::Builder::new()
+            .name("snapshots".to_owned())
+            .spawn(move || write_all(writer, &receiver))
+            .map_err(OutputError::io(&path, "start the thread that writes"))?;
+        Ok(Self { thread: Some((sender, handle)), path })
+    }
+
+    /// Hands a snapshot over, once the one before is in the file.
+    ///
+    /// - errors: what went wrong with an earlier snapshot; nothing is written after that.
+    pub fn append(&mut self, snapshot: Snapshot) -> Result<(), OutputError> {
+        let gone = match &self.thread {
+            Some((sender, _)) => sender.send(snapshot).is_err(),
+            None => true,
+        };
+        if !gone {
+            return Ok(());
+        }
+        self.close()?;
+        Err(OutputError::Closed { path: self.path.clone() })
+    }
+
+    /// Whether all is well so far; cheap enough for every step.
+    ///
+    /// - errors: what went wrong with an earlier snapshot.
+    pub fn check(&mut self) -> Result<(), OutputError> {
+        if self.thread.as_ref().is_some_and(|(_, handle)| handle.is_finished()) {
+            self.close()
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Waits until everything is in the file, and ends the thread.
+    ///
+    /// - errors: what went wrong with a snapshot, unless it has been said before.
+    pub fn close(&mut self) -> Result<(), OutputError> {
+        let Some((sender, handle)) = self.thread.take() else { return Ok(()) };
+        drop(sender);
+        handle.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    }
+}
+
+impl Drop for BackgroundWriter {
+    fn drop(&mut self) {
+        let Some((sender, handle)) = self.thread.take() else { return };
+        drop(sender);
+        // Who wants to know of errors closes it first.
+        if let Ok(Err(error)) = handle.join() {
+            tracing::error!("{error}");
+        }
+    }
+}
+
+/// Writes what comes until nothing more can come.
+fn write_all(mut writer: SeriesWriter, snapshots: &Receiver<Snapshot>) -> Result<(), OutputError> {
+    for snapshot in snapshots {
+        let values: Vec<&[f64]> = snapshot.values.iter().map(Vec::as_slice).collect();
+        writer.append(snapshot.time, &snapshot.mesh.view(), snapshot.mesh_id, &values)?;
+    }
+    Ok(())
+}

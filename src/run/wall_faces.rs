@@ -1,0 +1,76 @@
+//! A side's faces on the interface, which change with its mesh.
+
+/// The faces on the interface by their outer radii, brought up to date when the mesh has changed.
+#[derive(Debug)]
+pub struct WallFaces {
+    generation: u64,
+    begin: f64,
+    edges: Vec<f64>,
+}
+
+impl WallFaces {
+    /// The faces that begin at `begin` and have the outer radii `edges`, of a mesh of this generation.
+    pub fn new(generation: u64, begin: f64, edges: Vec<f64>) -> Self {
+        Self { generation, begin, edges }
+    }
+
+    /// Asks for the radii again if the mesh is another one; says whether it was.
+    pub fn update(&mut self, generation: u64, edges: impl FnOnce() -> Vec<f64>) -> bool {
+        let changed = self.generation != generation;
+        if changed {
+            self.generation = generation;
+            self.edges = edges();
+        }
+        changed
+    }
+
+    /// The radius at which the first face begins, m.
+    pub fn begin(&self) -> f64 {
+        self.begin
+    }
+
+    /// The outer radius of each face, ascending, m.
+    pub fn edges(&self) -> &[f64] {
+        &self.edges
+    }
+
+    /// A value at radius `r` between those on the faces, linear between their centres, constant beyond the first and the
+    /// last one.
+    pub fn at(&self, r: f64, value: impl Fn(usize) -> f64) -> f64 {
+        let edges = &self.edges;
+        let centre = |k: usize| 0.5 * (edges[k] + if k == 0 { self.begin } else { edges[k - 1] });
+        let last = edges.len() - 1;
+        let face = edges.partition_point(|edge| *edge < r).min(last);
+        let above = if centre(face) >= r { face } else { face + 1 };
+        if above == 0 || above > last {
+            return value(above.min(last));
+        }
+        let share = (r - centre(above - 1)) / (centre(above) - centre(above - 1));
+        value(above - 1) + share * (value(above) - value(above - 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_between_faces_are_linear() {
+        let faces = WallFaces::new(0, 0.0, vec![1.0, 2.0, 3.0]);
+        let value = |k: usize| 10.0 * (k as f64 + 0.5);
+        for (r, expected) in [(1.5, 15.0), (2.0, 20.0), (0.1, 5.0), (3.0, 25.0), (1.0, 10.0), (2.75, 25.0)] {
+            assert_eq!(faces.at(r, value), expected, "at {r}");
+        }
+        // Coarse faces next to fine ones.
+        let faces = WallFaces::new(0, 0.0, vec![0.5, 1.0, 2.0]);
+        assert_eq!(faces.at(1.125, |k| [0.25, 0.75, 1.5][k]), 1.125);
+    }
+
+    #[test]
+    fn radii_are_asked_for_when_the_mesh_has_changed() {
+        let mut faces = WallFaces::new(7, 0.0, vec![1.0]);
+        assert!(!faces.update(7, || unreachable!("the same mesh")));
+        assert!(faces.update(8, || vec![0.5, 1.0]));
+        assert_eq!(faces.edges(), [0.5, 1.0]);
+    }
+}
