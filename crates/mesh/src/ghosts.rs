@@ -119,13 +119,17 @@ pub(crate) fn mirror(row: &mut [f64], n: usize, side: Side, parity: f64) {
     }
 }
 
-/// Fills the ghosts beyond a side by the straight line through the two cells next to it. Linear, unlike
-/// [`Padded::extrapolate`]: prediction must be the same linear map for all fields.
-pub(crate) fn continue_line(row: &mut [f64], n: usize, side: Side) {
+/// Fills the ghosts beyond a side by the parabola through the three cells next to it. A linear map, unlike
+/// [`Padded::extrapolate`]: prediction must be the same one for all fields; and of prediction's own order, so that
+/// the details of smooth fields are no larger here than elsewhere.
+pub(crate) fn continue_parabola(row: &mut [f64], n: usize, side: Side) {
     for along in ghost_range(n) {
-        let [first, second] = [row[across(n, side, 0, along)], row[across(n, side, 1, along)]];
+        let [first, second, third] = [0, 1, 2].map(|depth| row[across(n, side, depth, along)]);
+        // u(−k) = u₀ + k (u₀ − u₁) + ½k(k + 1) (u₀ − 2u₁ + u₂), exactly u₀ for a constant.
+        let (slope, bend) = (first - second, (first - second) - (second - third));
         for layer in 1..=GHOSTS as isize {
-            row[across(n, side, -layer, along)] = first + layer as f64 * (first - second);
+            let k = layer as f64;
+            row[across(n, side, -layer, along)] = first + k * slope + 0.5 * k * (k + 1.0) * bend;
         }
     }
 }

@@ -1,6 +1,8 @@
 //! A block and its surroundings, seen on the next coarser level.
 
-use crate::ghosts::{continue_line, finer_cell, ghost_range, ghost_span, index, mean, mean_of_cells, mirror};
+use crate::ghosts::{
+    continue_parabola, finer_cell, ghost_range, ghost_span, index, mean, mean_of_cells, mirror,
+};
 use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations};
 use crate::{BlockId, Field, GHOSTS, Mesh, Neighbour, Offset, Padded, Side};
 
@@ -61,7 +63,7 @@ impl<const N: usize> Patch<N> {
                 if neighbours[side as usize] == Neighbour::Boundary {
                     match rule.parity(side, component) {
                         Some(parity) => mirror(row, Self::HALF, side, parity),
-                        None => continue_line(row, Self::HALF, side),
+                        None => continue_parabola(row, Self::HALF, side),
                     }
                 }
             }

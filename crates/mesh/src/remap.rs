@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::ghosts::{continue_line, mean_of_cells};
+use crate::ghosts::{continue_parabola, mean_of_cells};
 use crate::marks::wanted_levels;
 use crate::multiresolution::{MOST_COMPONENTS, Multiresolution};
 use crate::patch::predict;
@@ -142,7 +142,7 @@ fn continue_beyond<const N: usize>(
             let row = padded.component_mut(component);
             match rule.parity(side, component) {
                 Some(parity) => Padded::<N>::reflect(row, side, parity),
-                None => continue_line(row, N, side),
+                None => continue_parabola(row, N, side),
             }
         }
     }
