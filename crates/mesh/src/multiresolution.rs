@@ -53,9 +53,16 @@ impl Multiresolution for Plain {
 /// - exact for quadratic polynomials in planar geometry; a uniform field has deviations that are exactly zero.
 #[inline(always)]
 pub(crate) fn deviations(row: &[f64], k: usize, stride: usize, lower_share: f64) -> [f64; 4] {
-    let d_z = 0.125 * (row[k + 1] - row[k - 1]);
-    let d_r = 0.125 * (row[k + stride] - row[k - stride]);
-    let d_zr = (row[k + stride + 1] - row[k + stride - 1] - row[k - stride + 1] + row[k - stride - 1]) / 64.0;
+    let three = |k: usize| [row[k - 1], row[k], row[k + 1]];
+    deviations_among([three(k - stride), three(k), three(k + stride)], lower_share)
+}
+
+/// [`deviations`] from a cell and its neighbours, row after row.
+#[inline(always)]
+pub(crate) fn deviations_among([below, middle, above]: [[f64; 3]; 3], lower_share: f64) -> [f64; 4] {
+    let d_z = 0.125 * (middle[2] - middle[0]);
+    let d_r = 0.125 * (above[1] - below[1]);
+    let d_zr = (above[2] - above[0] - below[2] + below[0]) / 64.0;
     let (lower, upper) = (-2.0 * (1.0 - lower_share), 2.0 * lower_share);
     [
         -d_z + lower * (d_r - d_zr),

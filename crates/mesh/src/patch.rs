@@ -1,7 +1,7 @@
 //! A block and its surroundings, seen on the next coarser level.
 
-use crate::ghosts::{continue_line, finer_cell, ghost_range, ghost_span, index, mean, mean_of_cells, mirror};
-use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations};
+use crate::ghosts::{continue_line, finer_cell, ghost_range, ghost_span, index, mean, mirror};
+use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations, deviations_among};
 use crate::{BlockId, Field, GHOSTS, Mesh, Neighbour, Offset, Padded, Side};
 
 /// The cells of one block and two layers around it, projected to the level below: N/2 × N/2 cells with ghosts.
@@ -39,11 +39,13 @@ impl<const N: usize> Patch<N> {
         for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
             let own = field.component(slot, component);
             for j in 0..Self::HALF {
-                let share = shares[j + GHOSTS];
                 let to = index(Self::HALF, 0, j as isize);
-                for (i, cell) in row[to..to + Self::HALF].iter_mut().enumerate() {
-                    *cell = mean_of_cells::<N>(own, 2 * i, 2 * j, share);
-                }
+                project_rows(
+                    &own[2 * j * N..][..2 * N],
+                    N,
+                    shares[j + GHOSTS],
+                    &mut row[to..to + Self::HALF],
+                );
             }
             for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
                 let of = |slot: &usize| field.component(*slot, component);
@@ -56,15 +58,7 @@ impl<const N: usize> Patch<N> {
                     Neighbour::Boundary => {}
                 }
             }
-            // r first: the z sides then find the ghosts beyond r filled and complete the corners.
-            for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
-                if neighbours[side as usize] == Neighbour::Boundary {
-                    match rule.parity(side, component) {
-                        Some(parity) => mirror(row, Self::HALF, side, parity),
-                        None => continue_line(row, Self::HALF, side),
-                    }
-                }
-            }
+            continue_beyond(row, Self::HALF, component, rule, |side| mesh.touches(slot, side));
         }
     }
 
@@ -79,7 +73,9 @@ impl<const N: usize> Patch<N> {
         let mut cells = [[0.0; MOST_COMPONENTS]; 4];
         for j in span(offset.j) {
             for i in span(offset.i) {
-                self.predict(i, j, Some(rule), &mut cells);
+                let k = index(Self::HALF, i, j);
+                let share = self.shares[(j + GHOSTS as isize) as usize];
+                predict(&self.data, Self::LEN, Self::STRIDE, k, share, rule, &mut cells);
                 for component in 0..self.components {
                     let row = padded.component_mut(component);
                     for (child, cell) in cells.iter().enumerate() {
@@ -91,19 +87,6 @@ impl<const N: usize> Patch<N> {
         }
     }
 
-    /// The predicted children of cell (i, j) of the patch; without a rule without regard to what is admissible.
-    fn predict<R: Multiresolution>(
-        &self,
-        i: isize,
-        j: isize,
-        rule: Option<&R>,
-        cells: &mut [[f64; MOST_COMPONENTS]; 4],
-    ) {
-        let k = index(Self::HALF, i, j);
-        let lower_share = self.shares[(j + GHOSTS as isize) as usize];
-        predict(&self.data, Self::LEN, Self::STRIDE, k, lower_share, rule, cells);
-    }
-
     /// Calls `visit(i, j, significance)` for every cell of the block: the size of its detail.
     ///
     /// - `block`: the block's own cells; the patch must have been filled from it.
@@ -113,20 +96,111 @@ impl<const N: usize> Patch<N> {
         rule: &R,
         mut visit: impl FnMut(usize, usize, f64),
     ) {
-        let mut cells = [[0.0; MOST_COMPONENTS]; 4];
+        // Two rows of cells at a time: component by component first, so that it vectorises.
+        let mut owns = [[[0.0; N]; 2]; MOST_COMPONENTS];
+        let mut details = owns;
         for j in 0..Self::HALF {
-            for i in 0..Self::HALF {
-                self.predict::<R>(i as isize, j as isize, None, &mut cells);
-                for (child, predicted) in cells.iter().enumerate() {
-                    let (fine_i, fine_j) = (2 * i + child % 2, 2 * j + child / 2);
+            let rows = owns.iter_mut().zip(&mut details).zip(self.data.chunks_exact(Self::LEN));
+            for (component, ((own, details), row)) in rows.enumerate() {
+                let from = &block[(component * N + 2 * j) * N..][..2 * N];
+                own[0].copy_from_slice(&from[..N]);
+                own[1].copy_from_slice(&from[N..]);
+                self.details_of_rows(row, j, own, details);
+            }
+            for b in 0..2 {
+                for i in 0..N {
                     let (mut own, mut detail) = ([0.0; MOST_COMPONENTS], [0.0; MOST_COMPONENTS]);
-                    for component in 0..self.components {
-                        own[component] = block[(component * N + fine_j) * N + fine_i];
-                        detail[component] = own[component] - predicted[component];
+                    for component in 0..self.components.min(MOST_COMPONENTS) {
+                        own[component] = owns[component][b][i];
+                        detail[component] = details[component][b][i];
                     }
                     let size = rule.significance(&own[..self.components], &detail[..self.components]);
-                    visit(fine_i, fine_j, size);
+                    visit(i, 2 * j + b, size);
                 }
+            }
+        }
+    }
+
+    /// The details of one component in the cells of row `j` of the patch: what they are minus what is predicted.
+    #[inline(always)]
+    fn details_of_rows(&self, row: &[f64], j: usize, own: &[[f64; N]; 2], details: &mut [[f64; N]; 2]) {
+        let from = |j: isize| &row[index(Self::HALF, -1, j)..][..Self::HALF + 2];
+        let (below, middle, above) = (from(j as isize - 1), from(j as isize), from(j as isize + 1));
+        let lower_share = self.shares[j + GHOSTS];
+        for i in 0..Self::HALF {
+            let three = |row: &[f64]| [row[i], row[i + 1], row[i + 2]];
+            let deviations = deviations_among([three(below), three(middle), three(above)], lower_share);
+            for (child, deviation) in deviations.iter().enumerate() {
+                let (a, b) = (2 * i + child % 2, child / 2);
+                details[b][a] = own[b][a] - (middle[i + 1] + deviation);
+            }
+        }
+    }
+
+    /// Fills the patch of the block that four siblings would make, the leaves from slot `first` on, as far as
+    /// [`Patch::details`] needs it, and sets `around` to that block and its surroundings.
+    ///
+    /// - `child`: scratch.
+    pub(crate) fn fill_parent(
+        &mut self,
+        mesh: &Mesh<N>,
+        field: &Field,
+        first: usize,
+        rule: &impl Multiresolution,
+        child: &mut Self,
+        around: &mut Padded<N>,
+    ) {
+        let half = Self::HALF as isize;
+        for number in 0..4 {
+            child.fill(mesh, field, first + number, rule);
+            let (first_i, first_j) = (number as isize % 2 * half, number as isize / 2 * half);
+            for (component, row) in child.data.chunks_exact(Self::LEN).enumerate() {
+                let to = around.component_mut(component);
+                for (j, row) in ghost_range(Self::HALF).zip(row.chunks_exact(Self::STRIDE)) {
+                    let at = Padded::<N>::index(first_i - GHOSTS as isize, first_j + j);
+                    to[at..at + Self::STRIDE].copy_from_slice(row);
+                }
+            }
+        }
+        let id = mesh.tree().leaves()[first];
+        let first_row = i64::from(id.j / 2) * Self::HALF as i64;
+        for (share, j) in self.shares.iter_mut().zip(ghost_range(Self::HALF)) {
+            *share = mesh.lower_share(id.level - 1, first_row + j as i64);
+        }
+        for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
+            for j in -1..half + 1 {
+                let from = &around.component(component)[Padded::<N>::index(-2, 2 * j)..];
+                let to = index(Self::HALF, -1, j);
+                let share = self.shares[(j + GHOSTS as isize) as usize];
+                project_rows(from, Padded::<N>::STRIDE, share, &mut row[to..to + Self::HALF + 2]);
+            }
+            let is_boundary = |side: Side| {
+                let last = match side {
+                    Side::ZMin | Side::RMin => first,
+                    Side::ZMax => first + 1,
+                    Side::RMax => first + 2,
+                };
+                mesh.touches(last, side)
+            };
+            continue_beyond(row, Self::HALF, component, rule, is_boundary);
+        }
+    }
+}
+
+/// Fills the ghosts of one component beyond the domain in the way that prediction needs: linear in the values.
+pub(crate) fn continue_beyond(
+    row: &mut [f64],
+    n: usize,
+    component: usize,
+    rule: &impl Multiresolution,
+    is_boundary: impl Fn(Side) -> bool,
+) {
+    // r first: the z sides then find the ghosts beyond r filled and complete the corners.
+    for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+        if is_boundary(side) {
+            match rule.parity(side, component) {
+                Some(parity) => mirror(row, n, side, parity),
+                None => continue_line(row, n, side),
             }
         }
     }
@@ -139,7 +213,7 @@ pub(crate) fn predict<R: Multiresolution>(
     stride: usize,
     k: usize,
     lower_share: f64,
-    rule: Option<&R>,
+    rule: &R,
     cells: &mut [[f64; MOST_COMPONENTS]; 4],
 ) {
     let components = rows.len() / len;
@@ -151,7 +225,7 @@ pub(crate) fn predict<R: Multiresolution>(
             cell[component] = deviation;
         }
     }
-    let share = rule.map_or(1.0, |rule| rule.share(&means[..components], cells));
+    let share = rule.share(&means[..components], cells);
     for cell in cells {
         for (value, mean) in cell.iter_mut().zip(means) {
             *value = mean + share * *value;
@@ -159,16 +233,26 @@ pub(crate) fn predict<R: Multiresolution>(
     }
 }
 
+/// Means of 2 × 2 cells along two rows, the second `stride` after the first.
+#[inline(always)]
+fn project_rows(cells: &[f64], stride: usize, lower_share: f64, means: &mut [f64]) {
+    let (lower, upper) = (&cells[..2 * means.len()], &cells[stride..][..2 * means.len()]);
+    for ((value, low), high) in means.iter_mut().zip(lower.chunks_exact(2)).zip(upper.chunks_exact(2)) {
+        *value = mean([[low[0], low[1]], [high[0], high[1]]], lower_share);
+    }
+}
+
 /// Ghosts of a patch from a block of the same level as the block itself.
 fn project_same<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset, shares: &[f64]) {
     let (half, n) = (N / 2, N as isize);
+    let span_i = ghost_span(half, offset.i);
+    let local_i = (2 * span_i.start - isize::from(offset.i) * n) as usize;
     for j in ghost_span(half, offset.j) {
         let share = shares[(j + GHOSTS as isize) as usize];
         let local_j = (2 * j - isize::from(offset.j) * n) as usize;
-        for i in ghost_span(half, offset.i) {
-            let local_i = (2 * i - isize::from(offset.i) * n) as usize;
-            row[index(half, i, j)] = mean_of_cells::<N>(owner, local_i, local_j, share);
-        }
+        let to = index(half, span_i.start, j);
+        let from = &owner[local_j * N + local_i..][..N + 2 * span_i.len()];
+        project_rows(from, N, share, &mut row[to..to + span_i.len()]);
     }
 }
 

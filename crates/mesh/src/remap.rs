@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::ghosts::{continue_line, mean_of_cells};
+use crate::ghosts::mean_of_cells;
 use crate::marks::wanted_levels;
 use crate::multiresolution::{MOST_COMPONENTS, Multiresolution};
-use crate::patch::predict;
-use crate::{Adaptation, BlockId, Field, GHOSTS, Mesh, Neighbour, Padded, Patch, ScratchPool, Side};
+use crate::patch::{continue_beyond, predict};
+use crate::{Adaptation, BlockId, Field, GHOSTS, Mesh, Padded, Patch, ScratchPool};
 
 /// Where the values of a new block come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,7 +103,10 @@ impl<const N: usize> Adapted<N> {
                 Origin::ParentOf(first) => project(old_mesh, field, first, block),
                 Origin::ChildOf(slot, child) => padded.with(|padded| {
                     scratch.with(|patch| padded.assemble(old_mesh, field, slot, rule, patch));
-                    continue_beyond(old_mesh, slot, rule, padded);
+                    for component in 0..components {
+                        let is_boundary = |side| old_mesh.touches(slot, side);
+                        continue_beyond(padded.component_mut(component), N, component, rule, is_boundary);
+                    }
                     predict_child(old_mesh, slot, child, rule, padded, block);
                 }),
             },
@@ -122,27 +125,6 @@ fn project<const N: usize>(mesh: &Mesh<N>, field: &Field, first: usize, block: &
             for i in 0..N {
                 let child = field.component(first + i / (N / 2) + 2 * (j / (N / 2)), component);
                 cells[j * N + i] = mean_of_cells::<N>(child, 2 * (i % (N / 2)), 2 * (j % (N / 2)), share);
-            }
-        }
-    }
-}
-
-/// Fills the ghosts beyond the domain in the way that prediction needs: linear in the values.
-fn continue_beyond<const N: usize>(
-    mesh: &Mesh<N>,
-    slot: usize,
-    rule: &impl Multiresolution,
-    padded: &mut Padded<N>,
-) {
-    for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
-        if mesh.tree().neighbours(slot)[side as usize] != Neighbour::Boundary {
-            continue;
-        }
-        for component in 0..padded.components() {
-            let row = padded.component_mut(component);
-            match rule.parity(side, component) {
-                Some(parity) => Padded::<N>::reflect(row, side, parity),
-                None => continue_line(row, N, side),
             }
         }
     }
@@ -167,7 +149,7 @@ fn predict_child<const N: usize>(
         for i in 0..half {
             let k = Padded::<N>::index((first_i + i) as isize, row as isize);
             let (len, stride) = (Padded::<N>::LEN, N + 2 * GHOSTS);
-            predict(padded.as_slice(), len, stride, k, share, Some(rule), &mut cells);
+            predict(padded.as_slice(), len, stride, k, share, rule, &mut cells);
             for component in 0..padded.components() {
                 for (number, cell) in cells.iter().enumerate() {
                     let (a, b) = (number % 2, number / 2);
