@@ -1,5 +1,7 @@
 //! Meshes of several levels: trees, ghosts, details, remapping, flux registers.
 
+#![allow(clippy::unwrap_used, clippy::type_complexity)]
+
 mod common;
 mod conservation;
 mod exactness;
