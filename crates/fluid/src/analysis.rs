@@ -39,6 +39,10 @@ impl Multiresolution for Analysis {
         }
     }
 
+    fn counts_beside(&self, side: Side) -> bool {
+        self.boundaries[side as usize] != Boundary::NonReflecting
+    }
+
     fn share(&self, mean: &[f64], deviations: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
         let (rho, energy, phi) = (mean[RHO], mean[ENERGY], mean[PHI]);
         let harmless = |d: &[f64; MOST_COMPONENTS]| {

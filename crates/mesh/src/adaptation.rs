@@ -1,4 +1,4 @@
-//! What a user says about adaptation; the machinery is in `detail.rs`, `marks.rs` and `remap.rs`.
+//! What a user says about adaptation; the machinery is in `patch.rs`, `marks.rs` and `remap.rs`.
 
 use crate::Side;
 

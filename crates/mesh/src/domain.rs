@@ -170,6 +170,25 @@ impl<const N: usize> Mesh<N> {
         }
     }
 
+    /// By what the central difference along r must be multiplied in prediction so that a field proportional to r is
+    /// exact: the means of its cells lie at x = r + h²/(4r) instead of r, with h the width of the children, so
+    /// 4h/(x_{j+1} − x_{j−1}); planar 1.
+    ///
+    /// - `fine`, `j`: as for the shares of the volume.
+    pub(crate) fn odd_factor(&self, fine: u8, j: i64) -> f64 {
+        match self.domain.geometry {
+            Geometry::Planar => 1.0,
+            Geometry::Axisymmetric => {
+                let h = self.widths(fine)[1];
+                let place = |j: i64| {
+                    let r = self.domain.r[0] + (2.0 * j as f64 + 1.0) * h;
+                    r + h * h / (4.0 * r)
+                };
+                4.0 * h / (place(j + 1) - place(j - 1))
+            }
+        }
+    }
+
     /// Volume of a cell of row `j` of a block: ‖V‖ = r_j h_r h_z (per radian), planar h_r h_z; paper eq. (23).
     pub fn volume(&self, id: BlockId, j: usize) -> f64 {
         let [hz, hr] = self.widths(id.level);

@@ -4,7 +4,9 @@ use rayon::prelude::*;
 
 use crate::adaptation::{LevelBound, Zone};
 use crate::multiresolution::Multiresolution;
-use crate::{Adaptation, BlockId, Domain, Field, Mesh, Neighbour, Offset, Patch, Quadtree, ScratchPool};
+use crate::{
+    Adaptation, BlockId, Domain, Field, Mesh, Neighbour, Offset, Padded, Patch, Quadtree, ScratchPool, Side,
+};
 
 /// A detail this many times its threshold will have significant details on the next level: a third-order detail of a
 /// smooth field falls by 2³ there and the threshold by 2 (Harten's criterion).
@@ -55,17 +57,18 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
     at_least: impl Fn(usize) -> u8 + Sync,
 ) -> Vec<u8> {
     let tree = mesh.tree();
-    let extents: Vec<[Extent; 2]> = (0..mesh.blocks())
+    let mut extents: Vec<[Extent; 2]> = (0..mesh.blocks())
         .into_par_iter()
         .with_min_len(4)
         .map(|slot| {
             let level = tree.leaves()[slot].level;
-            let threshold = adaptation.epsilon / f64::from(1u32 << (tree.finest() - level));
+            let threshold = threshold(tree, adaptation, level);
             let (mut keep, mut refine) = (Extent::NONE, Extent::NONE);
             scratch.with(|patch| {
                 patch.fill(mesh, field, slot, rule);
+                let open = open_sides(rule, |side| mesh.touches(slot, side));
                 patch.details(field.block(slot), rule, |i, j, size| {
-                    if size > threshold {
+                    if size > threshold && !is_beside::<N>(&open, i, j) {
                         keep.add(i, j);
                         if size > REFINE * threshold {
                             refine.add(i, j);
@@ -76,6 +79,12 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
             [keep, refine]
         })
         .collect();
+
+    for (first, kept) in refined_again(mesh, field, rule, adaptation, &extents) {
+        for (extents, kept) in extents[first..].iter_mut().zip(kept) {
+            extents[0] = kept;
+        }
+    }
 
     let mut wanted: Vec<u8> = (0..mesh.blocks())
         .map(|slot| {
@@ -119,6 +128,83 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
     wanted
 }
 
+/// Cells next to an open side whose details do not count.
+const OPEN_MARGIN: usize = 4;
+
+/// The sides of a block at which the domain ends and details do not count.
+fn open_sides(rule: &impl Multiresolution, touches: impl Fn(Side) -> bool) -> [bool; 4] {
+    Side::ALL.map(|side| touches(side) && !rule.counts_beside(side))
+}
+
+/// Whether a cell of a block lies next to one of its open sides.
+fn is_beside<const N: usize>(open: &[bool; 4], i: usize, j: usize) -> bool {
+    let near = [i < OPEN_MARGIN, i >= N - OPEN_MARGIN, j < OPEN_MARGIN, j >= N - OPEN_MARGIN];
+    open.iter().zip(near).any(|(open, near)| *open && near)
+}
+
+/// The threshold of the details on a level.
+fn threshold(tree: &Quadtree, adaptation: &Adaptation, level: u8) -> f64 {
+    adaptation.epsilon / f64::from(1u32 << (tree.finest() - level))
+}
+
+/// The groups of siblings without significant details of their own whose parent would be refined at once: the slot
+/// of the first, and the cells of each that must be kept for it. Fresh children have only predicted values, hence no
+/// details; without this they would come and go with every adaptation.
+fn refined_again<const N: usize, R: Multiresolution>(
+    mesh: &Mesh<N>,
+    field: &Field,
+    rule: &R,
+    adaptation: &Adaptation,
+    extents: &[[Extent; 2]],
+) -> Vec<(usize, [Extent; 4])> {
+    let tree = mesh.tree();
+    let is_quiet = |slot: usize| extents[slot][0].is_none();
+    let firsts: Vec<usize> = (0..mesh.blocks())
+        .filter(|slot| {
+            let id = tree.leaves()[*slot];
+            id.level > tree.root_level() && id.i % 2 == 0 && id.j % 2 == 0
+        })
+        .filter(|first| are_siblings(tree, *first) && (*first..first + 4).all(is_quiet))
+        .collect();
+    let components = field.components();
+    let scratch = || (Patch::zeros(components), Patch::zeros(components), Padded::zeros(components));
+    let look = |(patch, child, around): &mut (Patch<N>, Patch<N>, Padded<N>), first: &usize| {
+        let first = *first;
+        patch.fill_parent(mesh, field, first, rule, child, around);
+        let least = REFINE * threshold(tree, adaptation, tree.leaves()[first].level - 1);
+        let mut kept = [Extent::NONE; 4];
+        let open = open_sides(rule, |side| {
+            let child = match side {
+                Side::ZMin | Side::RMin => first,
+                Side::ZMax => first + 1,
+                Side::RMax => first + 2,
+            };
+            mesh.touches(child, side)
+        });
+        patch.details(&around.cells(), rule, |i, j, size| {
+            if size > least && !is_beside::<N>(&open, i, j) {
+                let (a, b) = (i / (N / 2), j / (N / 2));
+                let (i, j) = (2 * (i % (N / 2)), 2 * (j % (N / 2)));
+                kept[a + 2 * b].add(i, j);
+                kept[a + 2 * b].add(i + 1, j + 1);
+            }
+        });
+        (first, kept)
+    };
+    (firsts.par_iter().with_min_len(4).map_init(scratch, look))
+        .filter(|(_, kept)| kept.iter().any(|extent| !extent.is_none()))
+        .collect()
+}
+
+/// Whether the leaf in a slot and the three after it are the children of one block.
+fn are_siblings(tree: &Quadtree, first: usize) -> bool {
+    let id = tree.leaves()[first];
+    (0..4).all(|child| {
+        let sibling = BlockId { i: id.i + (child as u32 & 1), j: id.j + (child as u32 >> 1), ..id };
+        tree.leaves().get(first + child) == Some(&sibling)
+    })
+}
+
 /// The blocks that a neighbour consists of.
 fn slots(neighbour: &Neighbour) -> impl Iterator<Item = usize> {
     let (first, second) = match neighbour {
@@ -156,21 +242,28 @@ fn settle(tree: &Quadtree, wanted: &mut [u8]) {
 /// Whether the four children of a leaf's parent are all leaves that want to be coarser.
 fn siblings_agree(tree: &Quadtree, wanted: &[u8], slot: usize) -> bool {
     let id = tree.leaves()[slot];
-    let first = BlockId { i: id.i & !1, j: id.j & !1, ..id };
     let position = ((id.i & 1) + 2 * (id.j & 1)) as usize;
-    let Some(start) = slot.checked_sub(position) else { return false };
-    (0..4).all(|child| {
-        let at = start + child;
-        let expected = BlockId { i: first.i + (child as u32 & 1), j: first.j + (child as u32 >> 1), ..id };
-        tree.leaves().get(at) == Some(&expected) && wanted[at] < id.level
-    })
+    let Some(first) = slot.checked_sub(position) else { return false };
+    let parity = |id: BlockId| (id.i & 1, id.j & 1);
+    parity(tree.leaves()[first]) == (0, 0)
+        && are_siblings(tree, first)
+        && (first..first + 4).all(|at| wanted[at] < id.level)
 }
 
-/// The level bounds of a block.
+/// The level bounds of a block. A block is bounded from above where one of the admitted level around it is: else that
+/// one could not be refined, but its children need not be coarsened.
 fn bounds<const N: usize>(mesh: &Mesh<N>, id: BlockId, bounds: &[LevelBound]) -> (u8, u8) {
     let mut range = (0, u8::MAX);
-    for bound in bounds.iter().filter(|bound| meets(mesh, id, &bound.zone)) {
-        range = (range.0.max(bound.at_least), range.1.min(bound.at_most));
+    for bound in bounds {
+        let meets_it = meets(mesh, id, &bound.zone);
+        let steps = id.level.saturating_sub(bound.at_most.max(mesh.tree().root_level()));
+        let admitted = BlockId { level: id.level - steps, i: id.i >> steps, j: id.j >> steps };
+        if meets_it {
+            range.0 = range.0.max(bound.at_least);
+        }
+        if meets_it || meets(mesh, admitted, &bound.zone) {
+            range.1 = range.1.min(bound.at_most);
+        }
     }
     range
 }

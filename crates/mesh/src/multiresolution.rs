@@ -12,6 +12,12 @@ pub trait Multiresolution: Sync {
     /// The sign with which a component is reflected at a side of the domain; `None` where it is continued.
     fn parity(&self, side: crate::Side, component: usize) -> Option<f64>;
 
+    /// Whether details in the cells next to a side of the domain ask for refinement. Beside an open boundary, which
+    /// is not exact anyway, they need not.
+    fn counts_beside(&self, _side: crate::Side) -> bool {
+        true
+    }
+
     /// The share, in [0, 1], of the predicted deviations that the children of a cell may take so that they are
     /// admissible states. It is one for all components: prediction then stays one linear map, under which
     /// quantities that depend linearly on each other stay so.
@@ -47,16 +53,28 @@ impl Multiresolution for Plain {
 ///
 /// d_z = (ū_{i+1} − ū_{i−1})/8, d_r alike, d_zr = (ū_{++} − ū_{+−} − ū_{−+} + ū_{−−})/64: parabolas integrated over
 /// the halves of the cell. Along r the deviations of the halves are −2(1 − s)d and 2 s d, where s is the lower
-/// half's share of the volume: their weighted mean is zero, and s = ½ is the Cartesian case.
+/// half's share of the volume: their weighted mean is zero, and s = ½ is the Cartesian case. Fields that are odd in
+/// r have d_r and d_zr times the factor of [`crate::Mesh::odd_factor`], without which v_r = a r would not be exact.
 ///
-/// - `row`, `stride`: one component with neighbours `k ± 1`, `k ± stride`; `lower_share`: s.
+/// - `row`, `stride`: one component with neighbours `k ± 1`, `k ± stride`; `radial`: see [`radial_weights`].
 /// - exact for quadratic polynomials in planar geometry; a uniform field has deviations that are exactly zero.
 #[inline(always)]
-pub(crate) fn deviations(row: &[f64], k: usize, stride: usize, lower_share: f64) -> [f64; 4] {
-    let d_z = 0.125 * (row[k + 1] - row[k - 1]);
-    let d_r = 0.125 * (row[k + stride] - row[k - stride]);
-    let d_zr = (row[k + stride + 1] - row[k + stride - 1] - row[k - stride + 1] + row[k - stride - 1]) / 64.0;
-    let (lower, upper) = (-2.0 * (1.0 - lower_share), 2.0 * lower_share);
+pub(crate) fn deviations(row: &[f64], k: usize, stride: usize, radial: [f64; 2]) -> [f64; 4] {
+    let three = |k: usize| [row[k - 1], row[k], row[k + 1]];
+    deviations_among([three(k - stride), three(k), three(k + stride)], radial)
+}
+
+/// What d_r counts in the lower and in the upper half of a cell: −2(1 − s) and 2 s, times the factor of odd fields.
+pub(crate) fn radial_weights(lower_share: f64, factor: f64) -> [f64; 2] {
+    [-2.0 * (1.0 - lower_share) * factor, 2.0 * lower_share * factor]
+}
+
+/// [`deviations`] from a cell and its neighbours, row after row.
+#[inline(always)]
+pub(crate) fn deviations_among([below, middle, above]: [[f64; 3]; 3], [lower, upper]: [f64; 2]) -> [f64; 4] {
+    let d_z = 0.125 * (middle[2] - middle[0]);
+    let d_r = 0.125 * (above[1] - below[1]);
+    let d_zr = (above[2] - above[0] - below[2] + below[0]) / 64.0;
     [
         -d_z + lower * (d_r - d_zr),
         d_z + lower * (d_r + d_zr),

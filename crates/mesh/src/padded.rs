@@ -53,6 +53,13 @@ impl<const N: usize> Padded<N> {
         &mut self.data[component * Self::LEN..(component + 1) * Self::LEN]
     }
 
+    /// The block's cells without ghosts, as in a [`Field`].
+    pub(crate) fn cells(&self) -> Vec<f64> {
+        let rows = (0..self.components).flat_map(|component| (0..N).map(move |j| (component, j)));
+        let row = |(component, j)| &self.component(component)[Self::index(0, j as isize)..][..N];
+        rows.flat_map(row).copied().collect()
+    }
+
     /// All components, each a flat row.
     pub fn split<const C: usize>(&self) -> [&[f64]; C] {
         assert_eq!(C, self.components, "as many rows as components");

@@ -1,9 +1,9 @@
 //! A block and its surroundings, seen on the next coarser level.
 
-use crate::ghosts::{
-    continue_parabola, finer_cell, ghost_range, ghost_span, index, mean, mean_of_cells, mirror,
+use crate::ghosts::{continue_parabola, finer_cell, ghost_range, ghost_span, index, mean, mirror};
+use crate::multiresolution::{
+    MOST_COMPONENTS, Multiresolution, deviations, deviations_among, radial_weights,
 };
-use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations};
 use crate::{BlockId, Field, GHOSTS, Mesh, Neighbour, Offset, Padded, Side};
 
 /// The cells of one block and two layers around it, projected to the level below: N/2 × N/2 cells with ghosts.
@@ -16,6 +16,44 @@ pub struct Patch<const N: usize> {
     data: Vec<f64>,
     /// Lower shares of the volume, by row, ghosts included.
     shares: Vec<f64>,
+    radial: Radial,
+}
+
+/// What differences along r count in prediction, row by row, ghosts included: for even and for odd components.
+#[derive(Clone, Debug)]
+pub(crate) struct Radial {
+    odd: [bool; MOST_COMPONENTS],
+    rows: Vec<[[f64; 2]; 2]>,
+}
+
+impl Radial {
+    pub fn new(rows: usize) -> Self {
+        Self { odd: [false; MOST_COMPONENTS], rows: vec![[radial_weights(0.5, 1.0); 2]; rows] }
+    }
+
+    /// For rows from `first` on, two ghost rows before it included; `fine` is the level of the children.
+    pub fn set<const N: usize>(
+        &mut self,
+        mesh: &Mesh<N>,
+        fine: u8,
+        first: i64,
+        components: usize,
+        rule: &impl Multiresolution,
+    ) {
+        for (component, odd) in self.odd[..components].iter_mut().enumerate() {
+            *odd = rule.parity(Side::RMin, component) == Some(-1.0);
+        }
+        for (row, j) in self.rows.iter_mut().zip(first - GHOSTS as i64..) {
+            let share = mesh.lower_share(fine, j);
+            *row = [radial_weights(share, 1.0), radial_weights(share, mesh.odd_factor(fine, j))];
+        }
+    }
+
+    /// The weights of a component in a row counted from the first ghost row.
+    #[inline(always)]
+    pub fn of(&self, component: usize, row: usize) -> [f64; 2] {
+        self.rows[row][usize::from(self.odd[component])]
+    }
 }
 
 impl<const N: usize> Patch<N> {
@@ -26,7 +64,12 @@ impl<const N: usize> Patch<N> {
     /// All zero.
     pub fn zeros(components: usize) -> Self {
         assert!(components <= MOST_COMPONENTS, "no more than {MOST_COMPONENTS} components");
-        Self { components, data: vec![0.0; components * Self::LEN], shares: vec![0.5; Self::STRIDE] }
+        Self {
+            components,
+            data: vec![0.0; components * Self::LEN],
+            shares: vec![0.5; Self::STRIDE],
+            radial: Radial::new(Self::STRIDE),
+        }
     }
 
     /// Fills the patch of the block in `slot`.
@@ -36,16 +79,19 @@ impl<const N: usize> Patch<N> {
         for (share, j) in self.shares.iter_mut().zip(ghost_range(Self::HALF)) {
             *share = mesh.lower_share(id.level, first + j as i64);
         }
+        self.radial.set(mesh, id.level, first, self.components, rule);
         let neighbours = mesh.tree().neighbours(slot);
         let shares = &self.shares;
         for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
             let own = field.component(slot, component);
             for j in 0..Self::HALF {
-                let share = shares[j + GHOSTS];
                 let to = index(Self::HALF, 0, j as isize);
-                for (i, cell) in row[to..to + Self::HALF].iter_mut().enumerate() {
-                    *cell = mean_of_cells::<N>(own, 2 * i, 2 * j, share);
-                }
+                project_rows(
+                    &own[2 * j * N..][..2 * N],
+                    N,
+                    shares[j + GHOSTS],
+                    &mut row[to..to + Self::HALF],
+                );
             }
             for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
                 let of = |slot: &usize| field.component(*slot, component);
@@ -58,15 +104,7 @@ impl<const N: usize> Patch<N> {
                     Neighbour::Boundary => {}
                 }
             }
-            // r first: the z sides then find the ghosts beyond r filled and complete the corners.
-            for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
-                if neighbours[side as usize] == Neighbour::Boundary {
-                    match rule.parity(side, component) {
-                        Some(parity) => mirror(row, Self::HALF, side, parity),
-                        None => continue_parabola(row, Self::HALF, side),
-                    }
-                }
-            }
+            continue_beyond(row, Self::HALF, component, rule, |side| mesh.touches(slot, side));
         }
     }
 
@@ -81,7 +119,9 @@ impl<const N: usize> Patch<N> {
         let mut cells = [[0.0; MOST_COMPONENTS]; 4];
         for j in span(offset.j) {
             for i in span(offset.i) {
-                self.predict(i, j, Some(rule), &mut cells);
+                let k = index(Self::HALF, i, j);
+                let radial = |component: usize| self.radial.of(component, (j + GHOSTS as isize) as usize);
+                predict(&self.data, Self::LEN, Self::STRIDE, k, radial, rule, &mut cells);
                 for component in 0..self.components {
                     let row = padded.component_mut(component);
                     for (child, cell) in cells.iter().enumerate() {
@@ -93,19 +133,6 @@ impl<const N: usize> Patch<N> {
         }
     }
 
-    /// The predicted children of cell (i, j) of the patch; without a rule without regard to what is admissible.
-    fn predict<R: Multiresolution>(
-        &self,
-        i: isize,
-        j: isize,
-        rule: Option<&R>,
-        cells: &mut [[f64; MOST_COMPONENTS]; 4],
-    ) {
-        let k = index(Self::HALF, i, j);
-        let lower_share = self.shares[(j + GHOSTS as isize) as usize];
-        predict(&self.data, Self::LEN, Self::STRIDE, k, lower_share, rule, cells);
-    }
-
     /// Calls `visit(i, j, significance)` for every cell of the block: the size of its detail.
     ///
     /// - `block`: the block's own cells; the patch must have been filled from it.
@@ -115,20 +142,118 @@ impl<const N: usize> Patch<N> {
         rule: &R,
         mut visit: impl FnMut(usize, usize, f64),
     ) {
-        let mut cells = [[0.0; MOST_COMPONENTS]; 4];
+        // Two rows of cells at a time: component by component first, so that it vectorises.
+        let mut owns = [[[0.0; N]; 2]; MOST_COMPONENTS];
+        let mut details = owns;
         for j in 0..Self::HALF {
-            for i in 0..Self::HALF {
-                self.predict::<R>(i as isize, j as isize, None, &mut cells);
-                for (child, predicted) in cells.iter().enumerate() {
-                    let (fine_i, fine_j) = (2 * i + child % 2, 2 * j + child / 2);
+            let rows = owns.iter_mut().zip(&mut details).zip(self.data.chunks_exact(Self::LEN));
+            for (component, ((own, details), row)) in rows.enumerate() {
+                let from = &block[(component * N + 2 * j) * N..][..2 * N];
+                own[0].copy_from_slice(&from[..N]);
+                own[1].copy_from_slice(&from[N..]);
+                let radial = self.radial.of(component, j + GHOSTS);
+                Self::details_of_rows(row, j, radial, own, details);
+            }
+            for b in 0..2 {
+                for i in 0..N {
                     let (mut own, mut detail) = ([0.0; MOST_COMPONENTS], [0.0; MOST_COMPONENTS]);
-                    for component in 0..self.components {
-                        own[component] = block[(component * N + fine_j) * N + fine_i];
-                        detail[component] = own[component] - predicted[component];
+                    for component in 0..self.components.min(MOST_COMPONENTS) {
+                        own[component] = owns[component][b][i];
+                        detail[component] = details[component][b][i];
                     }
                     let size = rule.significance(&own[..self.components], &detail[..self.components]);
-                    visit(fine_i, fine_j, size);
+                    visit(i, 2 * j + b, size);
                 }
+            }
+        }
+    }
+
+    /// The details of one component in the cells of row `j` of the patch: what they are minus what is predicted.
+    #[inline(always)]
+    fn details_of_rows(
+        row: &[f64],
+        j: usize,
+        radial: [f64; 2],
+        own: &[[f64; N]; 2],
+        details: &mut [[f64; N]; 2],
+    ) {
+        let from = |j: isize| &row[index(Self::HALF, -1, j)..][..Self::HALF + 2];
+        let (below, middle, above) = (from(j as isize - 1), from(j as isize), from(j as isize + 1));
+        for i in 0..Self::HALF {
+            let three = |row: &[f64]| [row[i], row[i + 1], row[i + 2]];
+            let deviations = deviations_among([three(below), three(middle), three(above)], radial);
+            for (child, deviation) in deviations.iter().enumerate() {
+                let (a, b) = (2 * i + child % 2, child / 2);
+                details[b][a] = own[b][a] - (middle[i + 1] + deviation);
+            }
+        }
+    }
+
+    /// Fills the patch of the block that four siblings would make, the leaves from slot `first` on, as far as
+    /// [`Patch::details`] needs it, and sets `around` to that block and its surroundings.
+    ///
+    /// - `child`: scratch.
+    pub(crate) fn fill_parent(
+        &mut self,
+        mesh: &Mesh<N>,
+        field: &Field,
+        first: usize,
+        rule: &impl Multiresolution,
+        child: &mut Self,
+        around: &mut Padded<N>,
+    ) {
+        let half = Self::HALF as isize;
+        for number in 0..4 {
+            child.fill(mesh, field, first + number, rule);
+            let (first_i, first_j) = (number as isize % 2 * half, number as isize / 2 * half);
+            for (component, row) in child.data.chunks_exact(Self::LEN).enumerate() {
+                let to = around.component_mut(component);
+                for (j, row) in ghost_range(Self::HALF).zip(row.chunks_exact(Self::STRIDE)) {
+                    let at = Padded::<N>::index(first_i - GHOSTS as isize, first_j + j);
+                    to[at..at + Self::STRIDE].copy_from_slice(row);
+                }
+            }
+        }
+        let id = mesh.tree().leaves()[first];
+        let first_row = i64::from(id.j / 2) * Self::HALF as i64;
+        for (share, j) in self.shares.iter_mut().zip(ghost_range(Self::HALF)) {
+            *share = mesh.lower_share(id.level - 1, first_row + j as i64);
+        }
+        self.radial.set(mesh, id.level - 1, first_row, self.components, rule);
+        for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
+            for j in -1..half + 1 {
+                let from = &around.component(component)[Padded::<N>::index(-2, 2 * j)..];
+                let to = index(Self::HALF, -1, j);
+                let share = self.shares[(j + GHOSTS as isize) as usize];
+                project_rows(from, Padded::<N>::STRIDE, share, &mut row[to..to + Self::HALF + 2]);
+            }
+            let is_boundary = |side: Side| {
+                let last = match side {
+                    Side::ZMin | Side::RMin => first,
+                    Side::ZMax => first + 1,
+                    Side::RMax => first + 2,
+                };
+                mesh.touches(last, side)
+            };
+            continue_beyond(row, Self::HALF, component, rule, is_boundary);
+        }
+    }
+}
+
+/// Fills the ghosts of one component beyond the domain in the way that prediction needs: linear in the values.
+pub(crate) fn continue_beyond(
+    row: &mut [f64],
+    n: usize,
+    component: usize,
+    rule: &impl Multiresolution,
+    is_boundary: impl Fn(Side) -> bool,
+) {
+    // r first: the z sides then find the ghosts beyond r filled and complete the corners.
+    for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+        if is_boundary(side) {
+            match rule.parity(side, component) {
+                Some(parity) => mirror(row, n, side, parity),
+                None => continue_parabola(row, n, side),
             }
         }
     }
@@ -140,20 +265,20 @@ pub(crate) fn predict<R: Multiresolution>(
     len: usize,
     stride: usize,
     k: usize,
-    lower_share: f64,
-    rule: Option<&R>,
+    radial: impl Fn(usize) -> [f64; 2],
+    rule: &R,
     cells: &mut [[f64; MOST_COMPONENTS]; 4],
 ) {
     let components = rows.len() / len;
     let mut means = [0.0; MOST_COMPONENTS];
     for (component, row) in rows.chunks_exact(len).enumerate() {
         means[component] = row[k];
-        let deviations = deviations(row, k, stride, lower_share);
+        let deviations = deviations(row, k, stride, radial(component));
         for (cell, deviation) in cells.iter_mut().zip(deviations) {
             cell[component] = deviation;
         }
     }
-    let share = rule.map_or(1.0, |rule| rule.share(&means[..components], cells));
+    let share = rule.share(&means[..components], cells);
     for cell in cells {
         for (value, mean) in cell.iter_mut().zip(means) {
             *value = mean + share * *value;
@@ -161,16 +286,26 @@ pub(crate) fn predict<R: Multiresolution>(
     }
 }
 
+/// Means of 2 × 2 cells along two rows, the second `stride` after the first.
+#[inline(always)]
+fn project_rows(cells: &[f64], stride: usize, lower_share: f64, means: &mut [f64]) {
+    let (lower, upper) = (&cells[..2 * means.len()], &cells[stride..][..2 * means.len()]);
+    for ((value, low), high) in means.iter_mut().zip(lower.chunks_exact(2)).zip(upper.chunks_exact(2)) {
+        *value = mean([[low[0], low[1]], [high[0], high[1]]], lower_share);
+    }
+}
+
 /// Ghosts of a patch from a block of the same level as the block itself.
 fn project_same<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset, shares: &[f64]) {
     let (half, n) = (N / 2, N as isize);
+    let span_i = ghost_span(half, offset.i);
+    let local_i = (2 * span_i.start - isize::from(offset.i) * n) as usize;
     for j in ghost_span(half, offset.j) {
         let share = shares[(j + GHOSTS as isize) as usize];
         let local_j = (2 * j - isize::from(offset.j) * n) as usize;
-        for i in ghost_span(half, offset.i) {
-            let local_i = (2 * i - isize::from(offset.i) * n) as usize;
-            row[index(half, i, j)] = mean_of_cells::<N>(owner, local_i, local_j, share);
-        }
+        let to = index(half, span_i.start, j);
+        let from = &owner[local_j * N + local_i..][..N + 2 * span_i.len()];
+        project_rows(from, N, share, &mut row[to..to + span_i.len()]);
     }
 }
 

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::ghosts::{continue_parabola, mean_of_cells};
+use crate::ghosts::mean_of_cells;
 use crate::marks::wanted_levels;
 use crate::multiresolution::{MOST_COMPONENTS, Multiresolution};
-use crate::patch::predict;
-use crate::{Adaptation, BlockId, Field, GHOSTS, Mesh, Neighbour, Padded, Patch, ScratchPool, Side};
+use crate::patch::{Radial, continue_beyond, predict};
+use crate::{Adaptation, BlockId, Field, GHOSTS, Mesh, Padded, Patch, ScratchPool};
 
 /// Where the values of a new block come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,7 +103,10 @@ impl<const N: usize> Adapted<N> {
                 Origin::ParentOf(first) => project(old_mesh, field, first, block),
                 Origin::ChildOf(slot, child) => padded.with(|padded| {
                     scratch.with(|patch| padded.assemble(old_mesh, field, slot, rule, patch));
-                    continue_beyond(old_mesh, slot, rule, padded);
+                    for component in 0..components {
+                        let is_boundary = |side| old_mesh.touches(slot, side);
+                        continue_beyond(padded.component_mut(component), N, component, rule, is_boundary);
+                    }
                     predict_child(old_mesh, slot, child, rule, padded, block);
                 }),
             },
@@ -127,27 +130,6 @@ fn project<const N: usize>(mesh: &Mesh<N>, field: &Field, first: usize, block: &
     }
 }
 
-/// Fills the ghosts beyond the domain in the way that prediction needs: linear in the values.
-fn continue_beyond<const N: usize>(
-    mesh: &Mesh<N>,
-    slot: usize,
-    rule: &impl Multiresolution,
-    padded: &mut Padded<N>,
-) {
-    for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
-        if mesh.tree().neighbours(slot)[side as usize] != Neighbour::Boundary {
-            continue;
-        }
-        for component in 0..padded.components() {
-            let row = padded.component_mut(component);
-            match rule.parity(side, component) {
-                Some(parity) => Padded::<N>::reflect(row, side, parity),
-                None => continue_parabola(row, N, side),
-            }
-        }
-    }
-}
-
 /// One child of an assembled block.
 fn predict_child<const N: usize>(
     mesh: &Mesh<N>,
@@ -161,13 +143,15 @@ fn predict_child<const N: usize>(
     let half = N / 2;
     let (first_i, first_j) = ((child % 2) * half, (child / 2) * half);
     let mut cells = [[0.0; MOST_COMPONENTS]; 4];
+    let mut radial = Radial::new(N + 2 * GHOSTS);
+    radial.set(mesh, id.level + 1, i64::from(id.j) * N as i64, padded.components(), rule);
     for j in 0..half {
         let row = first_j + j;
-        let share = mesh.lower_share(id.level + 1, i64::from(id.j) * N as i64 + row as i64);
+        let at = |component: usize| radial.of(component, row + GHOSTS);
         for i in 0..half {
             let k = Padded::<N>::index((first_i + i) as isize, row as isize);
             let (len, stride) = (Padded::<N>::LEN, N + 2 * GHOSTS);
-            predict(padded.as_slice(), len, stride, k, share, Some(rule), &mut cells);
+            predict(padded.as_slice(), len, stride, k, at, rule, &mut cells);
             for component in 0..padded.components() {
                 for (number, cell) in cells.iter().enumerate() {
                     let (a, b) = (number % 2, number / 2);

@@ -23,6 +23,10 @@ impl Multiresolution for Analysis {
         }
     }
 
+    fn counts_beside(&self, side: Side) -> bool {
+        self.boundaries[side as usize] != Boundary::NonReflecting
+    }
+
     /// All states are admissible.
     fn share(&self, _: &[f64], _: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
         1.0
