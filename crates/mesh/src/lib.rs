@@ -14,6 +14,7 @@
 #![forbid(unsafe_code)]
 
 mod adaptation;
+mod aligned;
 mod domain;
 mod field;
 mod geometry;
@@ -24,6 +25,7 @@ mod quadtree;
 mod reduce;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
+pub use aligned::{AlignedRow, whole_lines};
 pub use domain::{Domain, Mesh, MeshError};
 pub use field::Field;
 pub use geometry::{Geometry, Side};
