@@ -12,10 +12,12 @@ mod error;
 mod material;
 mod options;
 mod participant;
+mod predictor;
 pub mod riemann;
 mod rows;
 mod solver;
 mod state;
+mod update;
 mod yield_criterion;
 
 pub use boundary::SurfaceState;
