@@ -1,6 +1,7 @@
 //! What a step costs: ns per cell and step of both solvers, beside a calibration kernel timed in the same run.
 //!
 //! `cargo bench --bench step` prints Markdown tables; `docs/performance.md` says how to read them. No limit is checked.
+//! Words after `--` choose the rows: `cargo bench --bench step -- exact 512` times those that hold both.
 
 #![allow(clippy::print_stdout, reason = "the tables are what the program is for")]
 
@@ -8,8 +9,8 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use fluid::{
-    FluidError, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Region, RiemannSolver, Shape,
-    StiffenedGas,
+    FluidError, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Primitive, Region,
+    RiemannSolver, Shape, StiffenedGas,
 };
 use mesh::{Domain, Geometry, Limiter};
 use solid::{ElasticState, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
@@ -34,10 +35,31 @@ fn main() -> Result<(), Failure> {
     );
     println!("|---|---|---|---|---|---|");
     pool(1)?.install(all_solvers)?;
+    println!("\n## Exact Riemann solver against HLLC, 512 x 512 cells, one thread\n");
+    println!("| flow | block | hllc, ns per cell and step | exact | exact : hllc |");
+    println!("|---|---|---|---|---|");
+    for flow in [Flow::Smooth, Flow::Bubble, Flow::Jumps] {
+        let name = format!("exact against hllc, {}, 512", flow.name());
+        for (block, measure) in [(8, measure::<8> as Measure), (16, measure::<16>), (32, measure::<32>)] {
+            if !wanted(&format!("{name} {block}")) {
+                continue;
+            }
+            let cost =
+                |riemann| pool(1)?.install(|| measure(Solver::Fluid(riemann, Limiter::Minmod, flow), 512));
+            let (hllc, exact) = (cost(RiemannSolver::Hllc)?, cost(RiemannSolver::Exact)?);
+            let (a, b, ratio) = (hllc.nanoseconds, exact.nanoseconds, exact.ratio / hllc.ratio);
+            println!("| {} | {block} | {a:.1} | {b:.1} | {ratio:.2} |", flow.name());
+        }
+    }
     println!("\n## Two threads against one, 512 x 512 cells in blocks of 16\n");
     println!("| solver | one thread, ns per cell and step | two threads | speed-up |");
     println!("|---|---|---|---|");
-    for solver in [fluid_hllc(Limiter::Minmod), solid_with(Limiter::Minmod)] {
+    for solver in
+        [fluid_with(RiemannSolver::Hllc), fluid_with(RiemannSolver::Exact), solid_with(Limiter::Minmod)]
+    {
+        if !wanted(&format!("two threads {}", solver.name())) {
+            continue;
+        }
         let cost =
             |threads| -> Result<Cost, Failure> { pool(threads)?.install(|| measure::<16>(solver, 512)) };
         let (one, two) = (cost(1)?.nanoseconds, cost(2)?.nanoseconds);
@@ -46,15 +68,41 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
+/// Whether a row is asked for: it holds all the words of the command line.
+fn wanted(row: &str) -> bool {
+    std::env::args().skip(1).filter(|word| !word.starts_with('-')).all(|word| row.contains(&word))
+}
+
 /// What is timed.
 #[derive(Clone, Copy)]
 enum Solver {
-    Fluid(RiemannSolver, Limiter),
+    Fluid(RiemannSolver, Limiter, Flow),
     Solid(Limiter),
 }
 
-const fn fluid_hllc(limiter: Limiter) -> Solver {
-    Solver::Fluid(RiemannSolver::Hllc, limiter)
+/// What the fluid does.
+#[derive(Clone, Copy, PartialEq)]
+enum Flow {
+    /// Weak sound in the liquid: no two cells are alike, no jump is strong.
+    Smooth,
+    /// The collapse of a bubble near a wall.
+    Bubble,
+    /// Patches of four by four cells of gas or liquid whose pressures differ up to a thousandfold.
+    Jumps,
+}
+
+impl Flow {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Smooth => "smooth",
+            Self::Bubble => "bubble",
+            Self::Jumps => "strong jumps",
+        }
+    }
+}
+
+const fn fluid_with(riemann: RiemannSolver) -> Solver {
+    Solver::Fluid(riemann, Limiter::Minmod, Flow::Bubble)
 }
 
 const fn solid_with(limiter: Limiter) -> Solver {
@@ -70,8 +118,8 @@ impl Solver {
             Limiter::None => "none",
         };
         match self {
-            Self::Fluid(RiemannSolver::Hllc, l) => format!("fluid, hllc, {}", limiter(l)),
-            Self::Fluid(RiemannSolver::Exact, l) => format!("fluid, exact, {}", limiter(l)),
+            Self::Fluid(RiemannSolver::Hllc, l, _) => format!("fluid, hllc, {}", limiter(l)),
+            Self::Fluid(RiemannSolver::Exact, l, _) => format!("fluid, exact, {}", limiter(l)),
             Self::Solid(l) => format!("solid, {}", limiter(l)),
         }
     }
@@ -79,29 +127,23 @@ impl Solver {
 
 fn all_solvers() -> Result<(), Failure> {
     for solver in [
-        fluid_hllc(Limiter::Minmod),
-        fluid_hllc(Limiter::Mc),
-        Solver::Fluid(RiemannSolver::Exact, Limiter::Minmod),
+        fluid_with(RiemannSolver::Hllc),
+        Solver::Fluid(RiemannSolver::Hllc, Limiter::Mc, Flow::Bubble),
+        fluid_with(RiemannSolver::Exact),
         solid_with(Limiter::Minmod),
         solid_with(Limiter::Mc),
     ] {
         for cells in [256, 512] {
-            print_row(solver, cells, 8, &measure::<8>(solver, cells)?);
-            print_row(solver, cells, 16, &measure::<16>(solver, cells)?);
-            print_row(solver, cells, 32, &measure::<32>(solver, cells)?);
+            for (block, measure) in [(8, measure::<8> as Measure), (16, measure::<16>), (32, measure::<32>)] {
+                let row = format!("{} | {cells} x {cells} | {block}", solver.name());
+                if wanted(&format!("one thread {row}")) {
+                    let Cost { nanoseconds, calibration, ratio } = measure(solver, cells)?;
+                    println!("| {row} | {nanoseconds:.1} | {calibration:.1} | {ratio:.2} |");
+                }
+            }
         }
     }
     Ok(())
-}
-
-fn print_row(solver: Solver, cells: usize, block: usize, cost: &Cost) {
-    println!(
-        "| {} | {cells} x {cells} | {block} | {:.1} | {:.1} | {:.2} |",
-        solver.name(),
-        cost.nanoseconds,
-        cost.calibration,
-        cost.ratio,
-    );
 }
 
 /// Medians over the samples.
@@ -114,18 +156,28 @@ struct Cost {
     ratio: f64,
 }
 
+/// [`measure`] for one size of blocks.
+type Measure = fn(Solver, usize) -> Result<Cost, Failure>;
+
 fn measure<const N: usize>(solver: Solver, cells: usize) -> Result<Cost, Failure> {
     match solver {
-        Solver::Fluid(riemann, limiter) => {
-            let mut fluid = fluid_near_a_wall::<N>(cells, riemann, limiter)?;
-            sample(cells * cells, || {
+        Solver::Fluid(riemann, limiter, flow) => {
+            let make = || match flow {
+                Flow::Bubble => fluid_near_a_wall::<N>(cells, riemann, limiter),
+                Flow::Smooth => fluid_from::<N>(cells, riemann, limiter, sound),
+                Flow::Jumps => fluid_from::<N>(cells, riemann, limiter, move |at| patches(at, cells)),
+            };
+            let mut fluid = make()?;
+            let restart = (flow == Flow::Jumps).then_some(make);
+            sample(cells * cells, &mut fluid, restart, |fluid| {
                 let dt = fluid.time_step_limit(CFL);
                 Ok(fluid.step(dt)?)
             })
         }
         Solver::Solid(limiter) => {
             let mut solid = solid_with_a_pulse::<N>(cells, limiter)?;
-            sample(cells * cells, || {
+            let restart: Option<fn() -> Result<_, SolidError>> = None;
+            sample(cells * cells, &mut solid, restart, |solid| {
                 let dt = solid.time_step_limit(CFL);
                 Ok(solid.step(dt)?)
             })
@@ -133,22 +185,34 @@ fn measure<const N: usize>(solver: Solver, cells: usize) -> Result<Cost, Failure
     }
 }
 
-/// Times `step`, and the calibration kernel before each sample.
-fn sample(cells: usize, mut step: impl FnMut() -> Result<(), Failure>) -> Result<Cost, Failure> {
+/// Times `step`, and the calibration kernel before each sample. A flow that does not stay what it is begins
+/// anew by `restart` for each sample.
+fn sample<S, E: std::error::Error + Send + Sync + 'static>(
+    cells: usize,
+    solver: &mut S,
+    restart: Option<impl Fn() -> Result<S, E>>,
+    mut step: impl FnMut(&mut S) -> Result<(), Failure>,
+) -> Result<Cost, Failure> {
     let start = Instant::now();
     for _ in 0..WARM_UP {
-        step()?;
+        step(solver)?;
     }
     let one = start.elapsed().as_secs_f64() / WARM_UP as f64;
-    let steps = ((SAMPLE_SECONDS / one).ceil() as usize).max(3);
+    let enough = ((SAMPLE_SECONDS / one).ceil() as usize).max(3);
+    let steps = if restart.is_some() { WARM_UP } else { enough };
     let mut calibration = Calibration::new();
     calibration.nanoseconds_per_face();
     let mut samples = [[0.0; 3]; SAMPLES];
     for [own, kernel, ratio] in &mut samples {
+        if let Some(make) = &restart {
+            *solver = make()?;
+            // The first step also brings the new fields into the cache.
+            step(solver)?;
+        }
         *kernel = calibration.nanoseconds_per_face();
         let start = Instant::now();
         for _ in 0..steps {
-            step()?;
+            step(solver)?;
         }
         *own = start.elapsed().as_secs_f64() * 1e9 / (steps * cells) as f64;
         *ratio = *own / *kernel;
@@ -177,7 +241,17 @@ fn fluid_near_a_wall<const N: usize>(
         }],
         pulses: vec![],
     };
-    let setup = FluidSetup {
+    let setup = fluid_setup(cells, riemann, limiter, [Wall, NonReflecting, Axis, NonReflecting]);
+    FluidSolver::new(&setup, &initial)
+}
+
+fn fluid_setup(
+    cells: usize,
+    riemann: RiemannSolver,
+    limiter: Limiter,
+    boundaries: [fluid::Boundary; 4],
+) -> FluidSetup {
+    FluidSetup {
         domain: Domain { geometry: Geometry::Axisymmetric, z: [0.01, 0.06], r: [0.0, 0.05] },
         coarsest: [cells, cells],
         levels: 0,
@@ -186,12 +260,50 @@ fn fluid_near_a_wall<const N: usize>(
         model: fluid::Model::SaurelAbgrall,
         riemann,
         limiter,
-        boundaries: [Wall, NonReflecting, Axis, NonReflecting],
+        boundaries,
         inflow: None,
         adaptation: None,
         scales: fluid::Scales { pressure: 1e6, density: 1e3 },
+    }
+}
+
+/// The same fluids between walls in any state.
+fn fluid_from<const N: usize>(
+    cells: usize,
+    riemann: RiemannSolver,
+    limiter: Limiter,
+    state: impl Fn([f64; 2]) -> Primitive + Sync,
+) -> Result<FluidSolver<N>, FluidError> {
+    use fluid::Boundary::{Axis, Wall};
+    FluidSolver::from_fn(&fluid_setup(cells, riemann, limiter, [Wall, Wall, Axis, Wall]), state)
+}
+
+/// Standing sound of some ten wave lengths in the liquid.
+fn sound([z, r]: [f64; 2]) -> Primitive {
+    let pressure = 5e7 + 1e6 * (1300.0 * z).sin() * (1100.0 * r).cos();
+    Primitive { density: 1000.0, v_z: 0.0, v_r: 0.0, pressure, phi: 0.0 }
+}
+
+/// Patches of gas or liquid of four by four cells with pressures between 0.1 and 100 MPa, in motion at random.
+fn patches([z, r]: [f64; 2], cells: usize) -> Primitive {
+    let patch = |x: f64| (x / 0.05 * cells as f64 / 4.0) as u64;
+    let mut bits = patch(z - 0.01) << 32 | patch(r);
+    let mut random = || {
+        // SplitMix64 (Steele, Lea & Flood 2014).
+        bits = bits.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut x = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     };
-    FluidSolver::new(&setup, &initial)
+    let gas = random() < 0.3;
+    let pressure = 1e5 * 1000_f64.powf(random());
+    Primitive {
+        density: if gas { 1.2 * (pressure / 1e5).powf(1.0 / 1.4) } else { 1000.0 },
+        v_z: 100.0 * (random() - 0.5),
+        v_r: 100.0 * (random() - 0.5),
+        pressure,
+        phi: if gas { 1.0 } else { 0.0 },
+    }
 }
 
 /// Steel with a smooth axial stress at rest, free above.

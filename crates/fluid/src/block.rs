@@ -1,9 +1,11 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
-use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
+use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
 
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
+use crate::exact_rows::exact_faces;
+use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
 use crate::rows::{self, FaceRows, Reconstruction};
 use crate::state::conserved::COUNT;
@@ -35,7 +37,7 @@ pub(crate) struct BlockScratch<const N: usize> {
     pub s_z: Padded<N>,
     pub s_r: Padded<N>,
     pub half: Padded<N>,
-    pub keep: Vec<f64>,
+    pub keep: AlignedRow,
     pub inverse_r: Vec<f64>,
     z_faces: FaceRows,
     r_faces: FaceRows,
@@ -53,10 +55,10 @@ impl<const N: usize> BlockScratch<N> {
             s_z: Padded::zeros(COUNT),
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
-            keep: vec![0.0; len],
+            keep: AlignedRow::zeros(len, Padded::<N>::STRIDE),
             inverse_r: vec![0.0; len],
-            z_faces: FaceRows::zeros(len),
-            r_faces: FaceRows::zeros(len),
+            z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
+            r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
             speeds: Padded::zeros(3),
             face_weight: vec![0.0; N + 1],
             inverse_weight: vec![0.0; N],
@@ -92,17 +94,25 @@ impl<const N: usize> Default for BlockReport<N> {
     }
 }
 
+/// Assembles a block with its ghosts: primitive variables in `cells`.
+fn assemble<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+    let BlockScratch { cells, patch, inverse_r, .. } = scratch;
+    cells.assemble(ctx.mesh, ctx.old, slot, ctx.analysis, patch);
+    rows::to_primitive(cells.split_mut(), ctx.mixture);
+    ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    let id = ctx.mesh.tree().leaves()[slot];
+    ctx.mesh.inverse_radii(id, inverse_r);
+}
+
 /// Assembles a block with its ghosts and reconstructs it: primitive variables in `cells`, limited
-/// differences in `s_z`, `s_r`.
+/// differences in `s_z`, `s_r`. A step makes the differences together with the state at mid-step instead.
 pub(crate) fn reconstruct<const N: usize>(
     ctx: &StepContext<'_, N>,
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
-    let BlockScratch { cells, patch, s_z, s_r, inverse_r, .. } = scratch;
-    cells.assemble(ctx.mesh, ctx.old, slot, ctx.analysis, patch);
-    rows::to_primitive(cells.split_mut(), ctx.mixture);
-    ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    assemble(ctx, slot, scratch);
+    let BlockScratch { cells, s_z, s_r, .. } = scratch;
     for component in 0..COUNT {
         limited_differences(
             ctx.limiter,
@@ -112,8 +122,6 @@ pub(crate) fn reconstruct<const N: usize>(
             s_r.component_mut(component),
         );
     }
-    let id = ctx.mesh.tree().leaves()[slot];
-    ctx.mesh.inverse_radii(id, inverse_r);
 }
 
 /// Advances one block by one step from `ctx.old` into `new`; `fluxes` is its part of the flux register.
@@ -129,16 +137,20 @@ pub(crate) fn step_block<const N: usize>(
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let inverse_h = [1.0 / h_z, 1.0 / h_r];
 
-    reconstruct(ctx, slot, scratch);
-    rows::predict(
-        scratch.cells.split(),
-        scratch.s_z.split(),
-        scratch.s_r.split(),
-        &scratch.inverse_r,
-        inverse_h,
-        0.5 * ctx.dt,
+    assemble(ctx, slot, scratch);
+    let predictor = Predictor {
+        limiter: ctx.limiter,
         stride,
+        inverse_h,
+        inverse_r: &scratch.inverse_r,
+        half_dt: 0.5 * ctx.dt,
+    };
+    predict(
+        scratch.cells.split(),
+        predictor,
         ctx.mixture,
+        scratch.s_z.split_mut(),
+        scratch.s_r.split_mut(),
         scratch.half.split_mut(),
         &mut scratch.keep,
     );
@@ -188,7 +200,6 @@ pub(crate) fn step_block<const N: usize>(
         *inverse = 1.0 / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
     }
     let metric = Metric {
-        n: N,
         stride,
         origin: Padded::<N>::index(0, 0),
         inverse_h,
@@ -197,7 +208,7 @@ pub(crate) fn step_block<const N: usize>(
     };
     let old = ctx.old.block(slot);
     let [speed_z, speed_r, floor] = scratch.speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
-    let extremes = update(
+    let extremes = update::<N>(
         std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
         &scratch.z_faces,
         &scratch.r_faces,
@@ -242,13 +253,10 @@ fn faces<const N: usize>(
     faces: &mut FaceRows,
 ) {
     match ctx.riemann {
-        RiemannSolver::Hllc => rows::hllc_faces(cells, step, range, ctx.mixture, faces),
+        RiemannSolver::Hllc => rows::hllc_faces(cells, step, Padded::<N>::STRIDE, range, ctx.mixture, faces),
         RiemannSolver::Exact => {
-            // Only the faces that are used: what lies between the rows of a block may be no state at all.
-            for k in range.filter(|k| used_face::<N>(*k, step)) {
-                let (left, right) = (cells.face_state(k, 1.0), cells.face_state(k + step, -1.0));
-                faces.set(k, crate::godunov::flux_exact(left, right, ctx.mixture));
-            }
+            let stride = Padded::<N>::STRIDE;
+            exact_faces(cells, step, stride, range, used_face::<N>, ctx.mixture, faces);
         }
     }
 }

@@ -398,4 +398,4 @@ fn sample_left(side: &Side, star: &Star, u_star: f64, rho_star: f64, offset: f64
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

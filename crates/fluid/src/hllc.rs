@@ -35,12 +35,15 @@ pub struct Face {
 pub fn flux_hllc(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
     let [rho_l, u_l, v_l, p_l, phi_l] = left;
     let [rho_r, u_r, v_r, p_r, phi_r] = right;
-    let sound = |rho: f64, p: f64, phi: f64| {
+    // c² = ((1 + β₁) p + β₂)/(β₁ρ): one division serves both sides, and two square roots wait for it.
+    let law = |rho: f64, p: f64, phi: f64| {
         let beta1 = mixture.beta1(phi);
-        let squared = ((1.0 + beta1) * p + mixture.beta2(phi)) / (beta1 * rho);
-        (if squared > 0.0 { squared } else { 0.0 }).sqrt()
+        ((1.0 + beta1) * p + mixture.beta2(phi), beta1 * rho)
     };
-    let (c_l, c_r) = (sound(rho_l, p_l, phi_l), sound(rho_r, p_r, phi_r));
+    let ((over_l, under_l), (over_r, under_r)) = (law(rho_l, p_l, phi_l), law(rho_r, p_r, phi_r));
+    let inverse = 1.0 / (under_l * under_r);
+    let root = |squared: f64| (if squared > 0.0 { squared } else { 0.0 }).sqrt();
+    let (c_l, c_r) = (root((over_l * under_r) * inverse), root((over_r * under_l) * inverse));
     let s_l = smaller(u_l - c_l, u_r - c_r);
     let s_r = larger(u_l + c_l, u_r + c_r);
     // Mass swept by the outer waves: m_l < 0 < m_r.

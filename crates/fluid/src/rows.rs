@@ -4,12 +4,21 @@
 //! vectorises it; each is compiled for several instruction sets and the best one is chosen at run time.
 //! Rust never contracts a·b + c, so the results do not depend on that choice.
 
+use mesh::{AlignedRow, whole_lines};
+
 use crate::Mixture;
 use crate::hllc::{Face, flux_hllc};
 use crate::state::primitive;
 
 /// Slices of the five primitive variables ρ, v_z, v_r, p, φ.
 pub(crate) type Rows<'a> = [&'a [f64]; 5];
+
+/// `n` numbers of each row from `at` on.
+#[inline(always)]
+pub(crate) fn cut<'a>(rows: &Rows<'a>, at: usize, n: usize) -> Rows<'a> {
+    let [a, b, c, d, e] = rows;
+    [&a[at..][..n], &b[at..][..n], &c[at..][..n], &d[at..][..n], &e[at..][..n]]
+}
 
 /// Time derivatives of the primitive variables.
 ///
@@ -25,17 +34,55 @@ pub(crate) fn rates(
     inverse_r: f64,
     mixture: &Mixture,
 ) -> [f64; 5] {
-    let [rho, v_z, v_r, p, phi] = w;
+    rates_of(w, d_z, d_r, inverse_r, 1.0 / w[0], mixture.stiffness(w[3], w[4]))
+}
+
+/// [`rates`] with 1/ρ and ρc² at hand.
+#[inline(always)]
+fn rates_of(
+    w: [f64; 5],
+    d_z: [f64; 5],
+    d_r: [f64; 5],
+    inverse_r: f64,
+    inverse_rho: f64,
+    stiffness: f64,
+) -> [f64; 5] {
+    let [rho, v_z, v_r, ..] = w;
     let divergence = d_z[1] + d_r[2] + v_r * inverse_r;
     let advected = |k: usize| v_z * d_z[k] + v_r * d_r[k];
-    let inverse_rho = 1.0 / rho;
     [
         -(advected(0) + rho * divergence),
         -(advected(1) + d_z[3] * inverse_rho),
         -(advected(2) + d_r[3] * inverse_rho),
-        -(advected(3) + mixture.stiffness(p, phi) * divergence),
+        -(advected(3) + stiffness * divergence),
         -advected(4),
     ]
+}
+
+/// What the predictor takes from a cell's equation of state. One division makes all three: it is what the time goes
+/// into.
+#[derive(Clone, Copy)]
+struct CellLaw {
+    inverse_rho: f64,
+    /// ρc², see [`Mixture::stiffness`].
+    stiffness: f64,
+    /// p + π.
+    excess: f64,
+}
+
+impl CellLaw {
+    #[inline(always)]
+    fn at(rho: f64, p: f64, phi: f64, mixture: &Mixture) -> Self {
+        let (b1, b2) = (mixture.beta1(phi), mixture.beta2(phi));
+        let above = 1.0 + b1;
+        let inverse = 1.0 / (rho * (b1 * above));
+        let per_law = inverse * rho;
+        Self {
+            inverse_rho: inverse * (b1 * above),
+            stiffness: (above * p + b2) * (above * per_law),
+            excess: p + b2 * (b1 * per_law),
+        }
+    }
 }
 
 /// Whether the four face states of a cell, `half` ± half the differences, are fit for Riemann problems:
@@ -48,22 +95,81 @@ pub(crate) fn rates(
 ///
 /// `ratio` is Δt/h along the narrower width.
 #[inline(always)]
-fn admissible(w: [f64; 5], half: [f64; 5], reach: [f64; 5], ratio: f64, mixture: &Mixture) -> bool {
-    let stiffness_pressure = |phi: f64| mixture.beta2(phi) / (1.0 + mixture.beta1(phi));
-    let phi_face = half[4] + reach[4];
+fn admissible(
+    w: [f64; 5],
+    law: CellLaw,
+    half: [f64; 5],
+    reach: [f64; 5],
+    ratio: f64,
+    mixture: &Mixture,
+) -> bool {
     let lowest_density = half[0] - reach[0];
-    let lowest_pressure = half[3] - reach[3];
-    let excess = lowest_pressure + stiffness_pressure(phi_face);
-    let carried = ratio * mixture.stiffness(w[3], w[4]);
-    let impedance_squared = lowest_density * mixture.stiffness(lowest_pressure, phi_face);
+    let face = CellLaw::at(1.0, half[3] - reach[3], half[4] + reach[4], mixture);
+    let carried = ratio * law.stiffness;
+    let impedance_squared = lowest_density * face.stiffness;
     (lowest_density > 1e-3 * w[0])
-        & (excess > 1e-3 * (w[3] + stiffness_pressure(w[4])))
+        & (face.excess > 1e-3 * law.excess)
         & (impedance_squared > carried * carried)
 }
 
 #[inline(always)]
 fn scaled([a, b, c, d, e]: [f64; 5], factor: f64) -> [f64; 5] {
     [a * factor, b * factor, c * factor, d * factor, e * factor]
+}
+
+/// The predictor of one cell, ready to move by all of a half step or a share of it.
+struct Prediction<'a> {
+    w: [f64; 5],
+    law: CellLaw,
+    /// ∂w/∂t times half the time step.
+    change: [f64; 5],
+    /// Half the larger difference of ρ, p and φ.
+    reach: [f64; 5],
+    /// Δt/h along the narrower width.
+    ratio: f64,
+    mixture: &'a Mixture,
+}
+
+impl<'a> Prediction<'a> {
+    #[inline(always)]
+    fn new(
+        w: [f64; 5],
+        s_z: [f64; 5],
+        s_r: [f64; 5],
+        inverse_h: [f64; 2],
+        inverse_r: f64,
+        half_dt: f64,
+        mixture: &'a Mixture,
+    ) -> Self {
+        let law = CellLaw::at(w[0], w[3], w[4], mixture);
+        let (d_z, d_r) = (scaled(s_z, inverse_h[0]), scaled(s_r, inverse_h[1]));
+        let rate = rates_of(w, d_z, d_r, inverse_r, law.inverse_rho, law.stiffness);
+        let reach = |k: usize| {
+            let (a, b) = (s_z[k].abs(), s_r[k].abs());
+            0.5 * if a > b { a } else { b }
+        };
+        let [inverse_hz, inverse_hr] = inverse_h;
+        Self {
+            w,
+            law,
+            change: scaled(rate, half_dt),
+            reach: [reach(0), 0.0, 0.0, reach(3), reach(4)],
+            ratio: 2.0 * half_dt * if inverse_hz > inverse_hr { inverse_hz } else { inverse_hr },
+            mixture,
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, share: f64) -> [f64; 5] {
+        let moved = |k: usize| self.w[k] + share * self.change[k];
+        [moved(0), moved(1), moved(2), moved(3), moved(4)]
+    }
+
+    #[inline(always)]
+    fn admissible(&self, share: f64) -> bool {
+        let reach = scaled(self.reach, share);
+        admissible(self.w, self.law, self.at(share), reach, self.ratio, self.mixture)
+    }
 }
 
 /// The state at mid-step, and the share of its slopes that the cell keeps: all (1), or half of them (MC slopes
@@ -78,22 +184,25 @@ pub(crate) fn half_step(
     half_dt: f64,
     mixture: &Mixture,
 ) -> ([f64; 5], f64) {
-    let rate = rates(w, scaled(s_z, inverse_h[0]), scaled(s_r, inverse_h[1]), inverse_r, mixture);
-    let moved = |k: usize, share: f64| w[k] + share * half_dt * rate[k];
-    let at =
-        |share: f64| [moved(0, share), moved(1, share), moved(2, share), moved(3, share), moved(4, share)];
-    let reach = |k: usize| {
-        let (a, b) = (s_z[k].abs(), s_r[k].abs());
-        0.5 * if a > b { a } else { b }
-    };
-    let reach = [reach(0), 0.0, 0.0, reach(3), reach(4)];
-    let [inverse_hz, inverse_hr] = inverse_h;
-    let ratio = 2.0 * half_dt * if inverse_hz > inverse_hr { inverse_hz } else { inverse_hr };
-    let whole = admissible(w, at(1.0), reach, ratio, mixture);
-    let halved = admissible(w, at(0.5), scaled(reach, 0.5), ratio, mixture);
-    let fallback = if halved { 0.5 } else { 0.0 };
-    let keep = if whole { 1.0 } else { fallback };
-    (at(keep), keep)
+    let prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
+    let fallback = if prediction.admissible(0.5) { 0.5 } else { 0.0 };
+    let keep = if prediction.admissible(1.0) { 1.0 } else { fallback };
+    (prediction.at(keep), keep)
+}
+
+/// [`half_step`] where all slopes are kept; where they are not, 0 tells so and the state counts for nothing.
+#[inline(always)]
+pub(crate) fn whole_half_step(
+    w: [f64; 5],
+    s_z: [f64; 5],
+    s_r: [f64; 5],
+    inverse_h: [f64; 2],
+    inverse_r: f64,
+    half_dt: f64,
+    mixture: &Mixture,
+) -> ([f64; 5], f64) {
+    let prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
+    (prediction.at(1.0), if prediction.admissible(1.0) { 1.0 } else { 0.0 })
 }
 
 /// Conserved to primitive variables, in place of rows of equal length.
@@ -120,85 +229,21 @@ fn to_primitive_body(
     }
 }
 
-/// Primitive variables at mid-step in all cells but the outermost layer, and the share of slopes kept.
-///
-/// MUSCL-Hancock predictor, paper eqs. (24), (25) with τ = Δt/2, in both directions at once.
-///
-/// - `w`: the cells; `s_z`, `s_r`: limited differences; `inverse_r`: per cell.
-/// - `half`, `keep`: written where differences exist, see [`mesh::limited_differences`].
-#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn predict(
-    w: Rows<'_>,
-    s_z: Rows<'_>,
-    s_r: Rows<'_>,
-    inverse_r: &[f64],
-    inverse_h: [f64; 2],
-    half_dt: f64,
-    stride: usize,
-    mixture: &Mixture,
-    half: [&mut [f64]; 5],
-    keep: &mut [f64],
-) {
-    let first = stride + 1;
-    let n = keep.len() - 2 * first;
-    let [h0, h1, h2, h3, h4] = half.map(|row| &mut row[first..][..n]);
-    predict_body(
-        n,
-        w.map(|row| &row[first..][..n]),
-        s_z.map(|row| &row[first..][..n]),
-        s_r.map(|row| &row[first..][..n]),
-        &inverse_r[first..][..n],
-        inverse_h,
-        half_dt,
-        mixture,
-        h0,
-        h1,
-        h2,
-        h3,
-        h4,
-        &mut keep[first..][..n],
-    );
-}
-
-#[inline(always)]
-fn predict_body(
-    n: usize,
-    w: Rows<'_>,
-    s_z: Rows<'_>,
-    s_r: Rows<'_>,
-    inverse_r: &[f64],
-    inverse_h: [f64; 2],
-    half_dt: f64,
-    mixture: &Mixture,
-    h0: &mut [f64],
-    h1: &mut [f64],
-    h2: &mut [f64],
-    h3: &mut [f64],
-    h4: &mut [f64],
-    keep: &mut [f64],
-) {
-    for k in 0..n {
-        let at = |rows: &Rows<'_>| [rows[0][k], rows[1][k], rows[2][k], rows[3][k], rows[4][k]];
-        let (half, kept) = half_step(at(&w), at(&s_z), at(&s_r), inverse_h, inverse_r[k], half_dt, mixture);
-        [h0[k], h1[k], h2[k], h3[k], h4[k]] = half;
-        keep[k] = kept;
-    }
-}
-
 /// Rows of [`Face`]s, one number each, indexed by the cell on the lower side of the face.
 #[derive(Clone, Debug)]
 pub(crate) struct FaceRows {
-    pub mass: Vec<f64>,
-    pub velocity: Vec<f64>,
-    pub pressure: Vec<f64>,
-    pub shear: Vec<f64>,
-    pub energy: Vec<f64>,
-    pub phi: Vec<f64>,
+    pub mass: AlignedRow,
+    pub velocity: AlignedRow,
+    pub pressure: AlignedRow,
+    pub shear: AlignedRow,
+    pub energy: AlignedRow,
+    pub phi: AlignedRow,
 }
 
 impl FaceRows {
-    pub fn zeros(len: usize) -> Self {
-        let row = || vec![0.0; len];
+    /// For padded rows of `len` cells, `stride` apart along r.
+    pub fn zeros(len: usize, stride: usize) -> Self {
+        let row = || AlignedRow::zeros(len, stride);
         Self { mass: row(), velocity: row(), pressure: row(), shear: row(), energy: row(), phi: row() }
     }
 
@@ -223,7 +268,17 @@ pub(crate) struct Reconstruction<'a> {
     pub keep: &'a [f64],
 }
 
-impl Reconstruction<'_> {
+impl<'a> Reconstruction<'a> {
+    /// `n` cells from `at` on.
+    #[inline(always)]
+    pub fn cut(&self, at: usize, n: usize) -> Self {
+        Self {
+            half: cut(&self.half, at, n),
+            differences: cut(&self.differences, at, n),
+            keep: &self.keep[at..][..n],
+        }
+    }
+
     /// The state on the lower (`sign` = −1) or upper (+1) face of cell `k`.
     #[inline(always)]
     pub fn face_state(&self, k: usize, sign: f64) -> [f64; 5] {
@@ -233,26 +288,25 @@ impl Reconstruction<'_> {
     }
 }
 
-/// HLLC at the faces between cells `k` and `k + step`, for `k` in `range`.
+/// HLLC at the faces between cells `k` and `k + step`, for `k` in `range` and in whatever completes its lines;
+/// `stride` is that of the rows.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn hllc_faces(
     cells: &Reconstruction<'_>,
     step: usize,
+    stride: usize,
     range: std::ops::Range<usize>,
     mixture: &Mixture,
     faces: &mut FaceRows,
 ) {
+    let range = whole_lines(range, stride..cells.keep.len() - step);
     let (first, n) = (range.start, range.len());
-    let cut = |at: usize| Reconstruction {
-        half: cells.half.map(|row| &row[at..][..n]),
-        differences: cells.differences.map(|row| &row[at..][..n]),
-        keep: &cells.keep[at..][..n],
-    };
+    let mixture = *mixture;
     hllc_body(
         n,
-        cut(first),
-        cut(first + step),
-        mixture,
+        cells.cut(first, n),
+        cells.cut(first + step, n),
+        &mixture,
         &mut faces.mass[first..][..n],
         &mut faces.velocity[first..][..n],
         &mut faces.pressure[first..][..n],

@@ -4,7 +4,6 @@ use mesh::maximum;
 
 use crate::Mixture;
 use crate::rows::{FaceRows, Rows};
-use crate::state::primitive;
 
 /// Reductions over a block's new cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,8 +20,6 @@ pub(crate) struct Extremes {
 
 /// What the update needs to know of a block's geometry.
 pub(crate) struct Metric<'a> {
-    /// Cells along a side.
-    pub n: usize,
     /// Stride and flat index of cell (0, 0) of padded rows.
     pub stride: usize,
     /// See `stride`.
@@ -35,7 +32,7 @@ pub(crate) struct Metric<'a> {
     pub inverse_weight: &'a [f64],
 }
 
-/// Conservative update of a block from its face fluxes, gas fraction in the form (27).
+/// Conservative update of a block of N² cells from its face fluxes, gas fraction in the form (27).
 ///
 /// Paper eqs. (23), (27). The pressure's share of the radial momentum is (p₊ − p₋)/Δr: flux and source of the
 /// axisymmetric form taken together, with the source the mean of both faces' pressures, so that a uniform
@@ -44,7 +41,7 @@ pub(crate) struct Metric<'a> {
 /// - `old`, `new`: conserved variables `[component][j][i]` without ghosts.
 /// - `speeds`: scratch of N² numbers each: |v_z| + c, |v_r| + c, energy added by the floor.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn update(
+pub(crate) fn update<const N: usize>(
     old: Rows<'_>,
     z_faces: &FaceRows,
     r_faces: &FaceRows,
@@ -54,34 +51,32 @@ pub(crate) fn update(
     new: [&mut [f64]; 5],
     speeds: [&mut [f64]; 3],
 ) -> Extremes {
-    let n = metric.n;
     let [rho, mz, mr, energy, phi] = new;
     let [speed_z, speed_r, floor] = speeds;
-    for j in 0..n {
-        let row = j * n..(j + 1) * n;
+    for j in 0..N {
+        let at = j * N;
         let k = metric.origin + j * metric.stride;
-        update_row(
-            n,
-            old.map(|rows| &rows[row.clone()]),
-            FaceSlices::cut(z_faces, k - 1, n),
-            FaceSlices::cut(z_faces, k, n),
-            FaceSlices::cut(r_faces, k - metric.stride, n),
-            FaceSlices::cut(r_faces, k, n),
+        update_row::<N>(
+            [row(old[0], at), row(old[1], at), row(old[2], at), row(old[3], at), row(old[4], at)],
+            FaceSlices::cut(z_faces, k - 1),
+            FaceSlices::cut(z_faces, k),
+            FaceSlices::cut(r_faces, k - metric.stride),
+            FaceSlices::cut(r_faces, k),
             RowMetric {
                 dt_z: dt * metric.inverse_h[0],
                 dt_r: dt * metric.inverse_h[1],
                 lower: metric.face_weight[j] * metric.inverse_weight[j],
                 upper: metric.face_weight[j + 1] * metric.inverse_weight[j],
             },
-            mixture,
-            &mut rho[row.clone()],
-            &mut mz[row.clone()],
-            &mut mr[row.clone()],
-            &mut energy[row.clone()],
-            &mut phi[row.clone()],
-            &mut speed_z[row.clone()],
-            &mut speed_r[row.clone()],
-            &mut floor[row.clone()],
+            *mixture,
+            row_mut(rho, at),
+            row_mut(mz, at),
+            row_mut(mr, at),
+            row_mut(energy, at),
+            row_mut(phi, at),
+            row_mut(speed_z, at),
+            row_mut(speed_r, at),
+            row_mut(floor, at),
         );
     }
     Extremes {
@@ -92,27 +87,38 @@ pub(crate) fn update(
     }
 }
 
-/// [`FaceRows`] cut to the faces of one row of cells.
-#[derive(Clone, Copy)]
-struct FaceSlices<'a> {
-    mass: &'a [f64],
-    velocity: &'a [f64],
-    pressure: &'a [f64],
-    shear: &'a [f64],
-    energy: &'a [f64],
-    phi: &'a [f64],
+/// N numbers from `at` on, so that the compiler knows how many.
+#[inline(always)]
+fn row<const N: usize>(numbers: &[f64], at: usize) -> &[f64; N] {
+    numbers[at..].first_chunk().expect("rows are whole")
 }
 
-impl<'a> FaceSlices<'a> {
+#[inline(always)]
+fn row_mut<const N: usize>(numbers: &mut [f64], at: usize) -> &mut [f64; N] {
+    numbers[at..].first_chunk_mut().expect("rows are whole")
+}
+
+/// [`FaceRows`] cut to the faces of one row of cells.
+#[derive(Clone, Copy)]
+struct FaceSlices<'a, const N: usize> {
+    mass: &'a [f64; N],
+    velocity: &'a [f64; N],
+    pressure: &'a [f64; N],
+    shear: &'a [f64; N],
+    energy: &'a [f64; N],
+    phi: &'a [f64; N],
+}
+
+impl<'a, const N: usize> FaceSlices<'a, N> {
     #[inline(always)]
-    fn cut(faces: &'a FaceRows, at: usize, n: usize) -> Self {
+    fn cut(faces: &'a FaceRows, at: usize) -> Self {
         Self {
-            mass: &faces.mass[at..][..n],
-            velocity: &faces.velocity[at..][..n],
-            pressure: &faces.pressure[at..][..n],
-            shear: &faces.shear[at..][..n],
-            energy: &faces.energy[at..][..n],
-            phi: &faces.phi[at..][..n],
+            mass: row(&faces.mass, at),
+            velocity: row(&faces.velocity, at),
+            pressure: row(&faces.pressure, at),
+            shear: row(&faces.shear, at),
+            energy: row(&faces.energy, at),
+            phi: row(&faces.phi, at),
         }
     }
 }
@@ -127,29 +133,28 @@ struct RowMetric {
 }
 
 #[inline(always)]
-fn update_row(
-    n: usize,
-    old: Rows<'_>,
-    west: FaceSlices<'_>,
-    east: FaceSlices<'_>,
-    south: FaceSlices<'_>,
-    north: FaceSlices<'_>,
+fn update_row<const N: usize>(
+    old: [&[f64; N]; 5],
+    west: FaceSlices<'_, N>,
+    east: FaceSlices<'_, N>,
+    south: FaceSlices<'_, N>,
+    north: FaceSlices<'_, N>,
     metric: RowMetric,
-    mixture: &Mixture,
-    rho: &mut [f64],
-    mz: &mut [f64],
-    mr: &mut [f64],
-    energy: &mut [f64],
-    phi: &mut [f64],
-    speed_z: &mut [f64],
-    speed_r: &mut [f64],
-    floor: &mut [f64],
+    mixture: Mixture,
+    rho: &mut [f64; N],
+    mz: &mut [f64; N],
+    mr: &mut [f64; N],
+    energy: &mut [f64; N],
+    phi: &mut [f64; N],
+    speed_z: &mut [f64; N],
+    speed_r: &mut [f64; N],
+    floor: &mut [f64; N],
 ) {
     let RowMetric { dt_z, dt_r, lower, upper } = metric;
-    for k in 0..n {
+    for k in 0..N {
         let axial = |high: f64, low: f64| dt_z * (high - low);
         let radial = |high: f64, low: f64| dt_r * (upper * high - lower * low);
-        let normal = |f: &FaceSlices<'_>| f.mass[k] * f.velocity[k];
+        let normal = |f: &FaceSlices<'_, N>| f.mass[k] * f.velocity[k];
         // Both directions are added before they meet the old value, and alike for both components of the
         // momentum: planar flow does not tell z from r, to the last bit.
         let new_rho = old[0][k] - (axial(east.mass[k], west.mass[k]) + radial(north.mass[k], south.mass[k]));
@@ -160,15 +165,21 @@ fn update_row(
         let new_energy =
             old[3][k] - (axial(east.energy[k], west.energy[k]) + radial(north.energy[k], south.energy[k]));
         let old_phi = old[4][k];
-        let carried = |f: &FaceSlices<'_>| f.velocity[k] * (f.phi[k] - old_phi);
+        let carried = |f: &FaceSlices<'_, N>| f.velocity[k] * (f.phi[k] - old_phi);
         let new_phi =
             old_phi - (axial(carried(&east), carried(&west)) + radial(carried(&north), carried(&south)));
 
-        let [_, v_z, v_r, p, _] = primitive([new_rho, new_mz, new_mr, new_energy, new_phi], mixture);
+        // As `state::primitive`, with one division for 1/ρ and one for 1/β₁, which the sound speed needs as well.
+        let inverse_rho = 1.0 / new_rho;
+        let (v_z, v_r) = (new_mz * inverse_rho, new_mr * inverse_rho);
+        let internal = new_energy - 0.5 * (new_mz * v_z + new_mr * v_r);
+        let (beta1, beta2) = (mixture.beta1(new_phi), mixture.beta2(new_phi));
+        let inverse_beta1 = 1.0 / beta1;
+        let p = (internal - beta2) * inverse_beta1;
         let lowest = mixture.pressure_floor(new_phi);
         let lifted = if p < lowest { lowest } else { p };
-        let added = mixture.beta1(new_phi) * (lifted - p);
-        let sound = (mixture.stiffness(lifted, new_phi) / new_rho).sqrt();
+        let added = beta1 * (lifted - p);
+        let sound = (((1.0 + beta1) * lifted + beta2) * (inverse_beta1 * inverse_rho)).sqrt();
         let sane = (new_rho > 0.0) & (sound < f64::MAX);
         rho[k] = new_rho;
         mz[k] = new_mz;

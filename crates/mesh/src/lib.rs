@@ -16,6 +16,7 @@
 #![forbid(unsafe_code)]
 
 mod adaptation;
+mod aligned;
 mod domain;
 mod field;
 mod geometry;
@@ -34,6 +35,7 @@ mod remap;
 mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
+pub use aligned::{AlignedRow, whole_lines};
 pub use domain::{Domain, Mesh, MeshError};
 pub use field::Field;
 pub use geometry::{Geometry, Side};

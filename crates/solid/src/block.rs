@@ -5,9 +5,11 @@ use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
 use crate::Boundary;
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, SurfaceState};
+use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::reflux::register_stars;
-use crate::rows::{self, Elasticity, FaceRows, Metric, Reconstruction};
+use crate::rows::{self, Elasticity, FaceRows, Reconstruction};
 use crate::state::component::{COUNT, S_PHIPHI};
+use crate::update::{Metric, update};
 
 /// What all blocks of a step share.
 pub(crate) struct StepContext<'a, const N: usize> {
@@ -49,8 +51,8 @@ impl<const N: usize> BlockScratch<N> {
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
             inverse_r: vec![0.0; len],
-            z_faces: FaceRows::zeros(len),
-            r_faces: FaceRows::zeros(len),
+            z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
+            r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
             mises: vec![0.0; N * N],
         }
     }
@@ -67,19 +69,23 @@ pub(crate) struct BlockReport {
     pub inflow: [[f64; 2]; 4],
 }
 
-/// Components whose derivative along z, and along r, enters the equations.
-const ALONG_Z: [usize; 4] = [0, 1, 2, 3];
-const ALONG_R: [usize; 4] = [0, 1, 3, 4];
+/// Assembles a block with its ghosts: the state in `cells`.
+fn assemble<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+    let BlockScratch { cells, patch, inverse_r, .. } = scratch;
+    cells.assemble(ctx.mesh, ctx.old, slot, ctx.analysis, patch);
+    ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    ctx.mesh.inverse_radii(ctx.mesh.tree().leaves()[slot], inverse_r);
+}
 
 /// Assembles a block with its ghosts and reconstructs it: the state in `cells`, limited differences in `s_z`, `s_r`.
+/// A step makes the differences together with the state at mid-step instead.
 pub(crate) fn reconstruct<const N: usize>(
     ctx: &StepContext<'_, N>,
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
-    let BlockScratch { cells, patch, s_z, s_r, inverse_r, .. } = scratch;
-    cells.assemble(ctx.mesh, ctx.old, slot, ctx.analysis, patch);
-    ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    assemble(ctx, slot, scratch);
+    let BlockScratch { cells, s_z, s_r, .. } = scratch;
     // No derivative of the hoop stress enters.
     for component in 0..S_PHIPHI {
         limited_differences(
@@ -90,7 +96,6 @@ pub(crate) fn reconstruct<const N: usize>(
             s_r.component_mut(component),
         );
     }
-    ctx.mesh.inverse_radii(ctx.mesh.tree().leaves()[slot], inverse_r);
 }
 
 /// Advances one block by one step from `ctx.old` into `new`; `stars` is its part of the flux register.
@@ -105,16 +110,22 @@ pub(crate) fn step_block<const N: usize>(
     let id = ctx.mesh.tree().leaves()[slot];
     let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
 
-    reconstruct(ctx, slot, scratch);
-    rows::predict(
-        scratch.cells.split(),
-        scratch.s_z.split(),
-        scratch.s_r.split(),
-        &scratch.inverse_r,
-        inverse_h,
-        0.5 * ctx.dt,
+    assemble(ctx, slot, scratch);
+    let predictor = Predictor {
+        limiter: ctx.limiter,
         stride,
+        inverse_h,
+        inverse_r: &scratch.inverse_r,
+        half_dt: 0.5 * ctx.dt,
+    };
+    let [z0, z1, z2, z3, _, _] = scratch.s_z.split_mut::<COUNT>();
+    let [r0, r1, _, r3, r4, _] = scratch.s_r.split_mut::<COUNT>();
+    predict(
+        scratch.cells.split(),
+        predictor,
         ctx.elasticity,
+        [z0, z1, z2, z3],
+        [r0, r1, r3, r4],
         scratch.half.split_mut(),
     );
     ctx.boundaries.impose_outer(ctx.mesh, slot, &mut scratch.half, &mut scratch.s_z, &mut scratch.s_r);
@@ -123,7 +134,7 @@ pub(crate) fn step_block<const N: usize>(
     let differences = scratch.s_z.split::<COUNT>();
     let along_z = Reconstruction { half: [v_z, v_r, zz, zr], differences: ALONG_Z.map(|c| differences[c]) };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
-    rows::faces(&along_z, 1, z_range, ctx.elasticity, &mut scratch.z_faces);
+    rows::faces(&along_z, 1, stride, z_range, ctx.elasticity, &mut scratch.z_faces);
     if ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax) {
         let first = ctx.surface_first[slot];
         let surface = &ctx.surface[first..first + N];
@@ -134,13 +145,13 @@ pub(crate) fn step_block<const N: usize>(
     let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
     let along_r = Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr] };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
-    rows::faces(&along_r, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
+    rows::faces(&along_r, stride, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
 
     register_stars(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, stars);
     let metric =
-        Metric { n: N, stride, origin: Padded::<N>::index(0, 0), inverse_h, inverse_r: &scratch.inverse_r };
+        Metric { stride, origin: Padded::<N>::index(0, 0), inverse_h, inverse_r: &scratch.inverse_r };
     let old = ctx.old.block(slot);
-    let largest = rows::update(
+    let largest = update::<N>(
         std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
         &scratch.z_faces,
         &scratch.r_faces,

@@ -14,11 +14,13 @@ mod error;
 mod material;
 mod options;
 mod participant;
+mod predictor;
 mod reflux;
 pub mod riemann;
 mod rows;
 mod solver;
 mod state;
+mod update;
 mod yield_criterion;
 
 pub use boundary::SurfaceState;

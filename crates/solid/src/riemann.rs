@@ -105,7 +105,8 @@ fn pair(v: [f64; 2], sigma: [f64; 2], z: f64) -> (f64, f64) {
     let [v_left, v_right] = v;
     let [sigma_left, sigma_right] = sigma;
     (
-        0.5 * (v_left + v_right) + 0.5 * (sigma_right - sigma_left) / z,
+        // In rows of faces the quotient is the same for all of them.
+        0.5 * (v_left + v_right) + (0.5 / z) * (sigma_right - sigma_left),
         0.5 * (sigma_left + sigma_right) + 0.5 * z * (v_right - v_left),
     )
 }

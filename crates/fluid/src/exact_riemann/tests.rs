@@ -4,10 +4,10 @@ use super::*;
 use approx::assert_relative_eq;
 
 /// A Riemann problem with its star state [p, u, rho left, rho right].
-struct Case {
-    name: &'static str,
-    left: Side,
-    right: Side,
+pub(crate) struct Case {
+    pub name: &'static str,
+    pub left: Side,
+    pub right: Side,
     star: [f64; 4],
 }
 
@@ -20,7 +20,7 @@ const fn case(name: &'static str, left: Side, right: Side, star: [f64; 4]) -> Ca
 }
 
 /// Computed independently with 40 digits from the energy jump and the isentrope, printed to 13.
-const REFERENCE: [Case; 10] = [
+pub(crate) const REFERENCE: [Case; 10] = [
     case(
         "sod",
         side(1.0, 0.0, 1.0, 1.4, 0.0),
@@ -98,7 +98,7 @@ const WAVES: [[(f64, f64, bool); 2]; 10] = [
 ];
 
 /// Computed with 60 digits by bisection in ln P of the plain formulas of Toro (2009) eqs. 4.6 and 4.7.
-const EXTREME: [Case; 13] = [
+pub(crate) const EXTREME: [Case; 13] = [
     case(
         "gas near vacuum",
         side(1.0, -5.9, 0.4, 1.4, 0.0),
@@ -318,10 +318,10 @@ fn profiles_of_the_reference() {
 }
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a fixed sequence, so that a failure repeats.
-struct Random(u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
-    fn bits(&mut self) -> u64 {
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -330,12 +330,12 @@ impl Random {
     }
 
     /// Uniform in [low, high).
-    fn uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// Uniform in the exponent.
-    fn log_uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub fn log_uniform(&mut self, low: f64, high: f64) -> f64 {
         self.uniform(low.ln(), high.ln()).exp()
     }
 
@@ -356,7 +356,7 @@ impl Random {
     }
 
     /// Two sides that approach or part at up to six times the lower, or the higher, sound speed.
-    fn problem(&mut self) -> (Side, Side) {
+    pub fn problem(&mut self) -> (Side, Side) {
         let (mut left, mut right) = (self.side(), self.side());
         if self.bits().is_multiple_of(4) {
             (right.gamma, right.pi) = (left.gamma, left.pi);
