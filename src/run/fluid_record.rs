@@ -193,16 +193,19 @@ impl FluidRecord {
     }
 
     fn snapshot(&mut self, solver: &FluidSolver<BLOCK>) -> Result<(), OutputError> {
-        let mut snapshot = solver.snapshot();
-        self.files.snapshot(solver.time(), solver.mesh(), |name| {
-            std::mem::take(match name {
-                "density" => &mut snapshot.density,
-                "pressure" => &mut snapshot.pressure,
-                "velocity" => &mut snapshot.velocity,
-                "gas_fraction" => &mut snapshot.gas_fraction,
-                "schlieren" => &mut snapshot.schlieren,
-                _ => &mut snapshot.level,
-            })
+        self.files.snapshot(solver.time(), solver.mesh(), |fields| {
+            let mut snapshot = solver.snapshot();
+            let field = |name: &&'static str| {
+                std::mem::take(match *name {
+                    "density" => &mut snapshot.density,
+                    "pressure" => &mut snapshot.pressure,
+                    "velocity" => &mut snapshot.velocity,
+                    "gas_fraction" => &mut snapshot.gas_fraction,
+                    "schlieren" => &mut snapshot.schlieren,
+                    _ => &mut snapshot.level,
+                })
+            };
+            fields.iter().map(field).collect()
         })
     }
 

@@ -158,18 +158,21 @@ impl SolidRecord {
     }
 
     fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
-        let mut snapshot = solver.snapshot();
-        self.files.snapshot(solver.time(), solver.mesh(), |name| {
-            std::mem::take(match name {
-                "velocity" => &mut snapshot.velocity,
-                "stress_zz" => &mut snapshot.stress_zz,
-                "stress_zr" => &mut snapshot.stress_zr,
-                "stress_rr" => &mut snapshot.stress_rr,
-                "stress_phiphi" => &mut snapshot.stress_phiphi,
-                "von_mises" => &mut snapshot.von_mises,
-                "yield_function" => &mut snapshot.yield_function,
-                _ => &mut snapshot.level,
-            })
+        self.files.snapshot(solver.time(), solver.mesh(), |fields| {
+            let mut snapshot = solver.snapshot();
+            let field = |name: &&'static str| {
+                std::mem::take(match *name {
+                    "velocity" => &mut snapshot.velocity,
+                    "stress_zz" => &mut snapshot.stress_zz,
+                    "stress_zr" => &mut snapshot.stress_zr,
+                    "stress_rr" => &mut snapshot.stress_rr,
+                    "stress_phiphi" => &mut snapshot.stress_phiphi,
+                    "von_mises" => &mut snapshot.von_mises,
+                    "yield_function" => &mut snapshot.yield_function,
+                    _ => &mut snapshot.level,
+                })
+            };
+            fields.iter().map(field).collect()
         })
     }
 
