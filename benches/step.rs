@@ -188,6 +188,8 @@ fn fluid_near_a_wall<const N: usize>(
         limiter,
         boundaries: [Wall, NonReflecting, Axis, NonReflecting],
         inflow: None,
+        adaptation: None,
+        scales: fluid::Scales { pressure: 1e6, density: 1e3 },
     };
     FluidSolver::new(&setup, &initial)
 }
@@ -203,6 +205,8 @@ fn solid_with_a_pulse<const N: usize>(cells: usize, limiter: Limiter) -> Result<
         yield_strength: 250e6,
         limiter,
         boundaries: [NonReflecting, Free, Axis, NonReflecting],
+        adaptation: None,
+        stress_scale: 1e6,
     };
     SolidSolver::new(setup, |[z, r]| ElasticState {
         stress_zz: 1e5 * (-((z + 0.01) * (z + 0.01) + r * r) / 1e-5).exp(),

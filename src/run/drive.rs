@@ -242,6 +242,7 @@ fn progress_part<S: Side>(
     });
     coupling[S::NAME] = json!({
         "seconds_computing": clock.computing.as_secs_f64(),
+        "seconds_adapting": clock.adapting.as_secs_f64(),
         "seconds_recording": clock.recording.as_secs_f64(),
         "seconds_waited": counters.waited.as_secs_f64(),
         "seconds_exchanging": counters.exchanging.as_secs_f64(),

@@ -7,7 +7,8 @@
 use std::time::{Duration, Instant};
 
 use coupler::{
-    FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme, TraceRow, WallRegister,
+    CommonRefinement, FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme, TraceRow,
+    WallRegister,
 };
 use fluid::{FluidSolver, WallState};
 use mesh::BLOCK;
@@ -37,6 +38,8 @@ pub enum Turn {
 pub struct Clock {
     /// Time in the solver and in the exchange's own computation.
     pub computing: Duration,
+    /// Of that, adapting the grid.
+    pub adapting: Duration,
     /// Time in diagnostics and output.
     pub recording: Duration,
 }
@@ -101,6 +104,10 @@ impl FluidSide {
         let (scheme, solver, received) = (self.scheme, &mut self.solver, &mut self.received);
         let header = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
+            if frame.header.count == 0 && solver.steps() == 0 {
+                // The first word, before the solid knows of any faces: it is at rest.
+                return Ok(*frame.header);
+            }
             frame.require_shape(RegisterRow::COUNT, faces)?;
             if scheme == Scheme::Weak {
                 received.copy_from_slice(RegisterRow::NormalVelocity.of(frame.payload, faces));
@@ -110,6 +117,28 @@ impl FluidSide {
             Ok::<_, coupler::CouplerError>(*frame.header)
         })??;
         Ok(header)
+    }
+
+    /// Adapts the grid if it is time to, with all that is kept per face of the wall.
+    fn adapt_if_due(&mut self) {
+        let start = Instant::now();
+        if self.solver.adapt_if_due(self.last_dt) {
+            let edges = self.solver.wall_edges();
+            if self.scheme == Scheme::Weak {
+                let domain = self.solver.mesh().domain();
+                let axisymmetric = domain.geometry == mesh::Geometry::Axisymmetric;
+                let mut map = CommonRefinement::default();
+                map.update(domain.r[0], &self.edges, &edges, axisymmetric);
+                let old = std::mem::replace(&mut self.received, vec![0.0; edges.len()]);
+                let received = &mut self.received;
+                map.means(true, |k| old[map.sub_faces()[k].first], |face, mean| received[face] = mean);
+                self.own = vec![[0.0; 2]; edges.len()];
+            }
+            self.edges = edges;
+        }
+        let elapsed = start.elapsed();
+        self.clock.computing += elapsed;
+        self.clock.adapting += elapsed;
     }
 
     /// The next step: no longer than either side's limit.
@@ -189,6 +218,7 @@ impl Side for FluidSide {
         self.solver.step(plan.dt)?;
         self.clock.computing += start.elapsed();
         self.recorded(plan)?;
+        self.adapt_if_due();
         Ok(true)
     }
 
@@ -207,6 +237,9 @@ impl Side for FluidSide {
                 FrameHeader { flags: stopped | FrameHeader::LAST, ..self.header(FrameKind::Trace, 0, 0.0) };
             link.send(header, |_| {})?;
             return Ok(Turn::Over(stopped));
+        }
+        if self.solver.steps() > 0 {
+            self.adapt_if_due();
         }
         let start = Instant::now();
         let Some(plan) = self.plan(answer.dt_max)? else { return Ok(Turn::Over(0)) };

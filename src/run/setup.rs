@@ -23,6 +23,8 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         limiter: fluid.limiter,
         boundaries: fluid.boundary,
         inflow: fluid.inflow.as_ref().and_then(|inflow| PressureHistory::new(inflow.pressure.clone())),
+        adaptation: fluid.grid.adaptation.clone(),
+        scales: fluid::Scales { pressure: fluid.scale_pressure, density: fluid.scale_density },
     }
 }
 
@@ -45,6 +47,8 @@ pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
         yield_strength: solid.material.yield_strength().unwrap_or(f64::INFINITY),
         limiter: solid.limiter,
         boundaries: solid.boundary,
+        adaptation: solid.grid.adaptation.clone(),
+        stress_scale: solid.scale_stress,
     }
 }
 

@@ -29,7 +29,7 @@ pub struct SolidSide {
     star: StarSolver,
     kappa: Kappa,
     factor: KappaFactor,
-    /// Outer radii of the fluid's faces on the interface.
+    /// Outer radii of the fluid's faces on the interface; none before the first trace.
     fluid_edges: Vec<f64>,
     last_dt: f64,
     clock: Clock,
@@ -40,12 +40,6 @@ impl SolidSide {
     pub fn new(case: &Case, solid: &SolidCase, directory: Option<&RunDirectory>) -> Result<Self, RunError> {
         let solver = solid_solver(case, solid)?;
         let record = directory.map(|d| SolidRecord::create(case, d, &solver)).transpose()?;
-        // Until the first trace arrives the fluid's faces are known from the case, which both sides share.
-        let fluid_edges = case.fluid.as_ref().map_or_else(Vec::new, |fluid| {
-            let [begin, end] = fluid.grid.r;
-            let n = fluid.grid.finest()[1];
-            (1..=n).map(|k| begin + (end - begin) * (k as f64 / n as f64)).collect()
-        });
         Ok(Self {
             solver,
             record,
@@ -56,7 +50,7 @@ impl SolidSide {
             star: case.coupling.star,
             kappa: case.coupling.kappa,
             factor: KappaFactor::default(),
-            fluid_edges,
+            fluid_edges: Vec::new(),
             last_dt: 0.0,
             clock: Clock::default(),
         })
@@ -67,7 +61,7 @@ impl SolidSide {
         &self.solver
     }
 
-    /// The first word: how long a step the solid allows, and in the weak scheme its velocities.
+    /// The first word: how long a step the solid allows. It is at rest.
     pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
         self.answer(link, stop)
     }
@@ -92,7 +86,7 @@ impl SolidSide {
         link.send(header, |payload| {
             let put =
                 |row: RegisterRow, face: usize, value: f64| payload[row as usize * faces + face] = value;
-            if weak {
+            if weak && faces > 0 {
                 solver.write_cell_velocities(interface, edges, put);
             } else if !first {
                 interface.write_register(put);
@@ -102,6 +96,14 @@ impl SolidSide {
         // What comes after the frame is filled is the exchange.
         self.clock.computing += filled;
         Ok(())
+    }
+
+    fn adapt(&mut self, dt: f64) {
+        let start = Instant::now();
+        self.solver.adapt(dt);
+        let elapsed = start.elapsed();
+        self.clock.computing += elapsed;
+        self.clock.adapting += elapsed;
     }
 
     fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
@@ -123,9 +125,13 @@ impl Side for SolidSide {
         let limit = self.solver.time_step_limit(self.cfl);
         let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(false) };
         self.last_dt = plan.dt;
+        let adapts = self.solver.adaptation_follows(plan.dt);
         self.solver.step(plan.dt)?;
         self.clock.computing += start.elapsed();
         self.recorded(plan)?;
+        if adapts {
+            self.adapt(plan.dt);
+        }
         Ok(true)
     }
 
@@ -165,18 +171,23 @@ impl Side for SolidSide {
         }
         let plan = Plan { dt: header.dt, snapshot: header.has(FrameHeader::SNAPSHOT) };
         self.last_dt = plan.dt;
-        let weak = self.scheme == Scheme::Weak;
-        if !weak {
-            // All that the fluid needs is known; both sides make their steps at the same time.
+        let adapts = self.solver.adaptation_follows(plan.dt);
+        // In the Riemann scheme all that the fluid needs is known, and both sides make their steps at the same
+        // time; but how long the next step may be is known only once the grid has adapted.
+        let early = self.scheme != Scheme::Weak && !adapts;
+        if early {
             self.answer(link, stop)?;
         }
         let start = Instant::now();
         self.solver.step(plan.dt)?;
         self.clock.computing += start.elapsed();
-        if weak {
+        self.recorded(plan)?;
+        if adapts {
+            self.adapt(plan.dt);
+        }
+        if !early {
             self.answer(link, stop)?;
         }
-        self.recorded(plan)?;
         Ok(Turn::Continues)
     }
 

@@ -126,7 +126,7 @@ pub fn water(
     cells: [usize; 2],
     limiter: Limiter,
     boundaries: [FluidBoundary; 4],
-    state: impl Fn([f64; 2]) -> Primitive,
+    state: impl Fn([f64; 2]) -> Primitive + Sync,
 ) -> Fluid {
     let setup = FluidSetup {
         domain,
@@ -139,6 +139,8 @@ pub fn water(
         limiter,
         boundaries,
         inflow: None,
+        adaptation: None,
+        scales: fluid::Scales { pressure: 1e6, density: 1e3 },
     };
     Fluid::from_fn(&setup, state).expect("water")
 }
@@ -150,7 +152,7 @@ pub fn elastic(
     [density, c1, c2]: [f64; 3],
     limiter: Limiter,
     boundaries: [SolidBoundary; 4],
-    state: impl Fn([f64; 2]) -> ElasticState,
+    state: impl Fn([f64; 2]) -> ElasticState + Sync,
 ) -> Solid {
     let setup = SolidSetup {
         domain,
@@ -160,6 +162,8 @@ pub fn elastic(
         yield_strength: f64::INFINITY,
         limiter,
         boundaries,
+        adaptation: None,
+        stress_scale: 1e6,
     };
     Solid::new(setup, state).expect("a solid")
 }

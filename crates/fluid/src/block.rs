@@ -1,8 +1,10 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
-use mesh::{Field, Limiter, Mesh, Padded, Side, limited_differences};
+use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
 
+use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
+use crate::reflux::register_fluxes;
 use crate::rows::{self, FaceRows, Reconstruction};
 use crate::state::conserved::COUNT;
 use crate::update::{Extremes, Metric, update};
@@ -12,6 +14,7 @@ use crate::{Boundary, Mixture, RiemannSolver};
 pub(crate) struct StepContext<'a, const N: usize> {
     pub mesh: &'a Mesh<N>,
     pub mixture: &'a Mixture,
+    pub analysis: &'a Analysis,
     pub limiter: Limiter,
     pub riemann: RiemannSolver,
     pub boundaries: &'a Boundaries,
@@ -28,6 +31,7 @@ pub(crate) struct StepContext<'a, const N: usize> {
 /// Scratch of one thread.
 pub(crate) struct BlockScratch<const N: usize> {
     pub cells: Padded<N>,
+    pub patch: Patch<N>,
     pub s_z: Padded<N>,
     pub s_r: Padded<N>,
     pub half: Padded<N>,
@@ -45,6 +49,7 @@ impl<const N: usize> BlockScratch<N> {
         let len = Padded::<N>::LEN;
         Self {
             cells: Padded::zeros(COUNT),
+            patch: Patch::zeros(COUNT),
             s_z: Padded::zeros(COUNT),
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
@@ -94,8 +99,8 @@ pub(crate) fn reconstruct<const N: usize>(
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
-    let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
-    cells.assemble(ctx.mesh.tree(), ctx.old, slot);
+    let BlockScratch { cells, patch, s_z, s_r, inverse_r, .. } = scratch;
+    cells.assemble(ctx.mesh, ctx.old, slot, ctx.analysis, patch);
     rows::to_primitive(cells.split_mut(), ctx.mixture);
     ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     for component in 0..COUNT {
@@ -111,11 +116,12 @@ pub(crate) fn reconstruct<const N: usize>(
     ctx.mesh.inverse_radii(id, inverse_r);
 }
 
-/// Advances one block by one step from `ctx.old` into `new`.
+/// Advances one block by one step from `ctx.old` into `new`; `fluxes` is its part of the flux register.
 pub(crate) fn step_block<const N: usize>(
     ctx: &StepContext<'_, N>,
     slot: usize,
     new: &mut [f64],
+    fluxes: &mut [f64],
     scratch: &mut BlockScratch<N>,
 ) -> BlockReport<N> {
     let stride = Padded::<N>::STRIDE;
@@ -173,6 +179,7 @@ pub(crate) fn step_block<const N: usize>(
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_r, stride, r_range, &mut scratch.r_faces);
 
+    register_fluxes(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, fluxes);
     let r_low = ctx.mesh.origin(id)[1];
     for (j, weight) in scratch.face_weight.iter_mut().enumerate() {
         *weight = ctx.mesh.weight(r_low + j as f64 * h_r);

@@ -1,6 +1,6 @@
 //! What bounds the fluid: ghost cells before the slopes, outer states and wall fluxes after them.
 
-use mesh::{Mesh, Padded, Side};
+use mesh::{Mesh, Padded, Side, SideStates};
 
 use crate::hllc::Face;
 use crate::rows::{FaceRows, Reconstruction};
@@ -34,8 +34,8 @@ impl PressureHistory {
 #[derive(Clone, Debug)]
 pub(crate) struct Boundaries {
     kinds: [Boundary; 4],
-    /// The initial state in the cells along each side, on the finest level.
-    initial: [Vec<Primitive>; 4],
+    /// The initial state in the cells along each side.
+    initial: SideStates<Primitive>,
     inflow: Option<PressureHistory>,
 }
 
@@ -51,7 +51,11 @@ pub struct WallState {
 }
 
 impl Boundaries {
-    pub fn new(kinds: [Boundary; 4], initial: [Vec<Primitive>; 4], inflow: Option<PressureHistory>) -> Self {
+    pub fn new(
+        kinds: [Boundary; 4],
+        initial: SideStates<Primitive>,
+        inflow: Option<PressureHistory>,
+    ) -> Self {
         Self { kinds, initial, inflow }
     }
 
@@ -109,7 +113,7 @@ impl Boundaries {
             }
             let first = if normal(side) == 1 { id.j } else { id.i } as usize * N;
             for along in 0..N {
-                let mut state = self.initial[side as usize][first + along];
+                let mut state = *self.initial.at(side, id.level, first + along);
                 if let Some(history) = inflow {
                     state = entering(state, side, history.at(time), mixture);
                 }

@@ -216,6 +216,7 @@ impl<const N: usize> FluidSolver<N> {
         StepContext {
             mesh: &self.mesh,
             mixture: &self.mixture,
+            analysis: &self.analysis,
             limiter: self.limiter,
             riemann: self.riemann,
             boundaries: &self.boundaries,

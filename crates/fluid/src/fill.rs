@@ -1,6 +1,6 @@
 //! Cell averages of the initial condition.
 
-use mesh::{Field, Geometry, Mesh};
+use mesh::{Field, Geometry, Mesh, for_some_blocks};
 
 use crate::{InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, Region, Shape};
 
@@ -10,33 +10,75 @@ const SAMPLES: usize = 32;
 /// A gas fraction above which a cell counts as mixed and takes the gas's pressure.
 const MIXED: f64 = 1e-6;
 
-/// Fills a field of conserved variables with the initial condition.
+/// The initial condition's average over a cell.
 ///
 /// Cells that the edge of a region cuts hold the volume fractions of what they contain; a mixed cell has
 /// density φρ_g + (1 − φ)ρ_l and the *gas's* pressure. At the liquid's pressure the gas in it would be
 /// compressed gas that expands as soon as the run starts.
-pub(crate) fn fill<const N: usize>(
+pub(crate) fn average(
     initial: &InitialCondition,
+    geometry: Geometry,
+    mixture: &Mixture,
+    centre: [f64; 2],
+    widths: [f64; 2],
+) -> Primitive {
+    let mut state = cell(initial, geometry, centre, widths);
+    for pulse in &initial.pulses {
+        add_pulse(pulse, centre, mixture, &mut state);
+    }
+    state
+}
+
+/// Pulses are followed to this many widths, where exp(−x²) is 1e-7, by cells of at most a quarter of a width.
+const PULSE_REACH: f64 = 4.0;
+const PULSE_CELLS: f64 = 4.0;
+
+/// Whether the initial condition has something in a block that its cells may be too coarse to show: the edge of a
+/// region, or a pulse narrower than a few of them.
+///
+/// - `low`, `high`: the block's corners; `widths`: of its cells.
+pub(crate) fn asks_for_finer(
+    initial: &InitialCondition,
+    low: [f64; 2],
+    high: [f64; 2],
+    widths: [f64; 2],
+) -> bool {
+    let centre = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
+    let extent = [0, 1].map(|axis| high[axis] - low[axis]);
+    if initial.regions.iter().any(|region| may_cut(region, centre, extent)) {
+        return true;
+    }
+    initial.pulses.iter().any(|pulse| {
+        let radius = 0.5 * extent[0].hypot(extent[1]);
+        let nearest = (distance(pulse, centre).0.abs() - radius).max(0.0);
+        nearest < PULSE_REACH * pulse.width && widths[0].max(widths[1]) * PULSE_CELLS > pulse.width
+    })
+}
+
+/// Fills a field of conserved variables with what `state` says of each cell (centre, widths).
+pub(crate) fn fill<const N: usize>(
     mesh: &Mesh<N>,
     mixture: &Mixture,
     field: &mut Field,
+    state: &(impl Fn([f64; 2], [f64; 2]) -> Primitive + Sync + ?Sized),
 ) {
-    for (slot, id) in mesh.tree().leaves().to_vec().into_iter().enumerate() {
-        let widths = mesh.widths(id.level);
-        for j in 0..N {
-            for i in 0..N {
-                let centre = mesh.centre(id, i, j);
-                let mut state = cell(initial, mesh.domain().geometry, centre, widths);
-                for pulse in &initial.pulses {
-                    add_pulse(pulse, centre, mixture, &mut state);
-                }
-                let block = field.block_mut(slot);
-                for (component, value) in state.to_conserved(mixture).into_iter().enumerate() {
-                    block[(component * N + j) * N + i] = value;
+    for_some_blocks(
+        field,
+        &mut vec![(); mesh.blocks()],
+        |_| true,
+        |slot, block, ()| {
+            let id = mesh.tree().leaves()[slot];
+            let widths = mesh.widths(id.level);
+            for j in 0..N {
+                for i in 0..N {
+                    let cell = state(mesh.centre(id, i, j), widths);
+                    for (component, value) in cell.to_conserved(mixture).into_iter().enumerate() {
+                        block[(component * N + j) * N + i] = value;
+                    }
                 }
             }
-        }
-    }
+        },
+    );
 }
 
 /// The average over one cell, without pulses.
@@ -135,12 +177,7 @@ fn may_cut(region: &Region, [z, r]: [f64; 2], [hz, hr]: [f64; 2]) -> bool {
 
 /// Adds p' = A exp(−d²/a²) with isentropic density and, if it travels, v = p'/(ρc).
 fn add_pulse(pulse: &crate::Pulse, [z, r]: [f64; 2], mixture: &Mixture, state: &mut Primitive) {
-    let (dz, dr) = (z - pulse.centre[0], r - pulse.centre[1]);
-    let (distance, direction) = match pulse.shape {
-        PulseShape::Sphere => (dz.hypot(dr), None),
-        PulseShape::Plane { direction: None } => (dz, None),
-        PulseShape::Plane { direction: Some(n) } => (dz * n[0] + dr * n[1], Some(n)),
-    };
+    let (distance, direction) = distance(pulse, [z, r]);
     let excess = pulse.amplitude * (-(distance / pulse.width).powi(2)).exp();
     let at = mixture.at(state.phi);
     let impedance = (mixture.stiffness(state.pressure, state.phi) * state.density).sqrt();
@@ -149,6 +186,16 @@ fn add_pulse(pulse: &crate::Pulse, [z, r]: [f64; 2], mixture: &Mixture, state: &
     if let Some(n) = direction {
         state.v_z += excess / impedance * n[0];
         state.v_r += excess / impedance * n[1];
+    }
+}
+
+/// Distance of a point from the pulse's crest, and the direction in which it travels.
+fn distance(pulse: &crate::Pulse, [z, r]: [f64; 2]) -> (f64, Option<[f64; 2]>) {
+    let (dz, dr) = (z - pulse.centre[0], r - pulse.centre[1]);
+    match pulse.shape {
+        PulseShape::Sphere => (dz.hypot(dr), None),
+        PulseShape::Plane { direction: None } => (dz, None),
+        PulseShape::Plane { direction: Some(n) } => (dz * n[0] + dr * n[1], Some(n)),
     }
 }
 
@@ -176,7 +223,9 @@ mod tests {
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let mut field = Field::zeros(mesh.blocks(), 64, 5);
-        fill(initial, &mesh, &mixture, &mut field);
+        fill(&mesh, &mixture, &mut field, &|centre, widths| {
+            average(initial, Geometry::Axisymmetric, &mixture, centre, widths)
+        });
         (mesh, field, mixture)
     }
 

@@ -5,6 +5,8 @@
 
 #![forbid(unsafe_code)]
 
+mod adapt;
+mod analysis;
 mod block;
 mod boundary;
 mod diagnostics;
@@ -18,11 +20,13 @@ mod initial;
 mod mixture;
 mod options;
 mod participant;
+mod reflux;
 mod rows;
 mod solver;
 mod state;
 mod update;
 
+pub use analysis::Scales;
 pub use boundary::{PressureHistory, WallState};
 pub use diagnostics::{AxisState, Bubble, Snapshot, TRACE_GAS, Totals, WallPressures};
 pub use eos::StiffenedGas;

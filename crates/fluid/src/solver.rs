@@ -1,10 +1,16 @@
 //! `FluidSolver`: owns the mesh and the fields, and advances them.
 
-use mesh::{Domain, Field, Limiter, Mesh, ScratchPool, Side, for_each_block, maximum};
+use mesh::{
+    Adaptation, Domain, Field, Horizon, Limiter, Mesh, Patch, ScratchPool, Side, SideStates, for_each_block,
+    for_some_blocks, maximum,
+};
 
-use crate::block::{BlockReport, BlockScratch, split_block, step_block};
+use crate::analysis::{Analysis, Scales};
+use crate::block::{BlockReport, BlockScratch, step_block};
 use crate::boundary::{Boundaries, PressureHistory, WallState};
+use crate::reflux::{self, Register};
 use crate::state::conserved::COUNT;
+use crate::update::Extremes;
 use crate::{Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RiemannSolver, StiffenedGas};
 
 /// Everything that defines a fluid.
@@ -30,7 +36,17 @@ pub struct FluidSetup {
     pub boundaries: [Boundary; 4],
     /// What enters through sides of kind [`Boundary::Inflow`].
     pub inflow: Option<PressureHistory>,
+    /// How the grid adapts; all cells are on the finest level without.
+    pub adaptation: Option<Adaptation>,
+    /// What adaptation measures details by.
+    pub scales: Scales,
 }
+
+/// What fills a cell (centre, widths) at t = 0.
+pub(crate) type InitialState<'a> = dyn Fn([f64; 2], [f64; 2]) -> Primitive + Sync + 'a;
+
+/// Whether a block (low corner, high corner, widths of its cells) is too coarse for what is in it at t = 0.
+pub(crate) type AsksForFiner<'a> = dyn Fn([f64; 2], [f64; 2], [f64; 2]) -> bool + Sync + 'a;
 
 /// Corrections that were made where the scheme left the admissible states.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,8 +87,13 @@ pub struct FluidSolver<const N: usize> {
     pub(crate) riemann: RiemannSolver,
     pub(crate) boundaries: Boundaries,
     pub(crate) state: Field,
-    next: Field,
-    reports: Vec<BlockReport<N>>,
+    pub(crate) next: Field,
+    pub(crate) register: Register<N>,
+    pub(crate) reports: Vec<BlockReport<N>>,
+    pub(crate) analysis: Analysis,
+    pub(crate) adaptation: Option<Adaptation>,
+    pub(crate) horizon: Horizon,
+    pub(crate) patches: ScratchPool<Patch<N>>,
     pub(crate) scratch: ScratchPool<BlockScratch<N>>,
     pub(crate) wall: Vec<WallState>,
     pub(crate) wall_first: Vec<usize>,
@@ -81,6 +102,7 @@ pub struct FluidSolver<const N: usize> {
     pub(crate) axis_blocks: Vec<usize>,
     pub(crate) time: f64,
     steps: u64,
+    cell_updates: u64,
     fixups: Fixups,
     ledger: BoundaryLedger,
 }
@@ -91,71 +113,99 @@ impl<const N: usize> FluidSolver<N> {
     /// - errors: [`FluidError::Mesh`], [`FluidError::NoInflow`], [`FluidError::NonPhysical`].
     pub fn new(setup: &FluidSetup, initial: &InitialCondition) -> Result<Self, FluidError> {
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        Self::with(setup, |mesh, field| crate::fill::fill(initial, mesh, &mixture, field))
+        let geometry = setup.domain.geometry;
+        Self::with(
+            setup,
+            &|centre, widths| crate::fill::average(initial, geometry, &mixture, centre, widths),
+            &|low, high, widths| crate::fill::asks_for_finer(initial, low, high, widths),
+        )
     }
 
     /// A fluid filled point by point: `state` gives the primitive variables at a cell's centre (z, r).
     ///
     /// - errors: as [`FluidSolver::new`].
-    pub fn from_fn(setup: &FluidSetup, state: impl Fn([f64; 2]) -> Primitive) -> Result<Self, FluidError> {
-        let mixture = Mixture::new(setup.liquid, setup.gas);
-        Self::with(setup, |mesh, field| {
-            for (slot, id) in mesh.tree().leaves().iter().enumerate() {
-                let [rho, mz, mr, energy, phi] = split_block::<N>(field.block_mut(slot));
-                for j in 0..N {
-                    for i in 0..N {
-                        let k = j * N + i;
-                        [rho[k], mz[k], mr[k], energy[k], phi[k]] =
-                            state(mesh.centre(*id, i, j)).to_conserved(&mixture);
-                    }
-                }
-            }
-        })
+    pub fn from_fn(
+        setup: &FluidSetup,
+        state: impl Fn([f64; 2]) -> Primitive + Sync,
+    ) -> Result<Self, FluidError> {
+        Self::with(setup, &|centre, _| state(centre), &|_, _, _| false)
     }
 
-    fn with(setup: &FluidSetup, fill: impl FnOnce(&Mesh<N>, &mut Field)) -> Result<Self, FluidError> {
+    fn with(
+        setup: &FluidSetup,
+        initial: &InitialState<'_>,
+        asks_for_finer: &AsksForFiner<'_>,
+    ) -> Result<Self, FluidError> {
         let Model::SaurelAbgrall = setup.model;
         let kinds = setup.boundaries;
         if kinds.contains(&Boundary::Inflow) && setup.inflow.is_none() {
             return Err(FluidError::NoInflow);
         }
         let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
-        let mesh = Mesh::<N>::uniform(setup.domain, setup.coarsest, setup.levels, periodic)?;
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let mut state = Field::zeros(mesh.blocks(), N * N, COUNT);
-        fill(&mesh, &mut state);
-
-        let along = Side::ALL.map(|side| edge_states(&mesh, &state, &mixture, side));
-        let mut wall_first = vec![usize::MAX; mesh.blocks()];
-        let mut faces = 0;
-        if kinds[Side::ZMin as usize] == Boundary::Interface {
-            for slot in mesh.blocks_along(Side::ZMin) {
-                wall_first[slot] = faces;
-                faces += N;
+        let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales };
+        let scratch = ScratchPool::new(BlockScratch::new);
+        let (mesh, state) = match &setup.adaptation {
+            None => {
+                let mesh = Mesh::<N>::uniform(setup.domain, setup.coarsest, setup.levels, periodic)?;
+                let mut state = Field::zeros(mesh.blocks(), N * N, COUNT);
+                crate::fill::fill(&mesh, &mixture, &mut state, initial);
+                (mesh, state)
             }
-        }
+            Some(adaptation) => {
+                crate::adapt::initial_mesh(setup, periodic, adaptation, &analysis, initial, asks_for_finer)?
+            }
+        };
+        // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
+        let sides = SideStates::new(&mesh, |centre, widths| {
+            Primitive::from_conserved(initial(centre, widths).to_conserved(&mixture), &mixture)
+        });
         let mut solver = Self {
             reports: vec![BlockReport::default(); mesh.blocks()],
             next: state.clone(),
+            register: Register::new(mesh.blocks()),
             state,
             limiter: setup.limiter,
             riemann: setup.riemann,
-            boundaries: Boundaries::new(kinds, along, setup.inflow.clone()),
-            scratch: ScratchPool::new(BlockScratch::new),
-            wall: vec![WallState::default(); faces],
-            wall_first,
-            wall_blocks: mesh.blocks_along(Side::ZMin),
-            axis_blocks: mesh.blocks_along(Side::RMin),
+            boundaries: Boundaries::new(kinds, sides, setup.inflow.clone()),
+            analysis,
+            adaptation: setup.adaptation.clone(),
+            horizon: Horizon::default(),
+            patches: ScratchPool::new(|| Patch::zeros(COUNT)),
+            scratch,
+            wall: Vec::new(),
+            wall_first: Vec::new(),
+            wall_blocks: Vec::new(),
+            axis_blocks: Vec::new(),
             time: 0.0,
             steps: 0,
+            cell_updates: 0,
             fixups: Fixups::default(),
             ledger: BoundaryLedger::default(),
             mixture,
             mesh,
         };
-        solver.measure_speeds();
+        solver.index_sides();
+        for slot in 0..solver.mesh.blocks() {
+            solver.measure_speeds(slot);
+        }
         solver.check(0.0)?;
         Ok(solver)
+    }
+
+    /// Numbers the faces of the wall to the solid and the blocks along it and along the axis.
+    pub(crate) fn index_sides(&mut self) {
+        self.wall_blocks = self.mesh.blocks_along(Side::ZMin);
+        self.axis_blocks = self.mesh.blocks_along(Side::RMin);
+        self.wall_first = vec![usize::MAX; self.mesh.blocks()];
+        let mut faces = 0;
+        if self.boundaries.kind(Side::ZMin) == Boundary::Interface {
+            for slot in &self.wall_blocks {
+                self.wall_first[*slot] = faces;
+                faces += N;
+            }
+        }
+        self.wall = vec![WallState::default(); faces];
     }
 
     /// The mesh.
@@ -176,6 +226,11 @@ impl<const N: usize> FluidSolver<N> {
     /// Steps made.
     pub fn steps(&self) -> u64 {
         self.steps
+    }
+
+    /// Cells advanced so far, step by step.
+    pub fn cell_updates(&self) -> u64 {
+        self.cell_updates
     }
 
     /// Corrections made so far.
@@ -216,11 +271,16 @@ impl<const N: usize> FluidSolver<N> {
     pub fn step(&mut self, dt: f64) -> Result<(), FluidError> {
         let mut next = std::mem::replace(&mut self.next, Field::zeros(0, 0, 0));
         let mut reports = std::mem::take(&mut self.reports);
+        let mut register = std::mem::replace(&mut self.register, Register::new(0));
         let context = self.context(dt);
-        for_each_block(&mut next, &mut reports, |slot, new, report| {
-            *report = self.scratch.with(|scratch| step_block(&context, slot, new, scratch));
+        for_each_block(&mut next, register.values_mut(), &mut reports, |slot, new, fluxes, report| {
+            *report = self.scratch.with(|scratch| step_block(&context, slot, new, fluxes, scratch));
         });
-        (self.next, self.reports) = (next, reports);
+        let is_due = |slot: usize| reflux::is_due(&self.mesh, slot);
+        for_some_blocks(&mut next, &mut reports, is_due, |slot, new, report| {
+            reflux::correct(&context, &register, slot, new, report);
+        });
+        (self.next, self.reports, self.register) = (next, reports, register);
         std::mem::swap(&mut self.state, &mut self.next);
         if let Err(error) = self.check(self.time + dt) {
             std::mem::swap(&mut self.state, &mut self.next);
@@ -230,6 +290,7 @@ impl<const N: usize> FluidSolver<N> {
         self.account_wall(dt);
         self.time += dt;
         self.steps += 1;
+        self.cell_updates += self.mesh.cells() as u64;
         Ok(())
     }
 
@@ -288,22 +349,20 @@ impl<const N: usize> FluidSolver<N> {
         Ok(())
     }
 
-    /// Speeds of the initial state; later ones come with each step.
-    fn measure_speeds(&mut self) {
-        for slot in 0..self.mesh.blocks() {
-            let mut speeds = [[0.0; 2]; 1].repeat(N * N);
-            for (k, speed) in speeds.iter_mut().enumerate() {
-                let u: [f64; COUNT] = std::array::from_fn(|c| self.state.component(slot, c)[k]);
-                let w = Primitive::from_conserved(u, &self.mixture);
-                let sound = (self.mixture.stiffness(w.pressure, w.phi) / w.density).sqrt();
-                let sane = w.density > 0.0 && sound < f64::MAX;
-                *speed = if sane { [w.v_z.abs() + sound, w.v_r.abs() + sound] } else { [f64::INFINITY; 2] };
-            }
-            let extremes = &mut self.reports[slot].extremes;
-            extremes.speed_z = speeds.iter().fold(0.0, |m, s| m.max(s[0]));
-            extremes.speed_r = speeds.iter().fold(0.0, |m, s| m.max(s[1]));
-            extremes.phi = maximum(self.state.component(slot, crate::state::conserved::PHI));
+    /// Speeds in a block of the initial state or one that is new; else they come with each step.
+    pub(crate) fn measure_speeds(&mut self, slot: usize) {
+        let mut extremes = Extremes::default();
+        for k in 0..N * N {
+            let u: [f64; COUNT] = std::array::from_fn(|c| self.state.component(slot, c)[k]);
+            let w = Primitive::from_conserved(u, &self.mixture);
+            let sound = (self.mixture.stiffness(w.pressure, w.phi) / w.density).sqrt();
+            let sane = w.density > 0.0 && sound < f64::MAX;
+            let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
+            extremes.speed_z = extremes.speed_z.max(speed(w.v_z));
+            extremes.speed_r = extremes.speed_r.max(speed(w.v_r));
         }
+        extremes.phi = maximum(self.state.component(slot, crate::state::conserved::PHI));
+        self.reports[slot].extremes = extremes;
     }
 
     /// Mean pressure of the last step on each face of z_min, in the order of r, Pa.
@@ -318,27 +377,4 @@ impl<const N: usize> FluidSolver<N> {
     pub(crate) fn largest_phi(&self, slot: usize) -> f64 {
         self.reports[slot].extremes.phi
     }
-}
-
-/// The states of the cells along one side of the domain, in order.
-fn edge_states<const N: usize>(
-    mesh: &Mesh<N>,
-    state: &Field,
-    mixture: &Mixture,
-    side: Side,
-) -> Vec<Primitive> {
-    let mut states = Vec::new();
-    for slot in mesh.blocks_along(side) {
-        for along in 0..N {
-            let (i, j) = match side {
-                Side::ZMin => (0, along),
-                Side::ZMax => (N - 1, along),
-                Side::RMin => (along, 0),
-                Side::RMax => (along, N - 1),
-            };
-            let u = std::array::from_fn(|c| state.component(slot, c)[j * N + i]);
-            states.push(Primitive::from_conserved(u, mixture));
-        }
-    }
-    states
 }

@@ -1,6 +1,6 @@
 //! Where the cells lie: a domain, its coarsest grid and the tree of blocks over it.
 
-use crate::{BlockId, GHOSTS, Geometry, Neighbour, Offset, Padded, Quadtree, Side};
+use crate::{BlockId, GHOSTS, Geometry, Neighbour, Padded, Quadtree, Side};
 
 /// The rectangle that a medium fills.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +57,20 @@ impl<const N: usize> Mesh<N> {
         levels: u8,
         periodic: [bool; 2],
     ) -> Result<Self, MeshError> {
+        Self::on_level(domain, coarsest, levels, levels, periodic)
+    }
+
+    /// A mesh whose leaves all lie on `level`, or on that of the roots if it is finer, and which may be refined
+    /// up to the level `levels`.
+    ///
+    /// - errors: as [`Mesh::uniform`].
+    pub fn on_level(
+        domain: Domain,
+        coarsest: [usize; 2],
+        level: u8,
+        levels: u8,
+        periodic: [bool; 2],
+    ) -> Result<Self, MeshError> {
         for (axis, cells) in ["z", "r"].into_iter().zip(coarsest) {
             let cells = cells << levels;
             if cells == 0 || !cells.is_multiple_of(N) {
@@ -68,18 +82,29 @@ impl<const N: usize> Mesh<N> {
         let whole = |level: &u8| coarsest.iter().all(|cells| (cells << level).is_multiple_of(N));
         let root_level = (0..=levels).find(whole).expect("the finest level is whole");
         let roots = coarsest.map(|cells| u32::try_from((cells << root_level) / N).expect("fits 32 bits"));
-        let tree = Quadtree::uniform(root_level, roots, levels, periodic);
+        let level = level.clamp(root_level, levels);
+        let tree = Quadtree::uniform(root_level, roots, level, levels, periodic);
         Ok(Self { domain, coarsest, tree, generation: 0 })
+    }
+
+    /// The same domain under other leaves.
+    pub(crate) fn with_leaves(&self, leaves: Vec<BlockId>) -> Self {
+        Self {
+            domain: self.domain,
+            coarsest: self.coarsest,
+            tree: self.tree.with_leaves(leaves),
+            generation: self.generation + 1,
+        }
+    }
+
+    /// A number that grows whenever the leaves change.
+    pub fn generation(&self) -> u64 {
+        self.generation
     }
 
     /// The domain.
     pub fn domain(&self) -> &Domain {
         &self.domain
-    }
-
-    /// A number that changes whenever the mesh does.
-    pub fn generation(&self) -> u64 {
-        self.generation
     }
 
     /// The tree of blocks.
@@ -131,6 +156,20 @@ impl<const N: usize> Mesh<N> {
         }
     }
 
+    /// The share of a cell's volume that lies in its lower half along r: ½ − h/(4r) with h the width of its
+    /// children and r its centre; planar ½.
+    ///
+    /// - `fine`: the level of the children; `j`: the row of the cell, counted from the domain's r_min.
+    pub(crate) fn lower_share(&self, fine: u8, j: i64) -> f64 {
+        match self.domain.geometry {
+            Geometry::Planar => 0.5,
+            Geometry::Axisymmetric => {
+                let h = self.widths(fine)[1];
+                0.5 - h / (4.0 * (self.domain.r[0] + (2.0 * j as f64 + 1.0) * h))
+            }
+        }
+    }
+
     /// Volume of a cell of row `j` of a block: ‖V‖ = r_j h_r h_z (per radian), planar h_r h_z; paper eq. (23).
     pub fn volume(&self, id: BlockId, j: usize) -> f64 {
         let [hz, hr] = self.widths(id.level);
@@ -152,10 +191,7 @@ impl<const N: usize> Mesh<N> {
 
     /// Slots of the blocks that touch a side of the domain, ordered along that side.
     pub fn blocks_along(&self, side: Side) -> Vec<usize> {
-        let offset = side_offset(side);
-        let k = Offset::ALL.iter().position(|o| *o == offset).expect("sides are among the offsets");
-        let mut slots: Vec<usize> =
-            (0..self.blocks()).filter(|slot| self.tree.neighbours(*slot)[k] == Neighbour::Boundary).collect();
+        let mut slots: Vec<usize> = (0..self.blocks()).filter(|slot| self.touches(*slot, side)).collect();
         slots.sort_by(|a, b| {
             let along = |slot: usize| {
                 let origin = self.origin(self.tree.leaves()[slot]);
@@ -168,19 +204,13 @@ impl<const N: usize> Mesh<N> {
 
     /// Whether the block in `slot` touches a side of the domain.
     pub fn touches(&self, slot: usize, side: Side) -> bool {
-        let k = match side {
-            Side::ZMin => 0,
-            Side::ZMax => 1,
-            Side::RMin => 2,
-            Side::RMax => 3,
-        };
-        self.tree.neighbours(slot)[k] == Neighbour::Boundary
+        self.tree.neighbours(slot)[side as usize] == Neighbour::Boundary
     }
 
     /// The cell (slot, i, j) that contains a point of the closed domain; `None` outside it.
     pub fn locate(&self, point: [f64; 2]) -> Option<(usize, usize, usize)> {
-        let level = self.tree.leaves()[0].level;
-        let widths = self.widths(level);
+        let finest = self.tree.finest();
+        let widths = self.widths(finest);
         let ranges = [self.domain.z, self.domain.r];
         let mut index = [0usize; 2];
         for axis in 0..2 {
@@ -188,20 +218,14 @@ impl<const N: usize> Mesh<N> {
             if !(point[axis] >= low && point[axis] <= high) {
                 return None;
             }
-            let count = self.coarsest[axis] << level;
+            let count = self.coarsest[axis] << finest;
             index[axis] = (((point[axis] - low) / widths[axis]) as usize).min(count - 1);
         }
-        let id = BlockId { level, i: (index[0] / N) as u32, j: (index[1] / N) as u32 };
-        self.tree.slot(id).map(|slot| (slot, index[0] % N, index[1] % N))
-    }
-}
-
-fn side_offset(side: Side) -> Offset {
-    match side {
-        Side::ZMin => Offset { i: -1, j: 0 },
-        Side::ZMax => Offset { i: 1, j: 0 },
-        Side::RMin => Offset { i: 0, j: -1 },
-        Side::RMax => Offset { i: 0, j: 1 },
+        let place = BlockId { level: finest, i: (index[0] / N) as u32, j: (index[1] / N) as u32 };
+        let slot = self.tree.covering(place)?;
+        let leaf = self.tree.leaves()[slot];
+        let [i, j] = index.map(|index| index >> (finest - leaf.level));
+        Some((slot, i - leaf.i as usize * N, j - leaf.j as usize * N))
     }
 }
 

@@ -6,6 +6,8 @@
 //! - [`Field`]: the cell averages of all blocks, one allocation.
 //! - [`Padded`]: one block with its ghost layers, assembled in scratch; what a kernel works on.
 //! - [`limited_differences`]: the slopes of a linear reconstruction.
+//! - [`Multiresolution`], [`Patch`], [`Adapted`]: details, the mesh they ask for, and fields carried over to it.
+//! - [`FluxRegister`]: what passes a face between levels.
 //!
 //! Only the cells themselves are stored; ghost layers are assembled block by block into scratch. So every
 //! block can be advanced in parallel from the old field into the new one without locks or `unsafe`, and
@@ -17,21 +19,35 @@ mod adaptation;
 mod domain;
 mod field;
 mod geometry;
+mod ghosts;
+mod horizon;
 mod limiter;
+mod marks;
+mod multiresolution;
 mod padded;
 mod parallel;
+mod patch;
 mod quadtree;
 mod reduce;
+mod register;
+mod remap;
+mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use domain::{Domain, Mesh, MeshError};
 pub use field::Field;
 pub use geometry::{Geometry, Side};
+pub use horizon::Horizon;
 pub use limiter::{Limiter, limited_differences};
+pub use multiresolution::{MOST_COMPONENTS, Multiresolution};
 pub use padded::{GHOSTS, Padded};
-pub use parallel::{ScratchPool, for_each_block};
+pub use parallel::{ScratchPool, for_each_block, for_some_blocks};
+pub use patch::Patch;
 pub use quadtree::{BlockId, Neighbour, Offset, Quadtree};
 pub use reduce::maximum;
+pub use register::FluxRegister;
+pub use remap::{Adapted, Origin};
+pub use side_states::SideStates;
 
 /// Cells along one side of a block, unless a test chooses otherwise.
 pub const BLOCK: usize = 16;

@@ -1,6 +1,7 @@
 //! One block with its ghost layers.
 
-use crate::{Field, Neighbour, Offset, Quadtree, Side};
+use crate::ghosts::{copy, hold, mirror, project_finer};
+use crate::{Field, Mesh, Multiresolution, Neighbour, Offset, Patch, Side};
 
 /// Ghost layers on each side: what a slope in a neighbouring cell needs.
 pub const GHOSTS: usize = 2;
@@ -32,6 +33,16 @@ impl<const N: usize> Padded<N> {
         ((j + GHOSTS as isize) * Self::STRIDE as isize + i + GHOSTS as isize) as usize
     }
 
+    /// Numbers per cell.
+    pub fn components(&self) -> usize {
+        self.components
+    }
+
+    /// Everything, component after component.
+    pub(crate) fn as_slice(&self) -> &[f64] {
+        &self.data
+    }
+
     /// One component.
     pub fn component(&self, component: usize) -> &[f64] {
         &self.data[component * Self::LEN..(component + 1) * Self::LEN]
@@ -56,12 +67,22 @@ impl<const N: usize> Padded<N> {
         std::array::from_fn(|_| rows.next().expect("asserted above"))
     }
 
-    /// Copies the block in `slot` and the ghost cells that other blocks own. Ghosts beyond the domain are set
-    /// to the nearest cell of the block, so that they hold finite numbers; [`Padded::reflect`] and
+    /// Copies the block in `slot` and fills the ghost cells that other blocks own: cells of the same level are
+    /// copied, finer ones projected, and from coarser ones predicted. Ghosts beyond the domain are set to the
+    /// nearest cell of the block, so that they hold finite numbers; [`Padded::reflect`] and
     /// [`Padded::extrapolate`] overwrite them.
-    pub fn assemble(&mut self, tree: &Quadtree, field: &Field, slot: usize) {
+    ///
+    /// - `rule`: what prediction must know of the fields; `patch`: scratch for it.
+    pub fn assemble(
+        &mut self,
+        mesh: &Mesh<N>,
+        field: &Field,
+        slot: usize,
+        rule: &impl Multiresolution,
+        patch: &mut Patch<N>,
+    ) {
         debug_assert_eq!(field.components(), self.components, "same components");
-        let neighbours = tree.neighbours(slot);
+        let neighbours = mesh.tree().neighbours(slot);
         for component in 0..self.components {
             let own = field.component(slot, component);
             let row = self.component_mut(component);
@@ -71,10 +92,21 @@ impl<const N: usize> Padded<N> {
             }
             for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
                 match neighbour {
-                    Neighbour::Same(other) => {
-                        copy_ghosts::<N>(row, field.component(*other, component), *offset)
+                    Neighbour::Same(other) => copy::<N>(row, field.component(*other, component), *offset),
+                    Neighbour::Finer(children) => {
+                        let fine = children.map(|child| field.component(child, component));
+                        project_finer(row, fine, *offset, mesh, mesh.tree().leaves()[slot]);
                     }
-                    Neighbour::Boundary => hold_ghosts::<N>(row, *offset),
+                    Neighbour::Boundary => hold::<N>(row, *offset),
+                    Neighbour::Coarser(_) => {}
+                }
+            }
+        }
+        if neighbours.iter().any(|neighbour| matches!(neighbour, Neighbour::Coarser(_))) {
+            patch.fill(mesh, field, slot, rule);
+            for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
+                if matches!(neighbour, Neighbour::Coarser(_)) {
+                    patch.predict_ghosts(*offset, rule, self);
                 }
             }
         }
@@ -82,28 +114,14 @@ impl<const N: usize> Padded<N> {
 
     /// Fills the ghosts beyond a side of one component by reflection, times `parity` (±1).
     pub fn reflect(row: &mut [f64], side: Side, parity: f64) {
-        for layer in 0..GHOSTS as isize {
-            for along in ghost_range::<N>() {
-                let (ghost, inner) = match side {
-                    Side::ZMin => (Self::index(-1 - layer, along), Self::index(layer, along)),
-                    Side::ZMax => {
-                        (Self::index(N as isize + layer, along), Self::index(N as isize - 1 - layer, along))
-                    }
-                    Side::RMin => (Self::index(along, -1 - layer), Self::index(along, layer)),
-                    Side::RMax => {
-                        (Self::index(along, N as isize + layer), Self::index(along, N as isize - 1 - layer))
-                    }
-                };
-                row[ghost] = parity * row[inner];
-            }
-        }
+        mirror(row, N, side, parity);
     }
 
     /// Fills the ghosts beyond a side of one component by continuing the smaller of the two inner differences
     /// (none where they differ in sign): the boundary cell then has a slope made from its own side only.
     pub fn extrapolate(row: &mut [f64], side: Side) {
         let n = N as isize;
-        for along in ghost_range::<N>() {
+        for along in crate::ghosts::ghost_range(N) {
             let at = |depth: isize| match side {
                 Side::ZMin => Self::index(depth, along),
                 Side::ZMax => Self::index(n - 1 - depth, along),
@@ -118,49 +136,14 @@ impl<const N: usize> Padded<N> {
     }
 }
 
-/// The cells along a side, ghosts at its ends included.
-fn ghost_range<const N: usize>() -> std::ops::Range<isize> {
-    -(GHOSTS as isize)..(N + GHOSTS) as isize
-}
-
-/// The range of cells that the ghosts in one direction cover, and the shift from them into their owner.
-fn ghost_span<const N: usize>(step: i8) -> (std::ops::Range<isize>, isize) {
-    let (n, g) = (N as isize, GHOSTS as isize);
-    match step {
-        -1 => (-g..0, n),
-        0 => (0..n, 0),
-        _ => (n..n + g, -n),
-    }
-}
-
-fn copy_ghosts<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset) {
-    let (span_i, shift_i) = ghost_span::<N>(offset.i);
-    let (span_j, shift_j) = ghost_span::<N>(offset.j);
-    let width = span_i.len();
-    for j in span_j {
-        let to = Padded::<N>::index(span_i.start, j);
-        let from = (j + shift_j) as usize * N + (span_i.start + shift_i) as usize;
-        row[to..to + width].copy_from_slice(&owner[from..from + width]);
-    }
-}
-
-fn hold_ghosts<const N: usize>(row: &mut [f64], offset: Offset) {
-    let (span_i, _) = ghost_span::<N>(offset.i);
-    let (span_j, _) = ghost_span::<N>(offset.j);
-    let last = N as isize - 1;
-    for j in span_j {
-        for i in span_i.clone() {
-            row[Padded::<N>::index(i, j)] = row[Padded::<N>::index(i.clamp(0, last), j.clamp(0, last))];
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Domain, Geometry};
 
     /// A field whose values name their place: 1000·(global j) + global i.
-    fn labelled<const N: usize>(tree: &Quadtree, extent: [usize; 2]) -> Field {
+    fn labelled<const N: usize>(mesh: &Mesh<N>, extent: [usize; 2]) -> Field {
+        let tree = mesh.tree();
         let mut field = Field::zeros(tree.leaves().len(), N * N, 1);
         for (slot, id) in tree.leaves().iter().enumerate() {
             for j in 0..N {
@@ -176,11 +159,12 @@ mod tests {
 
     #[test]
     fn ghosts_are_the_cells_of_the_neighbours_corners_included() {
-        let tree = Quadtree::uniform(0, [3, 3], 0, [true, true]);
-        let field = labelled::<8>(&tree, [24, 24]);
-        let mut padded = Padded::<8>::zeros(1);
-        for (slot, id) in tree.leaves().iter().enumerate() {
-            padded.assemble(&tree, &field, slot);
+        let domain = Domain { geometry: Geometry::Planar, z: [0.0, 1.0], r: [0.0, 1.0] };
+        let mesh = Mesh::<8>::uniform(domain, [24, 24], 0, [true, true]).unwrap();
+        let field = labelled(&mesh, [24, 24]);
+        let (mut padded, mut patch) = (Padded::<8>::zeros(1), Patch::zeros(1));
+        for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+            padded.assemble(&mesh, &field, slot, &crate::multiresolution::Plain, &mut patch);
             for j in -2..10_isize {
                 for i in -2..10_isize {
                     let gi = (id.i as isize * 8 + i).rem_euclid(24);

@@ -1,5 +1,7 @@
 //! The quadtree of blocks: leaves in Morton order and their neighbours.
 
+use rayon::prelude::*;
+
 /// A block's place: its refinement level and its position in units of blocks on that level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct BlockId {
@@ -41,42 +43,84 @@ pub enum Neighbour {
     Boundary,
     /// A leaf of the same level, by its slot.
     Same(usize),
+    /// A leaf one level coarser.
+    Coarser(usize),
+    /// The leaves one level finer that touch: beyond a side the two along it in ascending order, beyond a corner
+    /// the one there, twice.
+    Finer([usize; 2]),
 }
 
 /// A forest of quadtrees over a grid of root blocks, seen through its leaves.
 ///
 /// Leaves are kept in Morton order; the position of a leaf in that order is its *slot*, and all data of
-/// blocks are laid out by slot. A coarsest grid smaller than a block only means that the roots sit higher
-/// than level 0.
+/// blocks are laid out by slot. Neighbours, corners included, differ by one level at most. A coarsest grid
+/// smaller than a block only means that the roots sit higher than level 0.
 #[derive(Clone, Debug)]
 pub struct Quadtree {
     root_level: u8,
+    finest: u8,
     roots: [u32; 2],
     periodic: [bool; 2],
     leaves: Vec<BlockId>,
+    keys: Vec<u64>,
     neighbours: Vec<[Neighbour; 8]>,
 }
 
 impl Quadtree {
-    /// A tree whose leaves all lie on `level`.
+    /// A tree whose leaves all lie on `level`, which may be refined up to level `finest`.
     ///
     /// - `roots`: blocks along z and r on `root_level`; `periodic`: whether opposite sides meet, per axis.
-    /// - panics if `level < root_level` or a count is zero: the caller's arithmetic is wrong.
-    pub fn uniform(root_level: u8, roots: [u32; 2], level: u8, periodic: [bool; 2]) -> Self {
-        assert!(level >= root_level && roots[0] > 0 && roots[1] > 0, "no blocks");
+    /// - panics if the levels do not ascend or a count is zero: the caller's arithmetic is wrong.
+    pub fn uniform(root_level: u8, roots: [u32; 2], level: u8, finest: u8, periodic: [bool; 2]) -> Self {
+        assert!(root_level <= level && level <= finest && roots[0] > 0 && roots[1] > 0, "no blocks");
         let scale = 1u32 << (level - root_level);
         let mut leaves: Vec<BlockId> = (0..roots[1] * scale)
             .flat_map(|j| (0..roots[0] * scale).map(move |i| BlockId { level, i, j }))
             .collect();
-        leaves.sort_by_key(morton);
-        let mut tree = Self { root_level, roots, periodic, leaves, neighbours: Vec::new() };
-        tree.neighbours = tree.leaves.iter().map(|id| Offset::ALL.map(|o| tree.find(*id, o))).collect();
+        leaves.sort_by_key(|id| morton(id, finest));
+        let base = Self {
+            root_level,
+            finest,
+            roots,
+            periodic,
+            leaves: Vec::new(),
+            keys: Vec::new(),
+            neighbours: Vec::new(),
+        };
+        base.with_leaves(leaves)
+    }
+
+    /// The same forest with other leaves: in Morton order, without gaps or overlaps, neighbours one level apart
+    /// at most.
+    pub(crate) fn with_leaves(&self, leaves: Vec<BlockId>) -> Self {
+        let keys: Vec<u64> = leaves.iter().map(|id| morton(id, self.finest)).collect();
+        debug_assert!(keys.windows(2).all(|pair| pair[0] < pair[1]), "leaves are in Morton order");
+        let mut tree = Self { leaves, keys, neighbours: Vec::new(), ..self.shell() };
+        tree.neighbours = (tree.leaves.par_iter())
+            .with_min_len(64)
+            .map(|id| Offset::ALL.map(|offset| tree.find(*id, offset)))
+            .collect();
         tree
+    }
+
+    /// The forest without its leaves.
+    fn shell(&self) -> Self {
+        Self { leaves: Vec::new(), keys: Vec::new(), neighbours: Vec::new(), ..*self }
     }
 
     /// The leaves in the order of their slots.
     pub fn leaves(&self) -> &[BlockId] {
         &self.leaves
+    }
+
+    /// The level of the roots: no leaf is coarser.
+    pub fn root_level(&self) -> u8 {
+        self.root_level
+    }
+
+    /// The finest level a leaf may have.
+    pub fn finest(&self) -> u8 {
+        self.finest
     }
 
     /// What lies around the leaf in `slot`, in the order of [`Offset::ALL`].
@@ -91,7 +135,18 @@ impl Quadtree {
 
     /// The slot of a leaf; `None` if there is no such leaf.
     pub fn slot(&self, id: BlockId) -> Option<usize> {
-        self.leaves.binary_search_by_key(&morton(&id), morton).ok()
+        self.covering(id).filter(|slot| self.leaves[*slot] == id)
+    }
+
+    /// The slot of the leaf that is the block `id` or contains it, or the first of those within it; `None`
+    /// outside the domain.
+    pub fn covering(&self, id: BlockId) -> Option<usize> {
+        let extent = self.blocks_on(id.level);
+        if id.i >= extent[0] || id.j >= extent[1] {
+            return None;
+        }
+        // The leaves tile the domain, so one of them holds the first finest block of `id`.
+        self.keys.partition_point(|key| *key <= morton(&id, self.finest)).checked_sub(1)
     }
 
     fn find(&self, id: BlockId, offset: Offset) -> Neighbour {
@@ -110,19 +165,33 @@ impl Quadtree {
             extent[1],
             self.periodic[1],
         ));
-        match there {
-            None => Neighbour::Boundary,
-            Some((i, j)) => {
-                let slot = self.slot(BlockId { level: id.level, i, j });
-                Neighbour::Same(slot.expect("a uniform tree has a leaf wherever the domain is"))
+        let Some((i, j)) = there else { return Neighbour::Boundary };
+        let there = BlockId { level: id.level, i, j };
+        let slot = self.covering(there).expect("the place is within the domain");
+        match self.leaves[slot].level {
+            level if level == id.level => Neighbour::Same(slot),
+            level if level < id.level => Neighbour::Coarser(slot),
+            _ => {
+                // The children on the side that faces this block.
+                let facing = |step: i8, child: u32| match step {
+                    -1 => 1,
+                    1 => 0,
+                    _ => child,
+                };
+                Neighbour::Finer([0, 1].map(|child| {
+                    let (a, b) = (facing(offset.i, child), facing(offset.j, child));
+                    let child = BlockId { level: id.level + 1, i: 2 * i + a, j: 2 * j + b };
+                    self.slot(child).expect("neighbours are one level apart at most")
+                }))
             }
         }
     }
 }
 
-/// The Morton (Z-order) key of a block on its own level: bits of i and j interleaved.
-fn morton(id: &BlockId) -> u64 {
-    spread(id.i) | (spread(id.j) << 1)
+/// The Morton (Z-order) key of a block's first cell on level `finest`: bits of i and j interleaved.
+fn morton(id: &BlockId, finest: u8) -> u64 {
+    let shift = finest - id.level;
+    spread(id.i << shift) | (spread(id.j << shift) << 1)
 }
 
 fn spread(x: u32) -> u64 {
@@ -141,7 +210,7 @@ mod tests {
     #[test]
     fn every_leaf_is_its_neighbours_neighbour() {
         for periodic in [[false, false], [true, false], [true, true]] {
-            let tree = Quadtree::uniform(2, [3, 2], 4, periodic);
+            let tree = Quadtree::uniform(2, [3, 2], 4, 4, periodic);
             assert_eq!(tree.leaves().len(), 12 * 8);
             for slot in 0..tree.leaves().len() {
                 for (k, offset) in Offset::ALL.iter().enumerate() {
@@ -166,7 +235,7 @@ mod tests {
 
     #[test]
     fn slots_follow_morton_order() {
-        let tree = Quadtree::uniform(0, [2, 2], 1, [false, false]);
+        let tree = Quadtree::uniform(0, [2, 2], 1, 1, [false, false]);
         let first: Vec<_> = tree.leaves()[..4].iter().map(|b| (b.i, b.j)).collect();
         assert_eq!(first, [(0, 0), (1, 0), (0, 1), (1, 1)]);
         for (slot, id) in tree.leaves().iter().enumerate() {

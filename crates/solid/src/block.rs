@@ -1,9 +1,11 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
-use mesh::{Field, Limiter, Mesh, Padded, Side, limited_differences};
+use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
 
 use crate::Boundary;
+use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, SurfaceState};
+use crate::reflux::register_stars;
 use crate::rows::{self, Elasticity, FaceRows, Metric, Reconstruction};
 use crate::state::component::{COUNT, S_PHIPHI};
 
@@ -11,6 +13,7 @@ use crate::state::component::{COUNT, S_PHIPHI};
 pub(crate) struct StepContext<'a, const N: usize> {
     pub mesh: &'a Mesh<N>,
     pub elasticity: &'a Elasticity,
+    pub analysis: &'a Analysis,
     pub limiter: Limiter,
     pub boundaries: &'a Boundaries,
     /// The state at the beginning of the step.
@@ -26,6 +29,7 @@ pub(crate) struct StepContext<'a, const N: usize> {
 /// Scratch of one thread.
 pub(crate) struct BlockScratch<const N: usize> {
     pub cells: Padded<N>,
+    pub patch: Patch<N>,
     pub s_z: Padded<N>,
     pub s_r: Padded<N>,
     half: Padded<N>,
@@ -40,6 +44,7 @@ impl<const N: usize> BlockScratch<N> {
         let len = Padded::<N>::LEN;
         Self {
             cells: Padded::zeros(COUNT),
+            patch: Patch::zeros(COUNT),
             s_z: Padded::zeros(COUNT),
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
@@ -72,8 +77,8 @@ pub(crate) fn reconstruct<const N: usize>(
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
-    let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
-    cells.assemble(ctx.mesh.tree(), ctx.old, slot);
+    let BlockScratch { cells, patch, s_z, s_r, inverse_r, .. } = scratch;
+    cells.assemble(ctx.mesh, ctx.old, slot, ctx.analysis, patch);
     ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     // No derivative of the hoop stress enters.
     for component in 0..S_PHIPHI {
@@ -88,11 +93,12 @@ pub(crate) fn reconstruct<const N: usize>(
     ctx.mesh.inverse_radii(ctx.mesh.tree().leaves()[slot], inverse_r);
 }
 
-/// Advances one block by one step from `ctx.old` into `new`.
+/// Advances one block by one step from `ctx.old` into `new`; `stars` is its part of the flux register.
 pub(crate) fn step_block<const N: usize>(
     ctx: &StepContext<'_, N>,
     slot: usize,
     new: &mut [f64],
+    stars: &mut [f64],
     scratch: &mut BlockScratch<N>,
 ) -> BlockReport {
     let stride = Padded::<N>::STRIDE;
@@ -130,6 +136,7 @@ pub(crate) fn step_block<const N: usize>(
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     rows::faces(&along_r, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
 
+    register_stars(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, stars);
     let metric =
         Metric { n: N, stride, origin: Padded::<N>::index(0, 0), inverse_h, inverse_r: &scratch.inverse_r };
     let old = ctx.old.block(slot);
@@ -148,6 +155,26 @@ pub(crate) fn step_block<const N: usize>(
         mises_squared: largest,
         yielded: if largest > ctx.yield_squared { yielded_volume(ctx, slot, &scratch.mises) } else { 0.0 },
         inflow: boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces),
+    }
+}
+
+/// Reports the von Mises stresses of a block anew.
+pub(crate) fn report_stresses<const N: usize>(
+    ctx: &StepContext<'_, N>,
+    slot: usize,
+    block: &[f64],
+    report: &mut BlockReport,
+) {
+    let id = ctx.mesh.tree().leaves()[slot];
+    (report.mises_squared, report.yielded) = (0.0, 0.0);
+    for k in 0..N * N {
+        let at = |c: usize| block[c * N * N + k];
+        let mises = crate::von_mises(at(2), at(3), at(4), at(5));
+        let squared = if mises < f64::MAX { mises * mises } else { f64::INFINITY };
+        report.mises_squared = report.mises_squared.max(squared);
+        if squared > ctx.yield_squared {
+            report.yielded += ctx.mesh.volume(id, k / N);
+        }
     }
 }
 

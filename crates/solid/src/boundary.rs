@@ -1,6 +1,6 @@
 //! What bounds the solid: ghost cells before the slopes, outer states and interface tractions after them.
 
-use mesh::{Mesh, Padded, Side};
+use mesh::{Mesh, Padded, Side, SideStates};
 
 use crate::riemann::{Outward, star_interface};
 use crate::rows::{Elasticity, FaceRows, Reconstruction};
@@ -11,8 +11,8 @@ use crate::{Boundary, ElasticState};
 #[derive(Clone, Debug)]
 pub(crate) struct Boundaries {
     kinds: [Boundary; 4],
-    /// The initial state in the cells along each side, on the finest level.
-    initial: [Vec<ElasticState>; 4],
+    /// The initial state in the cells along each side.
+    initial: SideStates<ElasticState>,
 }
 
 /// The state of the surface under the fluid during a step: means over it of p*, v* and p*v*.
@@ -27,7 +27,7 @@ pub struct SurfaceState {
 }
 
 impl Boundaries {
-    pub fn new(kinds: [Boundary; 4], initial: [Vec<ElasticState>; 4]) -> Self {
+    pub fn new(kinds: [Boundary; 4], initial: SideStates<ElasticState>) -> Self {
         Self { kinds, initial }
     }
 
@@ -87,7 +87,7 @@ impl Boundaries {
                     }
                     continue;
                 }
-                let state = self.initial[side as usize][first + along].to_array();
+                let state = self.initial.at(side, id.level, first + along).to_array();
                 for (component, value) in state.into_iter().enumerate() {
                     half.component_mut(component)[k] = value;
                     let slopes = if across_z { &mut *s_z } else { &mut *s_r };
@@ -120,7 +120,7 @@ impl Boundaries {
 }
 
 /// The sign with which a component is reflected at a side; `None` where it is extrapolated.
-fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64> {
+pub(crate) fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64> {
     let across_z = matches!(side, Side::ZMin | Side::ZMax);
     let v_normal = if across_z { V_Z } else { V_R };
     let s_normal = S_NORMAL[usize::from(!across_z)];

@@ -4,6 +4,8 @@
 
 #![forbid(unsafe_code)]
 
+mod adapt;
+mod analysis;
 mod block;
 mod boundary;
 mod diagnostics;
@@ -12,6 +14,7 @@ mod error;
 mod material;
 mod options;
 mod participant;
+mod reflux;
 pub mod riemann;
 mod rows;
 mod solver;

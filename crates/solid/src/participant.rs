@@ -15,6 +15,8 @@ use crate::{SolidSolver, SurfaceState};
 #[derive(Clone, Debug, Default)]
 pub struct Interface {
     edges: Vec<f64>,
+    /// The mesh whose faces the edges are of.
+    generation: Option<u64>,
     refinement: CommonRefinement,
     stars: Vec<InterfaceStar>,
     traces: Vec<SurfaceTrace>,
@@ -210,8 +212,9 @@ impl<const N: usize> SolidSolver<N> {
     }
 
     fn refine(&self, interface: &mut Interface, fluid_edges: &[f64]) {
-        if interface.edges.len() != self.surface.len() {
+        if interface.generation != Some(self.mesh.generation()) {
             interface.edges = self.surface_edges();
+            interface.generation = Some(self.mesh.generation());
         }
         let domain = self.mesh.domain();
         let axisymmetric = domain.geometry == Geometry::Axisymmetric;

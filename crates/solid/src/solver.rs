@@ -1,9 +1,14 @@
 //! `SolidSolver`: owns the mesh and the fields, and advances them.
 
-use mesh::{Domain, Field, Limiter, Mesh, ScratchPool, Side, for_each_block};
+use mesh::{
+    Adaptation, Domain, Field, Horizon, Limiter, Mesh, Patch, ScratchPool, Side, SideStates, for_each_block,
+    for_some_blocks,
+};
 
-use crate::block::{BlockReport, BlockScratch, StepContext, step_block};
+use crate::analysis::Analysis;
+use crate::block::{BlockReport, BlockScratch, StepContext, report_stresses, step_block};
 use crate::boundary::{Boundaries, SurfaceState};
+use crate::reflux::{self, Register};
 use crate::rows::Elasticity;
 use crate::state::component::COUNT;
 use crate::{Boundary, ElasticState, SolidError, WaveSpeeds};
@@ -25,6 +30,10 @@ pub struct SolidSetup {
     pub limiter: Limiter,
     /// What bounds it, in the order of [`Side::ALL`].
     pub boundaries: [Boundary; 4],
+    /// How the grid adapts; all cells are on the finest level without.
+    pub adaptation: Option<Adaptation>,
+    /// Reference value of stresses, by which adaptation measures details, Pa; velocities count with ρ̄c₁.
+    pub stress_scale: f64,
 }
 
 /// What crossed the sides of the domain since the start, inwards, in the order of [`Side::ALL`].
@@ -47,15 +56,20 @@ pub struct SolidSolver<const N: usize> {
     pub(crate) elasticity: Elasticity,
     pub(crate) boundaries: Boundaries,
     pub(crate) state: Field,
-    next: Field,
-    reports: Vec<BlockReport>,
+    pub(crate) next: Field,
+    pub(crate) register: Register<N>,
+    pub(crate) reports: Vec<BlockReport>,
+    pub(crate) analysis: Analysis,
+    pub(crate) horizon: Horizon,
+    pub(crate) patches: ScratchPool<Patch<N>>,
     pub(crate) scratch: ScratchPool<BlockScratch<N>>,
     pub(crate) surface: Vec<SurfaceState>,
     pub(crate) surface_first: Vec<usize>,
     /// Slots of the blocks along z_max, in order.
     pub(crate) surface_blocks: Vec<usize>,
-    time: f64,
+    pub(crate) time: f64,
     steps: u64,
+    cell_updates: u64,
     ledger: BoundaryLedger,
 }
 
@@ -64,49 +78,56 @@ impl<const N: usize> SolidSolver<N> {
     /// the current rayon pool's threads.
     ///
     /// - errors: [`SolidError::Mesh`], [`SolidError::NotFinite`].
-    pub fn new(setup: SolidSetup, initial: impl Fn([f64; 2]) -> ElasticState) -> Result<Self, SolidError> {
+    pub fn new(
+        setup: SolidSetup,
+        initial: impl Fn([f64; 2]) -> ElasticState + Sync,
+    ) -> Result<Self, SolidError> {
         let kinds = setup.boundaries;
-        let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
-        let mesh = Mesh::<N>::uniform(setup.domain, setup.coarsest, setup.levels, periodic)?;
-        let mut state = Field::zeros(mesh.blocks(), N * N, COUNT);
-        for (slot, id) in mesh.tree().leaves().iter().enumerate() {
-            let block = state.block_mut(slot);
-            for j in 0..N {
-                for i in 0..N {
-                    for (c, value) in initial(mesh.centre(*id, i, j)).to_array().into_iter().enumerate() {
-                        block[(c * N + j) * N + i] = value;
-                    }
-                }
-            }
-        }
-        let along = Side::ALL.map(|side| edge_states(&mesh, &state, side));
-        let mut surface_first = vec![usize::MAX; mesh.blocks()];
-        let mut faces = 0;
-        if kinds[Side::ZMax as usize] == Boundary::Interface {
-            for slot in mesh.blocks_along(Side::ZMax) {
-                surface_first[slot] = faces;
-                faces += N;
-            }
-        }
+        let analysis =
+            Analysis { boundaries: kinds, stress_scale: setup.stress_scale, impedance: setup.speeds.z1() };
+        let (mesh, state) = crate::adapt::initial_mesh(&setup, &analysis, &initial)?;
+        let sides = SideStates::new(&mesh, |centre, _| initial(centre));
         let mut solver = Self {
             elasticity: Elasticity::new(setup.speeds),
-            boundaries: Boundaries::new(kinds, along),
+            boundaries: Boundaries::new(kinds, sides),
             reports: vec![BlockReport::default(); mesh.blocks()],
             next: state.clone(),
+            register: Register::new(mesh.blocks()),
             state,
+            analysis,
+            horizon: Horizon::default(),
+            patches: ScratchPool::new(|| Patch::zeros(COUNT)),
             scratch: ScratchPool::new(BlockScratch::new),
-            surface: vec![SurfaceState::default(); faces],
-            surface_first,
-            surface_blocks: mesh.blocks_along(Side::ZMax),
+            surface: Vec::new(),
+            surface_first: Vec::new(),
+            surface_blocks: Vec::new(),
             time: 0.0,
             steps: 0,
+            cell_updates: 0,
             ledger: BoundaryLedger::default(),
             setup,
             mesh,
         };
-        solver.measure();
+        solver.index_surface();
+        for slot in 0..solver.mesh.blocks() {
+            solver.measure(slot);
+        }
         solver.check(0.0)?;
         Ok(solver)
+    }
+
+    /// Numbers the faces of the surface under the fluid.
+    pub(crate) fn index_surface(&mut self) {
+        self.surface_blocks = self.mesh.blocks_along(Side::ZMax);
+        self.surface_first = vec![usize::MAX; self.mesh.blocks()];
+        let mut faces = 0;
+        if self.boundaries.kind(Side::ZMax) == Boundary::Interface {
+            for slot in &self.surface_blocks {
+                self.surface_first[*slot] = faces;
+                faces += N;
+            }
+        }
+        self.surface = vec![SurfaceState::default(); faces];
     }
 
     /// The mesh.
@@ -127,6 +148,11 @@ impl<const N: usize> SolidSolver<N> {
     /// Steps made.
     pub fn steps(&self) -> u64 {
         self.steps
+    }
+
+    /// Cells advanced so far, step by step.
+    pub fn cell_updates(&self) -> u64 {
+        self.cell_updates
     }
 
     /// What crossed the domain's sides so far.
@@ -152,6 +178,7 @@ impl<const N: usize> SolidSolver<N> {
         StepContext {
             mesh: &self.mesh,
             elasticity: &self.elasticity,
+            analysis: &self.analysis,
             limiter: self.setup.limiter,
             boundaries: &self.boundaries,
             old: &self.state,
@@ -169,11 +196,16 @@ impl<const N: usize> SolidSolver<N> {
     pub fn step(&mut self, dt: f64) -> Result<(), SolidError> {
         let mut next = std::mem::replace(&mut self.next, Field::zeros(0, 0, 0));
         let mut reports = std::mem::take(&mut self.reports);
+        let mut register = std::mem::replace(&mut self.register, Register::new(0));
         let context = self.context(dt);
-        for_each_block(&mut next, &mut reports, |slot, new, report| {
-            *report = self.scratch.with(|scratch| step_block(&context, slot, new, scratch));
+        for_each_block(&mut next, register.values_mut(), &mut reports, |slot, new, stars, report| {
+            *report = self.scratch.with(|scratch| step_block(&context, slot, new, stars, scratch));
         });
-        (self.next, self.reports) = (next, reports);
+        let is_due = |slot: usize| reflux::is_due(&self.mesh, slot);
+        for_some_blocks(&mut next, &mut reports, is_due, |slot, new, report| {
+            reflux::correct(&context, &register, slot, new, report);
+        });
+        (self.next, self.reports, self.register) = (next, reports, register);
         std::mem::swap(&mut self.state, &mut self.next);
         if let Err(error) = self.check(self.time + dt) {
             std::mem::swap(&mut self.state, &mut self.next);
@@ -188,6 +220,7 @@ impl<const N: usize> SolidSolver<N> {
         }
         self.time += dt;
         self.steps += 1;
+        self.cell_updates += self.mesh.cells() as u64;
         Ok(())
     }
 
@@ -219,39 +252,10 @@ impl<const N: usize> SolidSolver<N> {
         Ok(())
     }
 
-    /// Stresses of the initial state; later ones come with each step.
-    fn measure(&mut self) {
-        for slot in 0..self.mesh.blocks() {
-            let id = self.mesh.tree().leaves()[slot];
-            let report = &mut self.reports[slot];
-            for k in 0..N * N {
-                let [_, _, zz, zr, rr, pp] = std::array::from_fn(|c| self.state.component(slot, c)[k]);
-                let mises = crate::von_mises(zz, zr, rr, pp);
-                let squared = mises * mises;
-                report.mises_squared =
-                    report.mises_squared.max(if squared < f64::MAX { squared } else { f64::INFINITY });
-                if mises > self.setup.yield_strength {
-                    report.yielded += self.mesh.volume(id, k / N);
-                }
-            }
-        }
+    /// Stresses in a block of the initial state or one that is new; else they come with each step.
+    pub(crate) fn measure(&mut self, slot: usize) {
+        let mut report = self.reports[slot];
+        report_stresses(&self.context(0.0), slot, self.state.block(slot), &mut report);
+        self.reports[slot] = report;
     }
-}
-
-/// The states of the cells along one side of the domain, in order.
-fn edge_states<const N: usize>(mesh: &Mesh<N>, state: &Field, side: Side) -> Vec<ElasticState> {
-    let mut states = Vec::new();
-    for slot in mesh.blocks_along(side) {
-        for along in 0..N {
-            let (i, j) = match side {
-                Side::ZMin => (0, along),
-                Side::ZMax => (N - 1, along),
-                Side::RMin => (along, 0),
-                Side::RMax => (along, N - 1),
-            };
-            let w = std::array::from_fn(|c| state.component(slot, c)[j * N + i]);
-            states.push(ElasticState::from_array(w));
-        }
-    }
-    states
 }

@@ -30,6 +30,8 @@ pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -
         limiter: Limiter::Mc,
         boundaries,
         inflow: None,
+        adaptation: None,
+        scales: fluid::Scales { pressure: 1e6, density: 1e3 },
     }
 }
 

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that fails to step has failed")]
 
+mod adaptation;
 mod boundaries;
 mod bubble;
 mod contact;

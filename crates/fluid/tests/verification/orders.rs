@@ -19,7 +19,7 @@ type Quantity<const K: usize> = (&'static str, fn(Primitive) -> [f64; K]);
 fn check<const K: usize>(
     what: &str,
     base: impl Fn([usize; 2]) -> FluidSetup,
-    exact: impl Fn([f64; 2], f64) -> Primitive,
+    exact: impl Fn([f64; 2], f64) -> Primitive + Sync,
     end: f64,
     quantities: [Quantity<K>; 2],
 ) {

@@ -24,7 +24,7 @@ fn start(i: usize, j: usize) -> Primitive {
 /// The state after 50 steps by cell, `[j][i]`.
 fn after<const N: usize>(
     setup: &FluidSetup,
-    start: impl Fn(usize, usize) -> Primitive,
+    start: impl Fn(usize, usize) -> Primitive + Sync,
 ) -> Vec<Vec<[f64; 5]>> {
     let index = |x: f64| (x * CELLS as f64) as usize;
     let mut fluid = FluidSolver::<N>::from_fn(setup, |[z, r]| start(index(z), index(r))).unwrap();

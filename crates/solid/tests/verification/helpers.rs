@@ -26,6 +26,8 @@ pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -
         yield_strength: f64::INFINITY,
         limiter: Limiter::Mc,
         boundaries,
+        adaptation: None,
+        stress_scale: 1e6,
     }
 }
 

@@ -16,7 +16,7 @@ const GRIDS: [usize; 3] = [32, 64, 128];
 fn check(
     what: &str,
     base: impl Fn(usize) -> SolidSetup,
-    exact: impl Fn([f64; 2], f64) -> ElasticState,
+    exact: impl Fn([f64; 2], f64) -> ElasticState + Sync,
     end: f64,
 ) {
     // First order at every extremum with minmod: reported, and still far from a first-order scheme.

@@ -25,7 +25,7 @@ fn start(i: usize, j: usize) -> ElasticState {
 /// The state after 50 steps by cell, `[j][i]`.
 fn after<const N: usize>(
     setup: &SolidSetup,
-    start: impl Fn(usize, usize) -> ElasticState,
+    start: impl Fn(usize, usize) -> ElasticState + Sync,
 ) -> Vec<Vec<[f64; 6]>> {
     let index = |x: f64| (x * CELLS as f64) as usize;
     let mut solid = SolidSolver::<N>::new(setup.clone(), |[z, r]| start(index(z), index(r))).unwrap();

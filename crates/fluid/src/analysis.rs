@@ -1,0 +1,151 @@
+//! What multiresolution analysis must know of a fluid: which details matter, which predictions are admissible.
+
+use mesh::{MOST_COMPONENTS, Multiresolution, Side};
+
+use crate::state::conserved::{COUNT, ENERGY, PHI, RHO};
+use crate::state::primitive;
+use crate::{Boundary, Mixture, Primitive};
+
+/// Reference values of the thresholds of adaptation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// Pressure, Pa; velocities count with the local impedance ρc as pressures.
+    pub pressure: f64,
+    /// Density, kg/m³.
+    pub density: f64,
+}
+
+/// The fluid's part in multiresolution analysis.
+#[derive(Clone, Debug)]
+pub(crate) struct Analysis {
+    pub mixture: Mixture,
+    pub boundaries: [Boundary; 4],
+    pub scales: Scales,
+}
+
+/// A gas fraction may leave [0, 1] by this much in prediction; more is limited. Traces of gas that advection left
+/// behind would else switch prediction off.
+const PHI_SLACK: f64 = 1e-7;
+
+/// Relative deviations of ρ and ρE below which no child can be inadmissible.
+const HARMLESS: f64 = 1e-2;
+
+impl Multiresolution for Analysis {
+    fn parity(&self, side: Side, component: usize) -> Option<f64> {
+        let normal_momentum = if matches!(side, Side::ZMin | Side::ZMax) { 1 } else { 2 };
+        match self.boundaries[side as usize] {
+            Boundary::Axis | Boundary::Wall => Some(if component == normal_momentum { -1.0 } else { 1.0 }),
+            _ => None,
+        }
+    }
+
+    fn share(&self, mean: &[f64], deviations: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
+        let (rho, energy, phi) = (mean[RHO], mean[ENERGY], mean[PHI]);
+        let harmless = |d: &[f64; MOST_COMPONENTS]| {
+            d[PHI] == 0.0 && d[RHO].abs() < HARMLESS * rho && d[ENERGY].abs() < HARMLESS * energy
+        };
+        if deviations.iter().all(harmless) {
+            return 1.0;
+        }
+        let mut share: f64 = 1.0;
+        for d in deviations {
+            if d[RHO] < -0.5 * rho {
+                share = share.min(-0.5 * rho / d[RHO]);
+            }
+            let room = if d[PHI] > 0.0 { 1.0 + PHI_SLACK - phi } else { phi + PHI_SLACK };
+            if d[PHI].abs() > room {
+                share = share.min(room.max(0.0) / d[PHI].abs());
+            }
+        }
+        let above_floor = |d: &[f64; MOST_COMPONENTS]| {
+            let at = |c: usize| mean[c] + share * d[c];
+            let [_, _, _, p, phi] = primitive([at(0), at(1), at(2), at(3), at(4)], &self.mixture);
+            let own = self.pressure(mean);
+            let floor = self.mixture.pressure_floor(phi);
+            p - floor > 0.2 * (own - self.mixture.pressure_floor(mean[PHI])).min(own - floor)
+        };
+        if deviations.iter().all(above_floor) { share } else { 0.0 }
+    }
+
+    /// The largest of |δp|/p_ref, ρc|δv|/p_ref, |δρ|/ρ_ref and |δφ|, with the linearised
+    /// β₁ δp = δ(ρE) − v·δ(ρv) + ½v² δρ − (β₁'p + β₂') δφ and ρ δv = δ(ρv) − v δρ.
+    fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
+        let u: [f64; COUNT] = [cell[0], cell[1], cell[2], cell[3], cell[4]];
+        let [rho, v_z, v_r, p, phi] = primitive(u, &self.mixture);
+        let [d_rho, d_mz, d_mr, d_energy, d_phi] = [detail[0], detail[1], detail[2], detail[3], detail[4]];
+        let beta1 = self.mixture.beta1(phi);
+        let per_phi = (self.mixture.beta1(1.0) - self.mixture.beta1(0.0)) * p + self.mixture.beta2(1.0)
+            - self.mixture.beta2(0.0);
+        let kinetic = 0.5 * (v_z * v_z + v_r * v_r);
+        let d_p = (d_energy - v_z * d_mz - v_r * d_mr + kinetic * d_rho - per_phi * d_phi) / beta1;
+        let d_v = (d_mz - v_z * d_rho).hypot(d_mr - v_r * d_rho) / rho;
+        let impedance = (rho * self.mixture.stiffness(p, phi)).max(0.0).sqrt();
+        let by_pressure = d_p.abs().max(impedance * d_v) / self.scales.pressure;
+        by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs())
+    }
+}
+
+impl Analysis {
+    fn pressure(&self, mean: &[f64]) -> f64 {
+        let u: [f64; COUNT] = [mean[0], mean[1], mean[2], mean[3], mean[4]];
+        Primitive::from_conserved(u, &self.mixture).pressure
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::StiffenedGas;
+
+    fn analysis() -> Analysis {
+        Analysis {
+            mixture: Mixture::new(
+                StiffenedGas { gamma: 7.15, pi: 3e8 },
+                StiffenedGas { gamma: 1.4, pi: 0.0 },
+            ),
+            boundaries: [Boundary::Wall; 4],
+            scales: Scales { pressure: 1e7, density: 1000.0 },
+        }
+    }
+
+    fn conserved(density: f64, velocity: f64, pressure: f64, phi: f64) -> [f64; 5] {
+        let mixture = analysis().mixture;
+        Primitive { density, v_z: velocity, v_r: 0.0, pressure, phi }.to_conserved(&mixture)
+    }
+
+    #[test]
+    fn a_small_change_of_pressure_counts_relative_to_its_reference() {
+        let (a, b) = (conserved(1000.0, 20.0, 5e7, 0.0), conserved(1000.0, 20.0, 5e7 + 1e4, 0.0));
+        let detail: Vec<f64> = a.iter().zip(b).map(|(a, b)| b - a).collect();
+        approx::assert_relative_eq!(analysis().significance(&a, &detail), 1e-3, max_relative = 1e-9);
+        // A velocity counts as the pressure of the wave that has it.
+        let b = conserved(1000.0, 20.01, 5e7, 0.0);
+        let detail: Vec<f64> = a.iter().zip(b).map(|(a, b)| b - a).collect();
+        let impedance = (1000.0 * 7.15 * 3.5e8_f64).sqrt();
+        approx::assert_relative_eq!(
+            analysis().significance(&a, &detail),
+            0.01 * impedance / 1e7,
+            max_relative = 1e-3
+        );
+    }
+
+    #[test]
+    fn children_of_gas_beside_liquid_stay_gas_and_positive() {
+        let (gas, liquid) = (conserved(0.0266, 0.0, 2118.0, 1.0), conserved(1000.0, 0.0, 5e7, 0.0));
+        let mut deviations = [[0.0; MOST_COMPONENTS]; 4];
+        for (child, d) in deviations.iter_mut().enumerate() {
+            for c in 0..5 {
+                d[c] = if child % 2 == 0 { -0.125 } else { 0.125 } * (liquid[c] - gas[c]);
+            }
+        }
+        for mean in [gas, liquid] {
+            let share = analysis().share(&mean, &deviations);
+            for d in &deviations {
+                let child: [f64; 5] = std::array::from_fn(|c| mean[c] + share * d[c]);
+                let w = Primitive::from_conserved(child, &analysis().mixture);
+                assert!(w.density > 0.0 && w.pressure > 100.0, "{w:?}");
+                assert!((-1e-6..=1.0 + 1e-6).contains(&w.phi), "{w:?}");
+            }
+        }
+    }
+}

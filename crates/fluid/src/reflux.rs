@@ -1,0 +1,138 @@
+//! Flux correction at level jumps: the finer side's fluxes pass for both.
+
+use mesh::{FluxRegister, Mesh, Padded, Side};
+
+use crate::Mixture;
+use crate::block::{BlockReport, StepContext};
+use crate::rows::FaceRows;
+use crate::state::conserved::COUNT;
+use crate::state::primitive;
+
+/// What is registered of a face: mass flux, normal momentum it carries, pressure, tangential momentum flux, energy
+/// flux, velocity u_f of the face, u_f φ_f.
+///
+/// The last two carry the gas fraction in its non-conservative form (27): u_f (φ_f − φ) is linear in both, and at
+/// uniform p and u the energy flux is the same linear function of φ_f and ρ_f on every face, so means of fine
+/// faces keep uniform p and u as single faces do.
+pub(crate) const QUANTITIES: usize = 7;
+
+/// The fluid's register.
+pub(crate) type Register<const N: usize> = FluxRegister<N, QUANTITIES>;
+
+/// The face beyond which a side's neighbour begins, as the flat index of the cell below it.
+fn face<const N: usize>(side: Side, along: usize) -> usize {
+    let (n, along) = (N as isize, along as isize);
+    match side {
+        Side::ZMin => Padded::<N>::index(-1, along),
+        Side::ZMax => Padded::<N>::index(n - 1, along),
+        Side::RMin => Padded::<N>::index(along, -1),
+        Side::RMax => Padded::<N>::index(along, n - 1),
+    }
+}
+
+/// Keeps the fluxes on those sides of a block that meet another level.
+pub(crate) fn register_fluxes<const N: usize>(
+    mesh: &Mesh<N>,
+    slot: usize,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+    values: &mut [f64],
+) {
+    for side in Side::ALL {
+        if !Register::<N>::is_needed(mesh, slot, side) {
+            continue;
+        }
+        let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
+        let rows = Register::<N>::rows(values, side);
+        for along in 0..N {
+            let k = face::<N>(side, along);
+            let velocity = faces.velocity[k];
+            let quantities = [
+                faces.mass[k],
+                faces.mass[k] * velocity,
+                faces.pressure[k],
+                faces.shear[k],
+                faces.energy[k],
+                velocity,
+                velocity * faces.phi[k],
+            ];
+            for (quantity, value) in quantities.into_iter().enumerate() {
+                rows[quantity * N + along] = value;
+            }
+        }
+    }
+}
+
+/// Whether a block has finer neighbours beside it.
+pub(crate) fn is_due<const N: usize>(mesh: &Mesh<N>, slot: usize) -> bool {
+    Side::ALL.into_iter().any(|side| Register::<N>::is_corrected(mesh, slot, side))
+}
+
+/// Corrects the cells of a block along its finer neighbours, after all blocks have made their step.
+///
+/// The formulas are those of `update.rs` for one face; the pressure floor holds for the corrected cells, too.
+pub(crate) fn correct<const N: usize>(
+    ctx: &StepContext<'_, N>,
+    register: &Register<N>,
+    slot: usize,
+    new: &mut [f64],
+    report: &mut BlockReport<N>,
+) {
+    let id = ctx.mesh.tree().leaves()[slot];
+    let [h_z, h_r] = ctx.mesh.widths(id.level);
+    let (dt_z, dt_r) = (ctx.dt / h_z, ctx.dt / h_r);
+    let r_low = ctx.mesh.origin(id)[1];
+    for side in Side::ALL {
+        if !Register::<N>::is_corrected(ctx.mesh, slot, side) {
+            continue;
+        }
+        let sign = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
+        for along in 0..N {
+            let (i, j) = match side {
+                Side::ZMin => (0, along),
+                Side::ZMax => (N - 1, along),
+                Side::RMin => (along, 0),
+                Side::RMax => (along, N - 1),
+            };
+            let cell = |c: usize| (c * N + j) * N + i;
+            let [mass, carried, pressure, shear, energy, velocity, velocity_phi] =
+                register.difference(ctx.mesh, slot, side, along);
+            let phi = velocity_phi - velocity * ctx.old.block(slot)[cell(4)];
+            let changes = if matches!(side, Side::ZMin | Side::ZMax) {
+                [mass, carried + pressure, shear, energy, phi].map(|change| sign * dt_z * change)
+            } else {
+                let face = r_low + if side == Side::RMin { 0.0 } else { N as f64 * h_r };
+                let weight = ctx.mesh.weight(face) / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
+                let weighted = [mass, shear, carried, energy, phi].map(|change| weight * change);
+                let with_pressure =
+                    [weighted[0], weighted[1], weighted[2] + pressure, weighted[3], weighted[4]];
+                with_pressure.map(|change| sign * dt_r * change)
+            };
+            let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
+            let added = settle(&mut u, ctx.mixture, report);
+            if added > 0.0 {
+                report.floored += 1;
+                report.floor_energy += added * ctx.mesh.volume(id, j);
+            }
+            for (c, value) in u.into_iter().enumerate() {
+                new[cell(c)] = value;
+            }
+        }
+    }
+}
+
+/// Applies the pressure floor to a corrected cell and takes its speeds into the report; returns the energy added.
+fn settle<const N: usize>(u: &mut [f64; COUNT], mixture: &Mixture, report: &mut BlockReport<N>) -> f64 {
+    let [rho, v_z, v_r, p, phi] = primitive(*u, mixture);
+    let lifted = p.max(mixture.pressure_floor(phi));
+    let added = mixture.beta1(phi) * (lifted - p);
+    u[3] += added;
+    let sound = (mixture.stiffness(lifted, phi) / rho).sqrt();
+    let sane = (rho > 0.0) & (sound < f64::MAX);
+    let extremes = &mut report.extremes;
+    let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
+    extremes.speed_z = extremes.speed_z.max(speed(v_z));
+    extremes.speed_r = extremes.speed_r.max(speed(v_r));
+    extremes.phi = extremes.phi.max(phi);
+    added
+}

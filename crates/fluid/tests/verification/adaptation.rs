@@ -1,0 +1,116 @@
+//! Adaptive grids: what must be exact on them, and how little a level jump may be seen.
+
+use fluid::{
+    Boundary, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Primitive, Region, RiemannSolver,
+    Scales, Shape,
+};
+use mesh::{Adaptation, Domain, Geometry, LevelBound, Zone};
+
+use crate::helpers::*;
+
+fn adaptation(epsilon: f64, bounds: Vec<LevelBound>) -> Option<Adaptation> {
+    Some(Adaptation { epsilon, every: 4, bounds })
+}
+
+/// Steps with adaptation; returns how often the mesh changed and the fewest and most cells.
+fn run_adaptively<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) -> (usize, [usize; 2]) {
+    let (mut changes, mut cells) = (0, [usize::MAX, 0]);
+    for _ in 0..steps {
+        let dt = fluid.time_step_limit(CFL);
+        fluid.step(dt).unwrap();
+        changes += usize::from(fluid.adapt_if_due(dt));
+        let count = fluid.mesh().cells();
+        cells = [cells[0].min(count), cells[1].max(count)];
+    }
+    (changes, cells)
+}
+
+/// A bubble of radius 0.3 carried at 200 m/s through 2 × 1 m on three levels.
+fn carried(geometry: Geometry, riemann: RiemannSolver, bounds: Vec<LevelBound>, steps: usize) -> [f64; 2] {
+    let axis = if geometry == AXIAL { Boundary::Axis } else { Boundary::Wall };
+    let sides = [Boundary::Periodic, Boundary::Periodic, axis, Boundary::Wall];
+    let setup = FluidSetup {
+        domain: Domain { geometry, z: [0.0, 2.0], r: [0.0, 1.0] },
+        riemann,
+        levels: 2,
+        adaptation: adaptation(1e-2, bounds),
+        scales: Scales { pressure: 1e5, density: 1e3 },
+        ..setup(geometry, [32, 16], sides)
+    };
+    let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [200.0, 0.0] };
+    let initial = InitialCondition {
+        ambient: state(Phase::Liquid, 1000.0),
+        regions: vec![Region {
+            shape: Shape::Sphere { centre: [1.0, 0.0], radius: 0.3 },
+            state: state(Phase::Gas, 1.2),
+        }],
+        pulses: vec![],
+    };
+    let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
+    let (changes, cells) = run_adaptively(&mut fluid, steps);
+    let mut worst = [0.0_f64; 2];
+    each_cell(&fluid, |_, _, w| {
+        worst[0] = worst[0].max((w.pressure / 1e5 - 1.0).abs());
+        worst[1] = worst[1].max((w.v_z - 200.0).hypot(w.v_r) / 200.0);
+        assert!(w.phi > -1e-6 && w.phi < 1.0 + 1e-6, "{w:?}");
+    });
+    eprintln!(
+        "{geometry:?} {riemann:?} {steps} steps, {changes} changes, {cells:?} cells: dp/p, du/u {:.1e} {:.1e}",
+        worst[0], worst[1]
+    );
+    assert!(changes > 10, "the mesh follows the bubble");
+    worst
+}
+
+#[test]
+fn uniform_pressure_and_velocity_stay_so_while_the_mesh_changes() {
+    // The bubble also passes through a strip that is kept coarse, so that the gas meets level jumps.
+    let strip = LevelBound { zone: Zone::Box { z: [0.2, 0.6], r: [0.0, 1.0] }, at_least: 0, at_most: 1 };
+    for geometry in [AXIAL, PLANAR] {
+        for bounds in [vec![], vec![strip]] {
+            let worst = carried(geometry, RiemannSolver::Hllc, bounds, 2000);
+            assert!(worst[0] < 1e-9 && worst[1] < 1e-9);
+        }
+    }
+}
+
+/// A box of `level`s: everything within `z` is on the fine one, the rest on the coarse one.
+fn jump(fine: [f64; 2]) -> Vec<LevelBound> {
+    let everywhere = Zone::Box { z: [-9.0, 9.0], r: [-9.0, 9.0] };
+    vec![
+        LevelBound { zone: everywhere, at_least: 0, at_most: 0 },
+        LevelBound { zone: Zone::Box { z: fine, r: [-9.0, 9.0] }, at_least: 1, at_most: 1 },
+    ]
+}
+
+#[test]
+fn what_is_in_a_closed_box_stays_there() {
+    for (geometry, sides) in [(AXIAL, CYLINDER), (PLANAR, PERIODIC), (PLANAR, WALLS)] {
+        let setup = FluidSetup {
+            levels: 3,
+            adaptation: adaptation(2e-2, vec![]),
+            scales: Scales { pressure: 1e7, density: 1e3 },
+            ..setup(geometry, [8, 8], sides)
+        };
+        let initial = |[z, r]: [f64; 2]| {
+            let d = (z - 0.4).hypot(r - 0.3) / 0.1;
+            Primitive { v_z: 5.0, pressure: 5e7 * (1.0 + (-d * d).exp()), ..still(5e7) }
+        };
+        let mut fluid = FluidSolver::<8>::from_fn(&setup, initial).unwrap();
+        let before = fluid.totals();
+        let (changes, cells) = run_adaptively(&mut fluid, 1000);
+        let after = fluid.totals();
+        let ledger = fluid.ledger();
+        let relative = |a: f64, b: f64, into: &[f64; 4]| (b - a - into.iter().sum::<f64>()).abs() / a.abs();
+        let mass = relative(before.mass, after.mass, &ledger.mass);
+        let energy = relative(before.energy, after.energy, &ledger.energy);
+        // Axial momentum in axial symmetry as in the plane: no geometric term acts on it.
+        let momentum =
+            (after.momentum_z - before.momentum_z - ledger.momentum.iter().sum::<f64>()).abs() / 1e3 / 5.0;
+        eprintln!(
+            "{geometry:?} {sides:?}: {changes} changes, {cells:?} cells, {mass:.1e} {energy:.1e} {momentum:.1e}"
+        );
+        assert!(changes > 5 && cells[0] < cells[1]);
+        assert!(mass < 1e-12 && energy < 1e-12 && momentum < 1e-11);
+    }
+}

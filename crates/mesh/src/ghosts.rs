@@ -1,0 +1,131 @@
+//! Filling the ghost cells of one component: from blocks of the same level, from finer ones, beyond the domain.
+//!
+//! Rows are those of [`crate::Padded`] and [`crate::Patch`]: n × n cells with two layers of ghosts around.
+
+use crate::{BlockId, GHOSTS, Mesh, Offset, Padded, Side};
+
+/// The flat index of cell (i, j) among n × n cells with ghosts.
+#[inline(always)]
+pub(crate) fn index(n: usize, i: isize, j: isize) -> usize {
+    let ghosts = GHOSTS as isize;
+    ((j + ghosts) * (n as isize + 2 * ghosts) + i + ghosts) as usize
+}
+
+/// The cells along a side, ghosts at its ends included.
+pub(crate) fn ghost_range(n: usize) -> std::ops::Range<isize> {
+    -(GHOSTS as isize)..(n + GHOSTS) as isize
+}
+
+/// The range of cells that the ghosts in one direction cover.
+pub(crate) fn ghost_span(n: usize, step: i8) -> std::ops::Range<isize> {
+    let (n, g) = (n as isize, GHOSTS as isize);
+    match step {
+        -1 => -g..0,
+        0 => 0..n,
+        _ => n..n + g,
+    }
+}
+
+/// Copies the ghosts in one direction from the block of the same level that owns them.
+pub(crate) fn copy<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset) {
+    let (span_i, span_j) = (ghost_span(N, offset.i), ghost_span(N, offset.j));
+    let width = span_i.len();
+    let n = N as isize;
+    for j in span_j {
+        let to = Padded::<N>::index(span_i.start, j);
+        let local = (j - isize::from(offset.j) * n) * n + span_i.start - isize::from(offset.i) * n;
+        row[to..to + width].copy_from_slice(&owner[local as usize..local as usize + width]);
+    }
+}
+
+/// Sets the ghosts in one direction to the nearest cell of the block.
+pub(crate) fn hold<const N: usize>(row: &mut [f64], offset: Offset) {
+    let last = N as isize - 1;
+    for j in ghost_span(N, offset.j) {
+        for i in ghost_span(N, offset.i) {
+            row[Padded::<N>::index(i, j)] = row[Padded::<N>::index(i.clamp(0, last), j.clamp(0, last))];
+        }
+    }
+}
+
+/// The mean of four children: along z the plain mean, along r with the lower row's share of the volume. Children
+/// that are equal are their own mean exactly.
+#[inline(always)]
+pub(crate) fn mean([lower, upper]: [[f64; 2]; 2], lower_share: f64) -> f64 {
+    let (low, high) = (0.5 * (lower[0] + lower[1]), 0.5 * (upper[0] + upper[1]));
+    high + lower_share * (low - high)
+}
+
+/// The mean of the 2 × 2 cells of a block whose lower left one is (i, j).
+#[inline(always)]
+pub(crate) fn mean_of_cells<const N: usize>(block: &[f64], i: usize, j: usize, lower_share: f64) -> f64 {
+    let k = j * N + i;
+    mean([[block[k], block[k + 1]], [block[k + N], block[k + N + 1]]], lower_share)
+}
+
+/// The cell (i, j) of a block's neighbour in one direction, from that neighbour's children, one level finer.
+///
+/// - `fine`: the children that touch the block, see [`crate::Neighbour::Finer`]; `i`, `j`: ghost cell of the block.
+#[inline(always)]
+pub(crate) fn finer_cell<const N: usize>(
+    fine: [&[f64]; 2],
+    offset: Offset,
+    i: isize,
+    j: isize,
+    lower_share: f64,
+) -> f64 {
+    let local_i = (i - isize::from(offset.i) * N as isize) as usize;
+    let local_j = (j - isize::from(offset.j) * N as isize) as usize;
+    let (child_i, child_j) = (local_i / (N / 2), local_j / (N / 2));
+    // Beyond a side the two children differ along it; beyond a corner they are the same.
+    let child = if offset.j == 0 { child_j } else { child_i };
+    mean_of_cells::<N>(fine[child], 2 * (local_i % (N / 2)), 2 * (local_j % (N / 2)), lower_share)
+}
+
+/// Projects the ghosts in one direction from blocks one level finer.
+pub(crate) fn project_finer<const N: usize>(
+    row: &mut [f64],
+    fine: [&[f64]; 2],
+    offset: Offset,
+    mesh: &Mesh<N>,
+    id: BlockId,
+) {
+    let first = id.j as i64 * N as i64;
+    for j in ghost_span(N, offset.j) {
+        let share = mesh.lower_share(id.level + 1, first + j as i64);
+        for i in ghost_span(N, offset.i) {
+            row[Padded::<N>::index(i, j)] = finer_cell::<N>(fine, offset, i, j, share);
+        }
+    }
+}
+
+/// The ghost cells beyond a side, `layer` layers from it, and the inner cells at a depth.
+fn across(n: usize, side: Side, depth: isize, along: isize) -> usize {
+    let last = n as isize - 1;
+    match side {
+        Side::ZMin => index(n, depth, along),
+        Side::ZMax => index(n, last - depth, along),
+        Side::RMin => index(n, along, depth),
+        Side::RMax => index(n, along, last - depth),
+    }
+}
+
+/// Fills the ghosts beyond a side by reflection, times `parity` (±1).
+pub(crate) fn mirror(row: &mut [f64], n: usize, side: Side, parity: f64) {
+    for layer in 0..GHOSTS as isize {
+        for along in ghost_range(n) {
+            row[across(n, side, -1 - layer, along)] = parity * row[across(n, side, layer, along)];
+        }
+    }
+}
+
+/// Fills the ghosts beyond a side by the straight line through the two cells next to it. Linear, unlike
+/// [`Padded::extrapolate`]: prediction must be the same linear map for all fields.
+pub(crate) fn continue_line(row: &mut [f64], n: usize, side: Side) {
+    for along in ghost_range(n) {
+        let [first, second] = [row[across(n, side, 0, along)], row[across(n, side, 1, along)]];
+        for layer in 1..=GHOSTS as isize {
+            row[across(n, side, -layer, along)] = first + layer as f64 * (first - second);
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! What multiresolution analysis must know of a solid: which details matter, how fields meet the sides.
+
+use mesh::{MOST_COMPONENTS, Multiresolution, Side};
+
+use crate::Boundary;
+use crate::boundary::parity;
+
+/// The solid's part in multiresolution analysis.
+#[derive(Clone, Debug)]
+pub(crate) struct Analysis {
+    pub boundaries: [Boundary; 4],
+    /// Reference value of the stresses, Pa.
+    pub stress_scale: f64,
+    /// ρ̄c₁, with which velocities count as stresses, Pa s/m.
+    pub impedance: f64,
+}
+
+impl Multiresolution for Analysis {
+    fn parity(&self, side: Side, component: usize) -> Option<f64> {
+        match self.boundaries[side as usize] {
+            Boundary::Periodic => None,
+            kind => parity(kind, side, component),
+        }
+    }
+
+    /// All states are admissible.
+    fn share(&self, _: &[f64], _: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
+        1.0
+    }
+
+    /// The largest of |δσ|/σ_ref over the stresses and ρ̄c₁|δv|/σ_ref.
+    fn significance(&self, _: &[f64], detail: &[f64]) -> f64 {
+        let velocity = self.impedance * detail[0].abs().max(detail[1].abs());
+        detail[2..6].iter().fold(velocity, |largest, stress| stress.abs().max(largest)) / self.stress_scale
+    }
+}
