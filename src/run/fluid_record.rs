@@ -88,7 +88,7 @@ impl FluidRecord {
             peaks: Peaks::default(),
             last_bubble: Bubble::default(),
         };
-        record.cells.start(mesh.cells());
+        record.cells.see(mesh.cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
         record.files.history.flush()?;
@@ -98,7 +98,7 @@ impl FluidRecord {
     /// Takes notice of a finished step.
     pub fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
-        self.cells.step(mesh.cells());
+        self.cells.see(mesh.cells());
         if self.faces.update(mesh.generation(), || solver.wall_edges())
             && let Some(interface) = &mut self.interface
         {
@@ -241,7 +241,7 @@ impl FluidRecord {
         });
         match value {
             Value::Object(mut map) => {
-                map.extend(self.cells.summary("fluid"));
+                map.extend(self.cells.summary("fluid", solver.cell_updates()));
                 map
             }
             _ => unreachable!("an object was written"),

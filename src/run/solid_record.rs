@@ -75,7 +75,7 @@ impl SolidRecord {
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
         };
-        record.cells.start(mesh.cells());
+        record.cells.see(mesh.cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
         record.files.history.flush()?;
@@ -85,7 +85,7 @@ impl SolidRecord {
     /// Takes notice of a finished step.
     pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
-        self.cells.step(mesh.cells());
+        self.cells.see(mesh.cells());
         self.faces.update(mesh.generation(), || solver.surface_edges());
         self.write(solver, plan.dt)?;
         if plan.snapshot {
@@ -188,7 +188,7 @@ impl SolidRecord {
         });
         match value {
             Value::Object(mut map) => {
-                map.extend(self.cells.summary("solid"));
+                map.extend(self.cells.summary("solid", solver.cell_updates()));
                 map
             }
             _ => unreachable!("an object was written"),
