@@ -7,7 +7,7 @@ use fluid::{Phase, PhaseState, PulseShape, Shape};
 use mesh::{BLOCK, Geometry};
 use solid::Material;
 
-use super::format::{duration, hex, mebibytes, si};
+use super::format::{duration, hex, mebibytes, plain, si};
 use super::scales::sound_speed;
 use super::warnings::SAFE_CFL;
 use super::{Case, FluidCase, GridCase, SolidCase};
@@ -140,7 +140,7 @@ fn adaptation(text: &mut String, grid: &GridCase, scales: &[(f64, &str)]) {
     let thresholds: Vec<String> = (scales.iter())
         .map(|(scale, unit)| {
             let [scaled, whole] = [epsilon * scale, *scale]
-                .map(|value| if *unit == "Pa" { si(value, unit) } else { format!("{value:.3e} {unit}") });
+                .map(|value| if *unit == "Pa" { si(value, unit) } else { plain(value, unit) });
             format!("{scaled} ({epsilon:?} of {whole})")
         })
         .collect();

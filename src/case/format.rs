@@ -37,6 +37,17 @@ pub(super) fn si(value: f64, unit: &str) -> String {
     format!("{number} {prefix}{unit}")
 }
 
+/// A value without a prefix, with four digits after the point or, where that says too little or too much, a power of ten.
+pub(super) fn plain(value: f64, unit: &str) -> String {
+    let number = if (0.01..1e5).contains(&value.abs()) {
+        let fixed = format!("{value:.4}");
+        fixed.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        format!("{value:.3e}")
+    };
+    format!("{number} {unit}")
+}
+
 pub(super) fn hex(bytes: &[u8]) -> String {
     bytes.iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
@@ -55,6 +66,9 @@ mod tests {
         assert_eq!(si(1e-3, "m"), "1 mm");
         assert_eq!(si(195.3125e-6, "m"), "195.3 um");
         assert_eq!(si(0.0, "m"), "0 m");
+        assert_eq!(plain(999.9734, "kg/m3"), "999.9734 kg/m3");
+        assert_eq!(plain(1.0, "kg/m3"), "1 kg/m3");
+        assert_eq!(plain(4.7e-6, "kg/m3"), "4.700e-6 kg/m3");
         assert_eq!(duration(30.0), "30 s");
         assert_eq!(duration(3600.0 * 5.0), "5.0 h");
     }

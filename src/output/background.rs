@@ -41,9 +41,16 @@ pub struct Snapshot {
 /// and no more than one takes memory. Dropping it writes what it has, as [`close`](Self::close) does.
 #[derive(Debug)]
 pub struct BackgroundWriter {
-    /// Both are there until the thread is asked to end.
-    thread: Option<(SyncSender<Snapshot>, JoinHandle<Result<(), OutputError>>)>,
+    /// There until the thread is asked to end.
+    thread: Option<Thread>,
     path: std::path::PathBuf,
+}
+
+/// The thread, and the way to it.
+#[derive(Debug)]
+struct Thread {
+    sender: SyncSender<Snapshot>,
+    handle: JoinHandle<Result<(), OutputError>>,
 }
 
 impl BackgroundWriter {
@@ -56,7 +63,7 @@ impl BackgroundWriter {
             .name("snapshots".to_owned())
             .spawn(move || write_all(writer, &receiver))
             .map_err(OutputError::io(&path, "start the thread that writes"))?;
-        Ok(Self { thread: Some((sender, handle)), path })
+        Ok(Self { thread: Some(Thread { sender, handle }), path })
     }
 
     /// Hands a snapshot over, once the one before is in the file.
@@ -64,7 +71,7 @@ impl BackgroundWriter {
     /// - errors: what went wrong with an earlier snapshot; nothing is written after that.
     pub fn append(&mut self, snapshot: Snapshot) -> Result<(), OutputError> {
         let gone = match &self.thread {
-            Some((sender, _)) => sender.send(snapshot).is_err(),
+            Some(Thread { sender, .. }) => sender.send(snapshot).is_err(),
             None => true,
         };
         if !gone {
@@ -78,7 +85,7 @@ impl BackgroundWriter {
     ///
     /// - errors: what went wrong with an earlier snapshot.
     pub fn check(&mut self) -> Result<(), OutputError> {
-        if self.thread.as_ref().is_some_and(|(_, handle)| handle.is_finished()) {
+        if self.thread.as_ref().is_some_and(|thread| thread.handle.is_finished()) {
             self.close()
         } else {
             Ok(())
@@ -89,7 +96,7 @@ impl BackgroundWriter {
     ///
     /// - errors: what went wrong with a snapshot, unless it has been said before.
     pub fn close(&mut self) -> Result<(), OutputError> {
-        let Some((sender, handle)) = self.thread.take() else { return Ok(()) };
+        let Some(Thread { sender, handle }) = self.thread.take() else { return Ok(()) };
         drop(sender);
         handle.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
@@ -97,7 +104,7 @@ impl BackgroundWriter {
 
 impl Drop for BackgroundWriter {
     fn drop(&mut self) {
-        let Some((sender, handle)) = self.thread.take() else { return };
+        let Some(Thread { sender, handle }) = self.thread.take() else { return };
         drop(sender);
         // Who wants to know of errors closes it first.
         if let Ok(Err(error)) = handle.join() {

@@ -201,7 +201,10 @@ impl HistoryFile {
         }
         let start = Instant::now();
         safe_file::update(&self.path, u64::MAX, |copy| {
-            self.write_batch(copy).map_err(OutputError::hdf5(&self.path, "write a batch to"))
+            // The library serves one thread at a time. As one turn the batch waits once for a thread that compresses
+            // snapshots, not at each of its calls.
+            hdf5::sync::sync(|| self.write_batch(copy))
+                .map_err(OutputError::hdf5(&self.path, "write a batch to"))
         })?;
         for series in &mut self.series {
             series.written += series.buffered_rows();
@@ -212,6 +215,7 @@ impl HistoryFile {
         self.pending = false;
         self.last_flush = Instant::now();
         self.last_cost = start.elapsed();
+        tracing::debug!(seconds = self.last_cost.as_secs_f64(), "wrote a batch of histories");
         Ok(())
     }
 

@@ -88,7 +88,7 @@ impl FluidRecord {
             peaks: Peaks::default(),
             last_bubble: Bubble::default(),
         };
-        record.cells.start(mesh.cells());
+        record.cells.see(mesh.cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
         record.files.history.flush()?;
@@ -98,7 +98,7 @@ impl FluidRecord {
     /// Takes notice of a finished step.
     pub fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
-        self.cells.step(mesh.cells());
+        self.cells.see(mesh.cells());
         if self.faces.update(mesh.generation(), || solver.wall_edges())
             && let Some(interface) = &mut self.interface
         {
@@ -193,16 +193,19 @@ impl FluidRecord {
     }
 
     fn snapshot(&mut self, solver: &FluidSolver<BLOCK>) -> Result<(), OutputError> {
-        let mut snapshot = solver.snapshot();
-        self.files.snapshot(solver.time(), solver.mesh(), |name| {
-            std::mem::take(match name {
-                "density" => &mut snapshot.density,
-                "pressure" => &mut snapshot.pressure,
-                "velocity" => &mut snapshot.velocity,
-                "gas_fraction" => &mut snapshot.gas_fraction,
-                "schlieren" => &mut snapshot.schlieren,
-                _ => &mut snapshot.level,
-            })
+        self.files.snapshot(solver.time(), solver.mesh(), |fields| {
+            let mut snapshot = solver.snapshot();
+            let field = |name: &&'static str| {
+                std::mem::take(match *name {
+                    "density" => &mut snapshot.density,
+                    "pressure" => &mut snapshot.pressure,
+                    "velocity" => &mut snapshot.velocity,
+                    "gas_fraction" => &mut snapshot.gas_fraction,
+                    "schlieren" => &mut snapshot.schlieren,
+                    _ => &mut snapshot.level,
+                })
+            };
+            fields.iter().map(field).collect()
         })
     }
 
@@ -238,7 +241,7 @@ impl FluidRecord {
         });
         match value {
             Value::Object(mut map) => {
-                map.extend(self.cells.summary("fluid"));
+                map.extend(self.cells.summary("fluid", solver.cell_updates()));
                 map
             }
             _ => unreachable!("an object was written"),

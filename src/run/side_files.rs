@@ -53,12 +53,12 @@ impl SideFiles {
         Ok(Self { history, snapshots, fields, geometry: None })
     }
 
-    /// Hands a snapshot over to be written: `values` gives each field by its name, cell by cell.
+    /// Hands a snapshot over to be written: `values` gives the fields of these names, cell by cell.
     pub fn snapshot(
         &mut self,
         time: f64,
         mesh: &Mesh<BLOCK>,
-        values: impl FnMut(&'static str) -> Vec<f64>,
+        values: impl FnOnce(&[&'static str]) -> Vec<Vec<f64>>,
     ) -> Result<(), OutputError> {
         let start = Instant::now();
         let mesh_id = mesh.generation();
@@ -67,7 +67,7 @@ impl SideFiles {
             _ => Arc::new(cell_geometry(mesh)),
         };
         self.geometry = Some((mesh_id, Arc::clone(&geometry)));
-        let values = self.fields.iter().copied().map(values).collect();
+        let values = values(&self.fields);
         self.snapshots.append(Snapshot { time, mesh: geometry, mesh_id, values })?;
         tracing::debug!(time, seconds = start.elapsed().as_secs_f64(), "handed a snapshot over");
         Ok(())

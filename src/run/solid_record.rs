@@ -75,7 +75,7 @@ impl SolidRecord {
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
         };
-        record.cells.start(mesh.cells());
+        record.cells.see(mesh.cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
         record.files.history.flush()?;
@@ -85,7 +85,7 @@ impl SolidRecord {
     /// Takes notice of a finished step.
     pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
-        self.cells.step(mesh.cells());
+        self.cells.see(mesh.cells());
         self.faces.update(mesh.generation(), || solver.surface_edges());
         self.write(solver, plan.dt)?;
         if plan.snapshot {
@@ -158,18 +158,21 @@ impl SolidRecord {
     }
 
     fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
-        let mut snapshot = solver.snapshot();
-        self.files.snapshot(solver.time(), solver.mesh(), |name| {
-            std::mem::take(match name {
-                "velocity" => &mut snapshot.velocity,
-                "stress_zz" => &mut snapshot.stress_zz,
-                "stress_zr" => &mut snapshot.stress_zr,
-                "stress_rr" => &mut snapshot.stress_rr,
-                "stress_phiphi" => &mut snapshot.stress_phiphi,
-                "von_mises" => &mut snapshot.von_mises,
-                "yield_function" => &mut snapshot.yield_function,
-                _ => &mut snapshot.level,
-            })
+        self.files.snapshot(solver.time(), solver.mesh(), |fields| {
+            let mut snapshot = solver.snapshot();
+            let field = |name: &&'static str| {
+                std::mem::take(match *name {
+                    "velocity" => &mut snapshot.velocity,
+                    "stress_zz" => &mut snapshot.stress_zz,
+                    "stress_zr" => &mut snapshot.stress_zr,
+                    "stress_rr" => &mut snapshot.stress_rr,
+                    "stress_phiphi" => &mut snapshot.stress_phiphi,
+                    "von_mises" => &mut snapshot.von_mises,
+                    "yield_function" => &mut snapshot.yield_function,
+                    _ => &mut snapshot.level,
+                })
+            };
+            fields.iter().map(field).collect()
         })
     }
 
@@ -185,7 +188,7 @@ impl SolidRecord {
         });
         match value {
             Value::Object(mut map) => {
-                map.extend(self.cells.summary("solid"));
+                map.extend(self.cells.summary("solid", solver.cell_updates()));
                 map
             }
             _ => unreachable!("an object was written"),

@@ -4,12 +4,13 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
 use std::time::Duration;
 
-use cav::output::{Column, HistoryFile, SeriesWriter};
+use cav::output::{BackgroundWriter, Column, HistoryFile, SeriesWriter, Snapshot};
 use hdf5::File;
 
-use crate::snapshots::{FIELDS, Squares, append, check_step};
+use crate::snapshots::{FIELDS, check_step, squares, values};
 
 const ROLE: &str = "CAV_TEST_WRITE_UNTIL_KILLED";
 const KILLS: u64 = 20;
@@ -25,17 +26,20 @@ fn writer_to_be_killed() {
         width,
     });
     let id = history.add_series("", &columns).unwrap();
-    let mut writer = SeriesWriter::create(&directory.join("fluid.vtkhdf"), &FIELDS, 1, &[]).unwrap();
-    let meshes = [Squares::new(30, 20), Squares::new(50, 40)];
-    loop {
+    let writer = SeriesWriter::create(&directory.join("fluid.vtkhdf"), &FIELDS, 1, &[]).unwrap();
+    let mut writer = BackgroundWriter::start(writer).unwrap();
+    let meshes = [squares(30, 20), squares(50, 40)].map(Arc::new);
+    for step in 0.. {
         for _ in 0..20 {
             let row = history.rows(id) as f64;
             history.push(id, &[row; 301]).unwrap();
         }
         history.flush().unwrap();
         // The mesh changes at every third snapshot.
-        let mesh = writer.steps() / 3;
-        append(&mut writer, &meshes[mesh % 2], mesh as u64).unwrap();
+        let mesh = &meshes[step / 3 % 2];
+        let values = values(mesh.quads.len(), step).into();
+        let (time, mesh_id) = (0.5 * step as f64, step as u64 / 3);
+        writer.append(Snapshot { time, mesh: Arc::clone(mesh), mesh_id, values }).unwrap();
     }
 }
 
@@ -51,7 +55,7 @@ fn start_writer(directory: &Path) -> Child {
 
 #[test]
 fn files_of_a_killed_writer_hold_whole_batches() {
-    let meshes = [Squares::new(30, 20), Squares::new(50, 40)];
+    let meshes = [squares(30, 20), squares(50, 40)];
     let (mut rows_in_all, mut steps_in_all) = (0, 0);
     for number in 0..KILLS {
         let directory = tempfile::tempdir().unwrap();

@@ -1,10 +1,17 @@
 //! Snapshots.
 
-use cav::output::{OutputError, SeriesWriter};
+use cav::output::{OutputError, OwnedQuadMesh, SeriesWriter};
 use hdf5::types::{FixedAscii, VarLenUnicode};
 use hdf5::{File, Group};
 
-use crate::snapshots::{FIELDS, Squares, append, check_step, integers};
+use crate::snapshots::{FIELDS, check_step, integers, squares, values};
+
+fn append(writer: &mut SeriesWriter, mesh: &OwnedQuadMesh, mesh_id: u64) -> Result<(), OutputError> {
+    let step = writer.steps();
+    let values = values(mesh.quads.len(), step);
+    let slices: Vec<&[f64]> = values.iter().map(|field| &field[..]).collect();
+    writer.append(0.5 * step as f64, &mesh.view(), mesh_id, &slices)
+}
 
 fn step_count(root: &Group) -> i64 {
     root.group("Steps").unwrap().attr("NSteps").unwrap().read_scalar().unwrap()
@@ -14,21 +21,21 @@ fn step_count(root: &Group) -> i64 {
 fn snapshots_on_a_changing_mesh_are_read_back_by_the_rules_of_the_format() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("fluid.vtkhdf");
-    let (coarse, fine) = (Squares::new(4, 4), Squares::new(8, 8));
+    let (coarse, fine) = (squares(4, 4), squares(8, 8));
     // Mesh 2 is the coarse one again, but under a new number it is a new mesh.
     let meshes = [(&coarse, 0), (&coarse, 0), (&fine, 1), (&fine, 1), (&coarse, 2)];
     for compression in [0, 4] {
         let mut writer =
             SeriesWriter::create(&path, &FIELDS, compression, &[("case_hash", "abc µ")]).unwrap();
-        for (squares, mesh_id) in meshes {
-            append(&mut writer, squares, mesh_id).unwrap();
+        for (mesh, mesh_id) in meshes {
+            append(&mut writer, mesh, mesh_id).unwrap();
         }
         let file = File::open(&path).unwrap();
         let root = file.group("VTKHDF").unwrap();
         assert_eq!(step_count(&root), 5);
         assert_eq!(integers(&root, "NumberOfCells"), [16, 64, 16], "a mesh is stored once");
-        for (step, (squares, _)) in meshes.iter().enumerate() {
-            check_step(&root, step, squares);
+        for (step, (mesh, _)) in meshes.iter().enumerate() {
+            check_step(&root, step, mesh);
         }
         let times: Vec<f64> = root.dataset("Steps/Values").unwrap().read_raw().unwrap();
         assert_eq!(times, [0.0, 0.5, 1.0, 1.5, 2.0]);
@@ -49,18 +56,18 @@ fn snapshots_on_a_changing_mesh_are_read_back_by_the_rules_of_the_format() {
 fn a_file_opened_again_goes_on_where_it_or_an_earlier_snapshot_ends() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("solid.vtkhdf");
-    let (coarse, fine) = (Squares::new(2, 3), Squares::new(5, 4));
+    let (coarse, fine) = (squares(2, 3), squares(5, 4));
     let mut writer = SeriesWriter::create(&path, &FIELDS, 1, &[]).unwrap();
-    for (squares, mesh_id) in [(&coarse, 0), (&fine, 1), (&fine, 1)] {
-        append(&mut writer, squares, mesh_id).unwrap();
+    for (mesh, mesh_id) in [(&coarse, 0), (&fine, 1), (&fine, 1)] {
+        append(&mut writer, mesh, mesh_id).unwrap();
     }
     drop(writer);
 
     let mut writer = SeriesWriter::open(&path).unwrap();
     assert_eq!(writer.steps(), 3);
     append(&mut writer, &coarse, 1).unwrap();
-    for (step, squares) in [&coarse, &fine, &fine, &coarse].into_iter().enumerate() {
-        check_step(&File::open(&path).unwrap().group("VTKHDF").unwrap(), step, squares);
+    for (step, mesh) in [&coarse, &fine, &fine, &coarse].into_iter().enumerate() {
+        check_step(&File::open(&path).unwrap().group("VTKHDF").unwrap(), step, mesh);
     }
 
     writer.truncate(1).unwrap();
@@ -68,8 +75,8 @@ fn a_file_opened_again_goes_on_where_it_or_an_earlier_snapshot_ends() {
     append(&mut writer, &fine, 7).unwrap();
     let root = File::open(&path).unwrap().group("VTKHDF").unwrap();
     assert_eq!(step_count(&root), 3);
-    for (step, squares) in [&coarse, &fine, &fine].into_iter().enumerate() {
-        check_step(&root, step, squares);
+    for (step, mesh) in [&coarse, &fine, &fine].into_iter().enumerate() {
+        check_step(&root, step, mesh);
     }
     assert_eq!(integers(&root, "NumberOfCells"), [6, 20], "the meshes forgotten are overwritten");
 
@@ -83,14 +90,14 @@ fn a_file_opened_again_goes_on_where_it_or_an_earlier_snapshot_ends() {
 fn wrong_lengths_are_refused_and_leave_the_file_as_it_was() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("fluid.vtkhdf");
-    let squares = Squares::new(2, 2);
+    let mesh = squares(2, 2);
     let mut writer = SeriesWriter::create(&path, &FIELDS, 1, &[]).unwrap();
-    append(&mut writer, &squares, 0).unwrap();
+    append(&mut writer, &mesh, 0).unwrap();
     let before = std::fs::read(&path).unwrap();
-    let short = writer.append(1.0, &squares.mesh(), 0, &[&[1.0; 4], &[1.0; 4], &[1.0; 4]]);
+    let short = writer.append(1.0, &mesh.view(), 0, &[&[1.0; 4], &[1.0; 4], &[1.0; 4]]);
     let message = short.unwrap_err().to_string();
     assert!(message.contains("field velocity") && message.contains("12"), "{message}");
-    assert!(writer.append(1.0, &squares.mesh(), 0, &[&[1.0; 4]]).is_err());
+    assert!(writer.append(1.0, &mesh.view(), 0, &[&[1.0; 4]]).is_err());
     assert_eq!(std::fs::read(&path).unwrap(), before);
     assert_eq!(writer.steps(), 1);
 }
@@ -104,7 +111,7 @@ fn a_file_that_cannot_be_made_or_is_gone_is_named() {
     let path = directory.path().join("fluid.vtkhdf");
     let mut writer = SeriesWriter::create(&path, &FIELDS, 1, &[]).unwrap();
     std::fs::remove_file(&path).unwrap();
-    let error = append(&mut writer, &Squares::new(2, 2), 0).unwrap_err();
+    let error = append(&mut writer, &squares(2, 2), 0).unwrap_err();
     assert!(matches!(error, OutputError::Io { .. }) && error.to_string().contains("--out"), "{error}");
     assert!(SeriesWriter::open(&path).is_err());
 }
@@ -114,18 +121,18 @@ fn a_long_file_is_extended_in_place_unless_somebody_reads_it() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("fluid.vtkhdf");
     let inode = || std::os::unix::fs::MetadataExt::ino(&std::fs::metadata(&path).unwrap());
-    let squares = Squares::new(3, 3);
+    let mesh = squares(3, 3);
     let mut writer = SeriesWriter::create(&path, &FIELDS, 1, &[]).unwrap().with_copy_limit(0);
     let first = inode();
-    append(&mut writer, &squares, 0).unwrap();
+    append(&mut writer, &mesh, 0).unwrap();
     assert_eq!(inode(), first, "in place");
 
     let reader = File::open(&path).unwrap();
-    append(&mut writer, &squares, 0).unwrap();
+    append(&mut writer, &mesh, 0).unwrap();
     assert_ne!(inode(), first, "in a copy");
     assert_eq!(step_count(&reader.group("VTKHDF").unwrap()), 1, "the reader is not disturbed");
     drop(reader);
     for step in 0..2 {
-        check_step(&File::open(&path).unwrap().group("VTKHDF").unwrap(), step, &squares);
+        check_step(&File::open(&path).unwrap().group("VTKHDF").unwrap(), step, &mesh);
     }
 }
