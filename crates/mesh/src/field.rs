@@ -1,17 +1,19 @@
 //! Cell averages of several components on all blocks.
 
+use crate::AlignedRow;
+
 /// Cell averages, one allocation, laid out `[slot][component][j][i]` without ghosts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     components: usize,
     cells: usize,
-    data: Vec<f64>,
+    data: AlignedRow,
 }
 
 impl Field {
     /// All zero: `blocks` blocks of `cells` = N² cells with `components` numbers each.
     pub fn zeros(blocks: usize, cells: usize, components: usize) -> Self {
-        Self { components, cells, data: vec![0.0; blocks * cells * components] }
+        Self { components, cells, data: AlignedRow::zeros(blocks * cells * components, 0) }
     }
 
     /// Numbers per cell.

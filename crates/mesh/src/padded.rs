@@ -1,7 +1,7 @@
 //! One block with its ghost layers.
 
-use crate::ghosts::{copy, hold, mirror, project_finer};
-use crate::{Field, Mesh, Multiresolution, Neighbour, Offset, Patch, Side};
+use crate::ghosts::{copy, copy_row, hold, mirror, project_finer};
+use crate::{AlignedRow, Field, Mesh, Multiresolution, Neighbour, Offset, Patch, Side};
 
 /// Ghost layers on each side: what a slope in a neighbouring cell needs.
 pub const GHOSTS: usize = 2;
@@ -13,7 +13,7 @@ pub const GHOSTS: usize = 2;
 #[derive(Clone, Debug)]
 pub struct Padded<const N: usize> {
     components: usize,
-    data: Vec<f64>,
+    data: AlignedRow,
 }
 
 impl<const N: usize> Padded<N> {
@@ -24,7 +24,7 @@ impl<const N: usize> Padded<N> {
 
     /// All zero.
     pub fn zeros(components: usize) -> Self {
-        Self { components, data: vec![0.0; components * Self::LEN] }
+        Self { components, data: AlignedRow::zeros(components * Self::LEN, Self::STRIDE) }
     }
 
     /// Flat index of cell (i, j) of the block; ghosts have i or j in −2..0 and N..N + 2.
@@ -95,7 +95,7 @@ impl<const N: usize> Padded<N> {
             let row = self.component_mut(component);
             for j in 0..N {
                 let at = Self::index(0, j as isize);
-                row[at..at + N].copy_from_slice(&own[j * N..(j + 1) * N]);
+                copy_row::<N>(row, at, own, j * N);
             }
             for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
                 match neighbour {
