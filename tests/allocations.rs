@@ -56,6 +56,7 @@ z = [0.01, 0.06]
 r = [0.0, 0.05]
 cells = [4, 4]
 levels = 4
+adapt = false
 [fluid.liquid]
 gamma = 7.15
 pi = 3e8

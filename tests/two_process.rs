@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-/// A small coupled case: a bubble over steel, 32 × 32 cells a side.
+/// A small coupled case: a bubble over steel, adaptive on three levels, up to 64 × 64 cells a side.
 const SMALL: &str = r#"
 [time]
 end = 4e-5
@@ -16,7 +16,8 @@ snapshots = [1e-5]
 z = [0.01, 0.06]
 r = [0.0, 0.05]
 cells = [4, 4]
-levels = 3
+levels = 4
+adapt_every = 3
 limiter = "minmod"
 [fluid.liquid]
 gamma = 7.15
@@ -39,7 +40,8 @@ pressure = 2118.0
 z = [-0.04, 0.01]
 r = [0.0, 0.05]
 cells = [4, 4]
-levels = 3
+levels = 4
+adapt_every = 3
 limiter = "minmod"
 material = "structural-steel"
 [[probe]]

@@ -1,7 +1,8 @@
 //! What the two sides tell each other: the rows of a frame's payload.
 //!
 //! One round trip a step: the side with the longer step sends its trace on the interface and the trace's rate
-//! of change; the other side meets it in a Riemann problem per common sub-face, advances, and returns the means
+//! of change and slope along the interface; the other side meets it in a Riemann problem per common sub-face,
+//! advances, and returns the means
 //! over the step of p*, v* and p*v* on the faces of the first. All rows are there in every frame, tangential
 //! velocity and shear included, so that a viscous fluid needs no other format.
 
@@ -32,11 +33,17 @@ pub enum TraceRow {
     Gamma,
     /// Its stiffness, Pa.
     Pi,
+    /// ∂p/∂r along the face, Pa/m.
+    PressureSlope,
+    /// ∂v_n/∂r along the face, 1/s.
+    NormalVelocitySlope,
+    /// ∂ρ/∂r along the face, kg/m⁴.
+    DensitySlope,
 }
 
 impl TraceRow {
     /// How many rows a trace frame has.
-    pub const COUNT: usize = 12;
+    pub const COUNT: usize = 15;
 
     /// This row's part of a payload of `count` faces.
     pub fn of(self, payload: &[f64], count: usize) -> &[f64] {

@@ -7,7 +7,7 @@ use iceoryx2::prelude::ZeroCopySend;
 use crate::error::CouplerError;
 
 /// Layout and meaning of [`FrameHeader`]; a change of either counts it up.
-pub const FRAME_VERSION: u32 = 1;
+pub const FRAME_VERSION: u32 = 2;
 
 /// What a frame is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -283,8 +283,8 @@ mod tests {
     #[test]
     fn each_wrong_entry_is_refused_by_its_own_error() {
         assert_eq!(
-            refused(|h| h.version = 2),
-            CouplerError::VersionMismatch { ours: FRAME_VERSION, theirs: 2 }
+            refused(|h| h.version = 1),
+            CouplerError::VersionMismatch { ours: FRAME_VERSION, theirs: 1 }
         );
         assert_eq!(
             refused(|h| h.case_hash[31] = 8),

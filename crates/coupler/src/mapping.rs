@@ -11,6 +11,10 @@ pub struct SubFace {
     pub share_of_first: f64,
     /// Share of the second side's face.
     pub share_of_second: f64,
+    /// Distance of its centroid from that of the first side's face, m; weighted with the shares they add up to zero.
+    pub offset_in_first: f64,
+    /// The same from that of the second side's face, m.
+    pub offset_in_second: f64,
 }
 
 /// All sub-faces, in the order of the radius.
@@ -47,6 +51,14 @@ impl CommonRefinement {
         let area = |low: f64, high: f64| {
             if axisymmetric { 0.5 * (high - low) * (high + low) } else { high - low }
         };
+        // Of the area between two radii.
+        let centroid = |low: f64, high: f64| {
+            if axisymmetric && low + high > 0.0 {
+                2.0 / 3.0 * (low * low + low * high + high * high) / (low + high)
+            } else {
+                0.5 * (low + high)
+            }
+        };
         let (mut a, mut b, mut low) = (0, 0, begin);
         let (mut low_a, mut low_b) = (begin, begin);
         while a < first.len() && b < second.len() {
@@ -57,11 +69,20 @@ impl CommonRefinement {
             let share = |whole_low: f64, whole_high: f64, ends: bool| {
                 if ends && whole_low == low { 1.0 } else { area(low, high) / area(whole_low, whole_high) }
             };
+            let offset = |whole_low: f64, whole_high: f64, ends: bool| {
+                if ends && whole_low == low {
+                    0.0
+                } else {
+                    centroid(low, high) - centroid(whole_low, whole_high)
+                }
+            };
             self.sub_faces.push(SubFace {
                 first: a,
                 second: b,
                 share_of_first: share(low_a, high_a, ends_a),
                 share_of_second: share(low_b, high_b, ends_b),
+                offset_in_first: offset(low_a, high_a, ends_a),
+                offset_in_second: offset(low_b, high_b, ends_b),
             });
             low = high;
             if ends_a {
@@ -143,6 +164,10 @@ mod tests {
                 };
                 let (a, b) = (total(&first, false), total(&second, true));
                 assert!((a - b).abs() <= 1e-14 * a.abs(), "{n}:{m} {a} {b}");
+                // A trace that is linear along a face has that face's value in the mean.
+                let mut moments = vec![0.0_f64; n];
+                map.sub_faces().iter().for_each(|s| moments[s.first] += s.share_of_first * s.offset_in_first);
+                assert!(moments.iter().all(|moment| moment.abs() < 1e-16), "{moments:?}");
                 // Every face has shares that add up to one.
                 let mut shares = vec![0.0; n];
                 map.sub_faces().iter().for_each(|s| shares[s.first] += s.share_of_first);

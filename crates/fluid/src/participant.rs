@@ -67,6 +67,9 @@ impl<const N: usize> FluidSolver<N> {
                     put(TraceRow::PressureRate, face, rate[3]);
                     put(TraceRow::Gamma, face, at.gamma);
                     put(TraceRow::Pi, face, at.pi);
+                    put(TraceRow::PressureSlope, face, keep * d_r[3] * inverse_h[1]);
+                    put(TraceRow::NormalVelocitySlope, face, keep * d_r[1] * inverse_h[1]);
+                    put(TraceRow::DensitySlope, face, keep * d_r[0] * inverse_h[1]);
                 }
             });
         }

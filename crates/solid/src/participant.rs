@@ -36,6 +36,10 @@ pub struct SurfaceTrace {
     pub tangential_velocity: f64,
     /// σ_zr, Pa.
     pub shear: f64,
+    /// ∂(−σ_zz)/∂r along the surface, Pa/m.
+    pub pressure_slope: f64,
+    /// ∂v_z/∂r along the surface, 1/s.
+    pub velocity_slope: f64,
 }
 
 impl Interface {
@@ -99,19 +103,26 @@ impl<const N: usize> SolidSolver<N> {
         let (v, v_rate) = (row(TraceRow::NormalVelocity), row(TraceRow::NormalVelocityRate));
         let (rho, rho_rate) = (row(TraceRow::Density), row(TraceRow::DensityRate));
         let (gamma, pi) = (row(TraceRow::Gamma), row(TraceRow::Pi));
+        let (p_slope, v_slope) = (row(TraceRow::PressureSlope), row(TraceRow::NormalVelocitySlope));
+        let rho_slope = row(TraceRow::DensitySlope);
         interface.stars.clear();
         for sub in interface.refinement.sub_faces() {
-            let f = sub.first;
+            // Traces are linear along a face: a face that meets several of the other side shows each its own part.
+            let (f, x) = (sub.first, sub.offset_in_first);
             let fluid = FluidTrace {
-                pressure: p[f] + half_dt * p_rate[f],
-                velocity: v[f] + half_dt * v_rate[f],
-                density: rho[f] + half_dt * rho_rate[f],
+                pressure: p[f] + half_dt * p_rate[f] + x * p_slope[f],
+                velocity: v[f] + half_dt * v_rate[f] + x * v_slope[f],
+                density: rho[f] + half_dt * rho_rate[f] + x * rho_slope[f],
                 gamma: gamma[f],
                 pi: pi[f],
             };
             let own = &interface.traces[sub.second];
-            let solid =
-                SolidTrace { pressure: own.pressure, velocity: own.velocity, impedance: self.elasticity.z1 };
+            let y = sub.offset_in_second;
+            let solid = SolidTrace {
+                pressure: own.pressure + y * own.pressure_slope,
+                velocity: own.velocity + y * own.velocity_slope,
+                impedance: self.elasticity.z1,
+            };
             let star = match solver {
                 StarSolver::Exact => exact_star(&fluid, &solid),
                 StarSolver::Acoustic => acoustic_star(&fluid, &solid),
@@ -205,6 +216,8 @@ impl<const N: usize> SolidSolver<N> {
                         velocity: trace(V_Z),
                         tangential_velocity: trace(V_R),
                         shear: trace(S_ZR),
+                        pressure_slope: -of(s_r, S_NORMAL[0]) * inverse_h[1],
+                        velocity_slope: d_r[V_Z],
                     });
                 }
             });
