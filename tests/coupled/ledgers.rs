@@ -6,8 +6,8 @@ use crate::harness::{Sides, case};
 const UNIFORM: [&str; 2] = ["cells = [32, 32]", "cells = [32, 48]"];
 /// The same in levels that come and go, on either side as its own waves ask for.
 const ADAPTIVE: [&str; 2] = [
-    "cells = [16, 16]\nlevels = 2\nadapt_every = 3\nepsilon = 2e-2",
-    "cells = [16, 24]\nlevels = 3\nadapt_every = 4\nepsilon = 1e-2",
+    "cells = [16, 16]\nlevels = 2\nadapt_every = 3\nepsilon = 2e-1",
+    "cells = [16, 24]\nlevels = 3\nadapt_every = 4\nepsilon = 2e-1",
 ];
 
 /// A gas bubble that collapses in a closed box over steel.
