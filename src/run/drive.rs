@@ -39,14 +39,14 @@ pub trait Side {
     fn reached(&self) -> (f64, u64);
     /// Where the wall time went.
     fn clock(&self) -> Clock;
-    /// What a progress line says of it; `cells` are its own, `wall` is left at 0.
+    /// What a progress line says of it; `cells` are its own and those of the other side that it knows of, `wall` is
+    /// left at 0.
     fn line(&self) -> ProgressLine;
 }
 
-/// A side's progress since `begin`, with the cells of the other side added.
-fn line(side: &impl Side, other_cells: u64, begin: Instant) -> ProgressLine {
-    let line = side.line();
-    ProgressLine { cells: line.cells + other_cells, wall: begin.elapsed().as_secs_f64(), ..line }
+/// A side's progress since `begin`.
+fn line(side: &impl Side, begin: Instant) -> ProgressLine {
+    ProgressLine { wall: begin.elapsed().as_secs_f64(), ..side.line() }
 }
 
 /// One medium, or a fluid over a rigid wall.
@@ -79,7 +79,7 @@ fn step_alone(
             Err(error) => break Err(error),
             Ok(false) => break Ok(Turn::Over(0)),
             Ok(true) if stop.flags() != 0 => break Ok(Turn::Over(stop.flags())),
-            Ok(true) => on_step(&line(&side, 0, begin)),
+            Ok(true) => on_step(&line(&side, begin)),
         }
     };
     end(&mut side, directory, result, LinkCounters::default(), begin)
@@ -99,7 +99,6 @@ pub fn in_process(
     let mut solid = SolidSide::new(case, solid, Some(directory))?;
     let begin = Instant::now();
     let (mut to_solid, mut to_fluid) = direct_pair(case.hash());
-    let solid_cells = solid.solver().mesh().cells() as u64;
     let mut rounds = || -> Result<Turn, RunError> {
         solid.open(&mut to_fluid, stop)?;
         loop {
@@ -107,7 +106,7 @@ pub fn in_process(
                 solid.turn(&mut to_fluid, stop)?;
                 return Ok(over);
             }
-            on_step(&line(&fluid, solid_cells, begin));
+            on_step(&line(&fluid, begin));
             solid.turn(&mut to_fluid, stop)?;
         }
     };
@@ -159,11 +158,10 @@ pub fn joined(
     let begin = Instant::now();
     match joining.participant {
         Participant::Fluid => {
-            let solid_cells = solid.grid.cell_count() as u64;
             let mut side = told(FluidSide::new(case, fluid, Some(&directory)), &mut link)?;
             let result = loop {
                 match side.turn(&mut link, stop) {
-                    Ok(Turn::Continues) => on_step(&line(&side, solid_cells, begin)),
+                    Ok(Turn::Continues) => on_step(&line(&side, begin)),
                     other => break other,
                 }
             };
@@ -176,7 +174,7 @@ pub fn joined(
                 side.open(&mut link, stop)?;
                 loop {
                     match side.turn(&mut link, stop)? {
-                        Turn::Continues => on_step(&line(&side, 0, begin)),
+                        Turn::Continues => on_step(&line(&side, begin)),
                         over => return Ok(over),
                     }
                 }

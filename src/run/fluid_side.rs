@@ -56,6 +56,8 @@ pub struct FluidSide {
     edges: Vec<f64>,
     /// The step that waits for the solid's answer.
     pending: Option<Plan>,
+    /// Cells of the solid, as its last frame says.
+    other_cells: u64,
     /// The solid's velocities for the weak scheme.
     received: Vec<f64>,
     /// The fluid's own pressure and velocity on the wall at mid-step, for the weak scheme.
@@ -86,6 +88,7 @@ impl FluidSide {
             kappa: case.coupling.kappa,
             factor: KappaFactor::default(),
             pending: None,
+            other_cells: 0,
             limited_by: "fluid",
             smallest_step: SMALLEST_SHARE * case.time.end,
             last_dt: 0.0,
@@ -224,6 +227,7 @@ impl Side for FluidSide {
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         let answer = self.take_answer(link)?;
+        self.other_cells = answer.cells;
         if let Some(plan) = self.pending.take() {
             let start = Instant::now();
             self.solver.step(plan.dt)?;
@@ -301,7 +305,7 @@ impl Side for FluidSide {
             step: self.solver.steps(),
             dt: self.last_dt,
             limited_by: self.limited_by.to_owned(),
-            cells: self.solver.mesh().cells() as u64,
+            cells: self.solver.mesh().cells() as u64 + self.other_cells,
             wall: 0.0,
         }
     }

@@ -77,6 +77,7 @@ impl SolidSide {
             dt_max: self.solver.time_step_limit(self.cfl),
             fields: RegisterRow::COUNT as u64,
             count: faces as u64,
+            cells: self.solver.mesh().cells() as u64,
             flags: stop.flags(),
             ..FrameHeader::new(FrameKind::Register)
         };

@@ -121,8 +121,10 @@ pub struct FrameHeader {
     pub code: u64,
     /// When the payload was complete, nanoseconds since the epoch; stamped by the link.
     pub ready_ns: u64,
+    /// Cells of the sender's grid, for what is shown while it runs.
+    pub cells: u64,
     /// Zero; room for later versions.
-    pub spare: [u64; 3],
+    pub spare: [u64; 2],
 }
 
 impl FrameHeader {

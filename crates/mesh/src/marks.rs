@@ -162,7 +162,7 @@ fn refined_again<const N: usize, R: Multiresolution>(
     let firsts: Vec<usize> = (0..mesh.blocks())
         .filter(|slot| {
             let id = tree.leaves()[*slot];
-            id.level > tree.root_level() && id.i % 2 == 0 && id.j % 2 == 0
+            id.level > tree.root_level() && id.i.is_multiple_of(2) && id.j.is_multiple_of(2)
         })
         .filter(|first| are_siblings(tree, *first) && (*first..first + 4).all(is_quiet))
         .collect();

@@ -135,7 +135,7 @@ fn details(
 /// The smallest factor by which a halving of the cells divides the details, the coarsest pair left out.
 fn smallest_factor(details: &[f64]) -> f64 {
     let factors: Vec<f64> = details.windows(2).map(|pair| pair[0] / pair[1]).collect();
-    println!("details {details:?} fall by {factors:.2?}");
+    eprintln!("details {details:?} fall by {factors:.2?}");
     factors[1..].iter().fold(f64::INFINITY, |least, factor| least.min(*factor))
 }
 
