@@ -66,9 +66,9 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
             let (mut keep, mut refine) = (Extent::NONE, Extent::NONE);
             scratch.with(|patch| {
                 patch.fill(mesh, field, slot, rule);
-                let open = open_sides(rule, |side| mesh.touches(slot, side));
+                let [along_z, along_r] = counting_cells(mesh, tree.leaves()[slot], rule);
                 patch.details(field.block(slot), rule, |i, j, size| {
-                    if size > threshold && !is_beside::<N>(&open, i, j) {
+                    if size > threshold && along_z.contains(&i) && along_r.contains(&j) {
                         keep.add(i, j);
                         if size > REFINE * threshold {
                             refine.add(i, j);
@@ -128,18 +128,28 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
     wanted
 }
 
-/// Cells next to an open side whose details do not count.
-const OPEN_MARGIN: usize = 4;
+/// Details nearer to an open side than this share of the domain's extent do not count: the boundary is not exact,
+/// and at its corners with other sides singular, which no refinement cures.
+const OPEN_SHARE: f64 = 1.0 / 32.0;
 
-/// The sides of a block at which the domain ends and details do not count.
-fn open_sides(rule: &impl Multiresolution, touches: impl Fn(Side) -> bool) -> [bool; 4] {
-    Side::ALL.map(|side| touches(side) && !rule.counts_beside(side))
-}
-
-/// Whether a cell of a block lies next to one of its open sides.
-fn is_beside<const N: usize>(open: &[bool; 4], i: usize, j: usize) -> bool {
-    let near = [i < OPEN_MARGIN, i >= N - OPEN_MARGIN, j < OPEN_MARGIN, j >= N - OPEN_MARGIN];
-    open.iter().zip(near).any(|(open, near)| *open && near)
+/// The cells of a block, by number along z and along r, that are near no open side.
+fn counting_cells<const N: usize>(
+    mesh: &Mesh<N>,
+    id: BlockId,
+    rule: &impl Multiresolution,
+) -> [std::ops::Range<usize>; 2] {
+    let Domain { z, r, .. } = *mesh.domain();
+    let (origin, widths) = (mesh.origin(id), mesh.widths(id.level));
+    let along = |axis: usize, [begin, end]: [f64; 2], sides: [Side; 2]| {
+        let margin = OPEN_SHARE * (end - begin);
+        let cells = |distance: f64| ((distance / widths[axis]).ceil().max(0.0) as usize).min(N);
+        let [low, high] = sides.map(|side| if rule.counts_beside(side) { 0.0 } else { margin });
+        let last = origin[axis] + N as f64 * widths[axis];
+        let first = if low > 0.0 { cells(begin + low - origin[axis]) } else { 0 };
+        let rest = if high > 0.0 { cells(last - (end - high)) } else { 0 };
+        first..N - rest
+    };
+    [along(0, z, [Side::ZMin, Side::ZMax]), along(1, r, [Side::RMin, Side::RMax])]
 }
 
 /// The threshold of the details on a level.
@@ -173,16 +183,11 @@ fn refined_again<const N: usize, R: Multiresolution>(
         patch.fill_parent(mesh, field, first, rule, child, around);
         let least = REFINE * threshold(tree, adaptation, tree.leaves()[first].level - 1);
         let mut kept = [Extent::NONE; 4];
-        let open = open_sides(rule, |side| {
-            let child = match side {
-                Side::ZMin | Side::RMin => first,
-                Side::ZMax => first + 1,
-                Side::RMax => first + 2,
-            };
-            mesh.touches(child, side)
-        });
+        let id = tree.leaves()[first];
+        let parent = BlockId { level: id.level - 1, i: id.i / 2, j: id.j / 2 };
+        let [along_z, along_r] = counting_cells(mesh, parent, rule);
         patch.details(&around.cells(), rule, |i, j, size| {
-            if size > least && !is_beside::<N>(&open, i, j) {
+            if size > least && along_z.contains(&i) && along_r.contains(&j) {
                 let (a, b) = (i / (N / 2), j / (N / 2));
                 let (i, j) = (2 * (i % (N / 2)), 2 * (j % (N / 2)));
                 kept[a + 2 * b].add(i, j);
