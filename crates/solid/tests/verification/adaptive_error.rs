@@ -73,7 +73,7 @@ fn run(geometry: Geometry, levels: u8, epsilon: Option<f64>) -> Run {
             solid.adapt(dt);
         }
     }
-    let cells = CELLS / 8 << levels;
+    let cells = (CELLS / 8) << levels;
     let h = 1.0 / cells as f64;
     let impedance = STEEL.density * STEEL.c1;
     let states = (0..cells * cells)
