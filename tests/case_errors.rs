@@ -124,7 +124,7 @@ const BAD: &[(Edit, &[&str])] = &[
     // Adaptation.
     (Replace("[fluid.liquid]", "adapt = \"no\"\n[fluid.liquid]"), &["fluid.adapt: must be true or false", "the string \"no\"", "without quotes"]),
     (Replace("[fluid.liquid]", "adapts = true\n[fluid.liquid]"), &["fluid.adapts: unknown key", "did you mean `adapt`?"]),
-    (Replace("[fluid.liquid]", "epsilon = 1.0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 1.0", "0.001 is the default"]),
+    (Replace("[fluid.liquid]", "epsilon = 1.0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 1.0", "0.0003 is the default"]),
     (Replace("[fluid.liquid]", "epsilon = 0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 0.0"]),
     (Replace("[fluid.liquid]", "adapt_every = 0\n[fluid.liquid]"), &["fluid.adapt_every: must be from 1 to 1000, got 0"]),
     (Replace("[fluid.liquid]", "adapt_every = 1.5\n[fluid.liquid]"), &["fluid.adapt_every: must be a whole number", "1.5"]),
@@ -394,7 +394,8 @@ fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
     let fluid = good().fluid.expect("a fluid");
     let adaptation = fluid.grid.adaptation.as_ref().expect("adaptive");
     assert_eq!((fluid.grid.root_level(), fluid.grid.cells_on(2)), (2, [16, 16]));
-    assert_eq!(adaptation.epsilon, cav::case::DEFAULT_EPSILON);
+    assert_eq!(adaptation.epsilon, cav::case::EPSILON_WITH_JUMPS);
+
     assert_eq!((adaptation.every, adaptation.bounds.len()), (8, 0));
     // The bubble's differences to the liquid; the solid's scale is the fluid's.
     assert_eq!((fluid.scale_pressure, fluid.scale_density), (9e5, 998.8));
@@ -421,7 +422,7 @@ fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
 
     let text = case.effective_toml();
     for part in
-        ["adapt = true\nepsilon = 0.001\nadapt_every = 8", "scale_stress = 900000.0", "where = \"outside\""]
+        ["adapt = true\nepsilon = 0.0003\nadapt_every = 8", "scale_stress = 900000.0", "where = \"outside\""]
     {
         assert!(text.contains(part), "no `{part}` in:\n{text}");
     }

@@ -24,7 +24,7 @@ use solid::{InitialStress, Material, PotentialPulse};
 
 pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
-pub use read_adaptation::{DEFAULT_ADAPT_EVERY, DEFAULT_EPSILON};
+pub use read_adaptation::{DEFAULT_ADAPT_EVERY, EPSILON_IF_SMOOTH, EPSILON_WITH_JUMPS};
 
 /// Cell fields of the fluid that `output.fields` may name.
 pub const FLUID_FIELDS: [&str; 6] = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use coupler::{Kappa, Scheme, StarSolver};
 use mesh::{Geometry, Side};
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::error::{CaseError, suggest};
@@ -23,6 +24,14 @@ pub(super) struct Context {
     pub geometry: Geometry,
     /// `None` where the name given is faulty.
     pub scheme: Option<Scheme>,
+    /// Whether the fluid begins with jumps: it has regions or an inflow.
+    pub has_jumps: bool,
+}
+
+/// Whether the text describes regions or an inflow of the fluid, faulty or not.
+fn has_jumps(document: &Spanned<DeTable<'_>>) -> bool {
+    let fluid = document.get_ref().get("fluid").and_then(|value| value.get_ref().as_table());
+    fluid.is_some_and(|fluid| fluid.contains_key("region") || fluid.contains_key("inflow"))
 }
 
 /// A probe and where its point stands.
@@ -45,7 +54,11 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         .map_or(Geometry::Axisymmetric, |given| given.value);
     let time = time(&mut root, &mut faults);
     let (coupling, scheme) = coupling(&mut root, &mut faults);
-    let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value) };
+    let context = Context {
+        geometry,
+        scheme: scheme.as_ref().map(|given| given.value),
+        has_jumps: has_jumps(&document),
+    };
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
     let fluid =
         root.table("fluid", &mut faults).and_then(|table| read_fluid::fluid(table, context, &mut faults));

@@ -4,8 +4,12 @@ use mesh::{Adaptation, LevelBound, Side, Zone};
 
 use super::reader::{Faults, Table};
 
-/// Threshold of the details where a case does not say.
-pub const DEFAULT_EPSILON: f64 = 1e-3;
+/// Threshold of the details where a case does not say and its fluid begins with jumps (regions, an inflow history):
+/// there the scheme's own error is of first order.
+pub const EPSILON_WITH_JUMPS: f64 = 3e-4;
+/// Threshold of the details where a case does not say and all is smooth: the scheme's own error is then of second
+/// order and much smaller. See docs/adaptation.md for what both cost and lose.
+pub const EPSILON_IF_SMOOTH: f64 = 3e-6;
 /// Steps between two adaptations where a case does not say.
 pub const DEFAULT_ADAPT_EVERY: usize = 8;
 /// More steps than this between two adaptations are a mistake.
@@ -30,20 +34,22 @@ pub(super) struct Levels {
 
 /// How a grid adapts; `None` where all its cells are on the finest level.
 ///
-/// - `interface`: the side that meets the other medium or the rigid wall.
+/// - `has_jumps`: whether the fluid begins with jumps; `interface`: the side that meets the other medium or the rigid wall.
 pub(super) fn adaptation(
     table: &mut Table<'_>,
     levels: Levels,
+    has_jumps: bool,
     interface: Option<Side>,
     faults: &mut Faults,
 ) -> Option<Adaptation> {
+    let default = if has_jumps { EPSILON_WITH_JUMPS } else { EPSILON_IF_SMOOTH };
     let adapt = table.boolean("adapt", faults).is_none_or(|given| given.value);
     let epsilon = table.number("epsilon", "1", faults);
     if let Some(epsilon) = &epsilon
         && !(epsilon.value > 0.0 && epsilon.value < 1.0)
     {
         let message = format!("must lie in (0, 1), got {:?}", epsilon.value);
-        let help = format!("{DEFAULT_EPSILON:?} is the default; a smaller one keeps more cells");
+        let help = format!("{default:?} is the default; a smaller one keeps more cells");
         faults.of(epsilon, message, help);
     }
     let every = table.whole("adapt_every", 1..=MOST_STEPS, faults);
@@ -51,7 +57,7 @@ pub(super) fn adaptation(
         .map(|table| bound(table, levels, interface, faults))
         .collect();
     (adapt && levels.roots < levels.finest).then(|| Adaptation {
-        epsilon: epsilon.map_or(DEFAULT_EPSILON, |given| given.value),
+        epsilon: epsilon.map_or(default, |given| given.value),
         every: every.map_or(DEFAULT_ADAPT_EVERY, |given| given.value) as u32,
         bounds: bounds.into_iter().flatten().collect(),
     })

@@ -57,7 +57,7 @@ pub(super) fn grid(
         None => Levels { roots: 0, finest: MOST_LEVELS },
     };
     let interface = (context.scheme != Some(Scheme::None)).then_some(towards_wall);
-    let adaptation = adaptation(table, levels, interface, faults);
+    let adaptation = adaptation(table, levels, context.has_jumps, interface, faults);
     let ((cells, levels), z, r) = (sound?, z?, r?);
     let grid = GridCase { z: z.value, r: r.value, cells: cells.value, levels, adaptation };
     Some((grid, GridPlace { z, r }))

@@ -3,11 +3,13 @@
 #![allow(clippy::unwrap_used, reason = "a test that fails to step has failed")]
 
 mod adaptation;
+mod adaptive_error;
 mod boundaries;
 mod bubble;
 mod contact;
 mod helpers;
 mod ledgers;
 mod orders;
+mod random_trees;
 mod shock_tubes;
 mod symmetry;

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that fails to step has failed")]
 
+mod adaptation;
+mod adaptive_error;
 mod boundaries;
 mod helpers;
 mod ledgers;
