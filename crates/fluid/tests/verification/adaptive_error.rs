@@ -174,7 +174,7 @@ fn a_pulse_loses_less_to_adaptation_with_smaller_epsilon() {
         pulse("pulse on the axis", AXIAL, [0.47, 0.0]),
         pulse("pulse off the axis", AXIAL, [0.47, 0.3]),
     ] {
-        let [coarse, fine] = measure(&problem, [1e-3, 1e-5]);
+        let [coarse, fine] = measure(&problem, [1e-3, 3e-6]);
         for k in 0..3 {
             assert!(fine.ratios[k] < 0.1, "{fine:?}");
             assert!(fine.ratios[k] < 0.05 * coarse.ratios[k], "{coarse:?} {fine:?}");
@@ -185,11 +185,11 @@ fn a_pulse_loses_less_to_adaptation_with_smaller_epsilon() {
 
 #[test]
 fn a_shock_tube_loses_little_to_adaptation() {
-    let [coarse, middle, fine] = measure(&sod(), [1e-2, 1e-3, 1e-4]);
+    let [coarse, middle, fine] = measure(&sod(), [1e-2, 1e-3, 3e-4]);
     for k in 0..3 {
         assert!(middle.ratios[k] < 0.25 && fine.ratios[k] < 0.1, "{middle:?} {fine:?}");
         assert!(middle.ratios[k] < 0.2 * coarse.ratios[k], "{coarse:?} {middle:?}");
-        assert!(fine.ratios[k] < 0.5 * middle.ratios[k], "{middle:?} {fine:?}");
+        assert!(fine.ratios[k] < 0.6 * middle.ratios[k], "{middle:?} {fine:?}");
     }
     assert!(fine.cells < 0.4, "{fine:?}");
 }
