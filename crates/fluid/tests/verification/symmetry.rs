@@ -1,6 +1,8 @@
 //! The same start, seen in a mirror, turned, cut into other blocks or computed by more threads.
 
-use fluid::{FluidSetup, FluidSolver, Primitive, RiemannSolver};
+use fluid::{
+    FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Primitive, Region, RiemannSolver, Shape,
+};
 use mesh::{Geometry, Limiter};
 
 use crate::helpers::*;
@@ -97,6 +99,31 @@ fn blocks_of_any_size_give_the_same_bitwise() {
             assert!(of_8 == after::<16>(&setup, start), "16: {geometry:?} {limiter:?}");
             assert!(of_8 == after::<32>(&setup, start), "32: {geometry:?} {limiter:?}");
         }
+    }
+}
+
+#[test]
+fn a_bubble_at_a_wall_is_the_same_in_blocks_of_any_size() {
+    fn collapsed<const N: usize>(geometry: Geometry) -> Vec<Vec<[f64; 5]>> {
+        let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
+        let initial = InitialCondition {
+            ambient: state(Phase::Liquid, 1000.0, 5e7),
+            regions: vec![Region {
+                shape: Shape::Sphere { centre: [0.35, 0.0], radius: 0.2 },
+                state: state(Phase::Gas, 0.0266, 2118.0),
+            }],
+            pulses: vec![],
+        };
+        let setup =
+            FluidSetup { coarsest: [64, 64], ..box_of(geometry, Limiter::Minmod, RiemannSolver::Hllc) };
+        let mut fluid = FluidSolver::<N>::new(&setup, &initial).unwrap();
+        run_steps(&mut fluid, 300);
+        global(&fluid)
+    }
+    for geometry in [AXIAL, PLANAR] {
+        let of_8 = collapsed::<8>(geometry);
+        assert!(of_8 == collapsed::<16>(geometry), "16: {geometry:?}");
+        assert!(of_8 == collapsed::<32>(geometry), "32: {geometry:?}");
     }
 }
 
