@@ -6,8 +6,8 @@ use crate::harness::{Sides, case};
 const UNIFORM: [&str; 2] = ["cells = [32, 32]", "cells = [32, 48]"];
 /// The same in levels that come and go, on either side as its own waves ask for.
 const ADAPTIVE: [&str; 2] = [
-    "cells = [8, 8]\nlevels = 4\nadapt_every = 3\nepsilon = 5e-2",
-    "cells = [16, 24]\nlevels = 4\nadapt_every = 4\nepsilon = 3e-1",
+    "cells = [8, 8]\nlevels = 4\nadapt_every = 3\nepsilon = 2e-1",
+    "cells = [16, 24]\nlevels = 4\nadapt_every = 4\nepsilon = 2e-2",
 ];
 
 /// A gas bubble that collapses in a closed box over steel.
@@ -83,11 +83,10 @@ fn a_coupled_box_keeps_its_ledgers() {
         let (fluid, solid) = (sides.fluid.solver(), sides.solid.solver());
         let (now, ledger, fixups) = (fluid.totals(), fluid.ledger(), fluid.fixups());
         assert!(fluid.steps() > 100 && fluid.bubble().volume > 0.0, "{} steps", fluid.steps());
-        for faces in &mut faces {
-            faces.dedup();
-            eprintln!("{geometry}: faces of the interface {faces:?}");
-            assert_eq!(faces.len() > 1, grids == ADAPTIVE, "the interface changes in size");
-        }
+        faces.iter_mut().for_each(Vec::dedup);
+        eprintln!("{geometry}: faces of the interface {faces:?}");
+        let changes = faces.iter().any(|faces| faces.len() > 1);
+        assert_eq!(changes, grids == ADAPTIVE, "the interface changes in size");
         let moved = solid.totals().kinetic;
         assert!(moved > 0.0 && work > 0.0, "the wall moves");
 
