@@ -1,11 +1,11 @@
 //! Flux correction at level jumps: the finer side's fluxes pass for both.
 
-use mesh::{FluxRegister, Mesh, Padded, Side};
+use mesh::{CorrectedFace, FluxRegister, Mesh, Side};
 
 use crate::Mixture;
 use crate::block::{BlockReport, StepContext};
 use crate::rows::FaceRows;
-use crate::state::conserved::COUNT;
+use crate::state::conserved::{COUNT, ENERGY, PHI};
 use crate::state::primitive;
 
 /// What is registered of a face: mass flux, normal momentum it carries, pressure, tangential momentum flux, energy
@@ -19,17 +19,6 @@ pub(crate) const QUANTITIES: usize = 7;
 /// The fluid's register.
 pub(crate) type Register<const N: usize> = FluxRegister<N, QUANTITIES>;
 
-/// The face beyond which a side's neighbour begins, as the flat index of the cell below it.
-fn face<const N: usize>(side: Side, along: usize) -> usize {
-    let (n, along) = (N as isize, along as isize);
-    match side {
-        Side::ZMin => Padded::<N>::index(-1, along),
-        Side::ZMax => Padded::<N>::index(n - 1, along),
-        Side::RMin => Padded::<N>::index(along, -1),
-        Side::RMax => Padded::<N>::index(along, n - 1),
-    }
-}
-
 /// Keeps the fluxes on those sides of a block that meet another level.
 pub(crate) fn register_fluxes<const N: usize>(
     mesh: &Mesh<N>,
@@ -38,34 +27,19 @@ pub(crate) fn register_fluxes<const N: usize>(
     r_faces: &FaceRows,
     values: &mut [f64],
 ) {
-    for side in Side::ALL {
-        if !Register::<N>::is_needed(mesh, slot, side) {
-            continue;
-        }
+    Register::<N>::record(mesh, slot, values, |side, k| {
         let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
-        let rows = Register::<N>::rows(values, side);
-        for along in 0..N {
-            let k = face::<N>(side, along);
-            let velocity = faces.velocity[k];
-            let quantities = [
-                faces.mass[k],
-                faces.mass[k] * velocity,
-                faces.pressure[k],
-                faces.shear[k],
-                faces.energy[k],
-                velocity,
-                velocity * faces.phi[k],
-            ];
-            for (quantity, value) in quantities.into_iter().enumerate() {
-                rows[quantity * N + along] = value;
-            }
-        }
-    }
-}
-
-/// Whether a block has finer neighbours beside it.
-pub(crate) fn is_due<const N: usize>(mesh: &Mesh<N>, slot: usize) -> bool {
-    Side::ALL.into_iter().any(|side| Register::<N>::is_corrected(mesh, slot, side))
+        let velocity = faces.velocity[k];
+        [
+            faces.mass[k],
+            faces.mass[k] * velocity,
+            faces.pressure[k],
+            faces.shear[k],
+            faces.energy[k],
+            velocity,
+            velocity * faces.phi[k],
+        ]
+    });
 }
 
 /// Corrects the cells of a block along its finer neighbours, after all blocks have made their step.
@@ -82,43 +56,31 @@ pub(crate) fn correct<const N: usize>(
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let (dt_z, dt_r) = (ctx.dt / h_z, ctx.dt / h_r);
     let r_low = ctx.mesh.origin(id)[1];
-    for side in Side::ALL {
-        if !Register::<N>::is_corrected(ctx.mesh, slot, side) {
-            continue;
+    register.for_corrected_faces(ctx.mesh, slot, |face| {
+        let CorrectedFace { side, outward, cell: [i, j], difference } = face;
+        let [mass, carried, pressure, shear, energy, velocity, velocity_phi] = difference;
+        let cell = |c: usize| (c * N + j) * N + i;
+        let phi = velocity_phi - velocity * ctx.old.block(slot)[cell(PHI)];
+        let changes = if matches!(side, Side::ZMin | Side::ZMax) {
+            [mass, carried + pressure, shear, energy, phi].map(|change| outward * dt_z * change)
+        } else {
+            let face = r_low + if side == Side::RMin { 0.0 } else { N as f64 * h_r };
+            let weight = ctx.mesh.weight(face) / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
+            // The pressure's share of the radial momentum has no weight, see `update.rs`.
+            let radial = weight * carried + pressure;
+            [weight * mass, weight * shear, radial, weight * energy, weight * phi]
+                .map(|change| outward * dt_r * change)
+        };
+        let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
+        let added = settle(&mut u, ctx.mixture, report);
+        if added > 0.0 {
+            report.floored += 1;
+            report.floor_energy += added * ctx.mesh.volume(id, j);
         }
-        let sign = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
-        for along in 0..N {
-            let (i, j) = match side {
-                Side::ZMin => (0, along),
-                Side::ZMax => (N - 1, along),
-                Side::RMin => (along, 0),
-                Side::RMax => (along, N - 1),
-            };
-            let cell = |c: usize| (c * N + j) * N + i;
-            let [mass, carried, pressure, shear, energy, velocity, velocity_phi] =
-                register.difference(ctx.mesh, slot, side, along);
-            let phi = velocity_phi - velocity * ctx.old.block(slot)[cell(4)];
-            let changes = if matches!(side, Side::ZMin | Side::ZMax) {
-                [mass, carried + pressure, shear, energy, phi].map(|change| sign * dt_z * change)
-            } else {
-                let face = r_low + if side == Side::RMin { 0.0 } else { N as f64 * h_r };
-                let weight = ctx.mesh.weight(face) / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
-                let weighted = [mass, shear, carried, energy, phi].map(|change| weight * change);
-                let with_pressure =
-                    [weighted[0], weighted[1], weighted[2] + pressure, weighted[3], weighted[4]];
-                with_pressure.map(|change| sign * dt_r * change)
-            };
-            let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
-            let added = settle(&mut u, ctx.mixture, report);
-            if added > 0.0 {
-                report.floored += 1;
-                report.floor_energy += added * ctx.mesh.volume(id, j);
-            }
-            for (c, value) in u.into_iter().enumerate() {
-                new[cell(c)] = value;
-            }
+        for (c, value) in u.into_iter().enumerate() {
+            new[cell(c)] = value;
         }
-    }
+    });
 }
 
 /// Applies the pressure floor to a corrected cell and takes its speeds into the report; returns the energy added.
@@ -126,7 +88,7 @@ fn settle<const N: usize>(u: &mut [f64; COUNT], mixture: &Mixture, report: &mut 
     let [rho, v_z, v_r, p, phi] = primitive(*u, mixture);
     let lifted = p.max(mixture.pressure_floor(phi));
     let added = mixture.beta1(phi) * (lifted - p);
-    u[3] += added;
+    u[ENERGY] += added;
     let sound = (mixture.stiffness(lifted, phi) / rho).sqrt();
     let sane = (rho > 0.0) & (sound < f64::MAX);
     let extremes = &mut report.extremes;

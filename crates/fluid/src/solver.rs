@@ -145,17 +145,7 @@ impl<const N: usize> FluidSolver<N> {
         let mixture = Mixture::new(setup.liquid, setup.gas);
         let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales };
         let scratch = ScratchPool::new(BlockScratch::new);
-        let (mesh, state) = match &setup.adaptation {
-            None => {
-                let mesh = Mesh::<N>::uniform(setup.domain, setup.coarsest, setup.levels, periodic)?;
-                let mut state = Field::zeros(mesh.blocks(), N * N, COUNT);
-                crate::fill::fill(&mesh, &mixture, &mut state, initial);
-                (mesh, state)
-            }
-            Some(adaptation) => {
-                crate::adapt::initial_mesh(setup, periodic, adaptation, &analysis, initial, asks_for_finer)?
-            }
-        };
+        let (mesh, state) = crate::adapt::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
         let sides = SideStates::new(&mesh, |centre, widths| {
             Primitive::from_conserved(initial(centre, widths).to_conserved(&mixture), &mixture)
@@ -276,7 +266,7 @@ impl<const N: usize> FluidSolver<N> {
         for_each_block(&mut next, register.values_mut(), &mut reports, |slot, new, fluxes, report| {
             *report = self.scratch.with(|scratch| step_block(&context, slot, new, fluxes, scratch));
         });
-        let is_due = |slot: usize| reflux::is_due(&self.mesh, slot);
+        let is_due = |slot: usize| Register::is_due(&self.mesh, slot);
         for_some_blocks(&mut next, &mut reports, is_due, |slot, new, report| {
             reflux::correct(&context, &register, slot, new, report);
         });

@@ -22,6 +22,7 @@ mod field;
 mod geometry;
 mod ghosts;
 mod horizon;
+mod initial;
 mod limiter;
 mod marks;
 mod multiresolution;
@@ -47,7 +48,7 @@ pub use parallel::{ScratchPool, for_each_block, for_some_blocks};
 pub use patch::Patch;
 pub use quadtree::{BlockId, Neighbour, Offset, Quadtree};
 pub use reduce::maximum;
-pub use register::FluxRegister;
+pub use register::{CorrectedFace, FluxRegister};
 pub use remap::{Adapted, Origin};
 pub use side_states::SideStates;
 

@@ -1,6 +1,6 @@
 //! Flux registers: what passes a face between levels, as the finer side has it.
 
-use crate::{Field, Mesh, Neighbour, Side};
+use crate::{Field, Mesh, Neighbour, Padded, Side};
 
 /// Values of K quantities on the outer faces of the blocks, kept where a block meets another level.
 ///
@@ -12,6 +12,19 @@ pub struct FluxRegister<const N: usize, const K: usize> {
     values: Field,
 }
 
+/// A face on which a coarse block has passed something else than its finer neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CorrectedFace<const K: usize> {
+    /// The block's side.
+    pub side: Side,
+    /// −1 where the side looks towards smaller coordinates, else 1.
+    pub outward: f64,
+    /// The cell (i, j) behind the face.
+    pub cell: [usize; 2],
+    /// See [`FluxRegister::difference`].
+    pub difference: [f64; K],
+}
+
 impl<const N: usize, const K: usize> FluxRegister<N, K> {
     /// For a mesh of that many blocks.
     pub fn new(blocks: usize) -> Self {
@@ -21,6 +34,57 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
     /// The values of all blocks, to hand them to the threads that work on the blocks.
     pub fn values_mut(&mut self) -> &mut Field {
         &mut self.values
+    }
+
+    /// Keeps the values on those sides of a block that meet another level.
+    ///
+    /// - `block`: its part of the register; `values`: what passes the outer face of a side above the padded cell `k`.
+    pub fn record(mesh: &Mesh<N>, slot: usize, block: &mut [f64], values: impl Fn(Side, usize) -> [f64; K]) {
+        for side in Side::ALL {
+            if !Self::is_needed(mesh, slot, side) {
+                continue;
+            }
+            let rows = Self::rows(block, side);
+            for along in 0..N {
+                let (n, at) = (N as isize, along as isize);
+                let k = match side {
+                    Side::ZMin => Padded::<N>::index(-1, at),
+                    Side::ZMax => Padded::<N>::index(n - 1, at),
+                    Side::RMin => Padded::<N>::index(at, -1),
+                    Side::RMax => Padded::<N>::index(at, n - 1),
+                };
+                for (quantity, value) in values(side, k).into_iter().enumerate() {
+                    rows[quantity * N + along] = value;
+                }
+            }
+        }
+    }
+
+    /// Whether a block has faces to correct on any side.
+    pub fn is_due(mesh: &Mesh<N>, slot: usize) -> bool {
+        Side::ALL.into_iter().any(|side| Self::is_corrected(mesh, slot, side))
+    }
+
+    /// Calls `correct` for every face of a block that has finer neighbours beyond it, side by side.
+    pub fn for_corrected_faces(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        mut correct: impl FnMut(CorrectedFace<K>),
+    ) {
+        for side in Side::ALL.into_iter().filter(|side| Self::is_corrected(mesh, slot, *side)) {
+            let outward = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
+            for along in 0..N {
+                let cell = match side {
+                    Side::ZMin => [0, along],
+                    Side::ZMax => [N - 1, along],
+                    Side::RMin => [along, 0],
+                    Side::RMax => [along, N - 1],
+                };
+                let difference = self.difference(mesh, slot, side, along);
+                correct(CorrectedFace { side, outward, cell, difference });
+            }
+        }
     }
 
     /// The rows of one side in a block's part of the register: quantity by quantity, along the side.

@@ -85,6 +85,23 @@ impl<const N: usize> Mesh<N> {
 }
 
 impl<const N: usize> Adapted<N> {
+    /// What was known of the old blocks, carried over to those that stayed; the others have none yet.
+    pub fn carried<T: Copy + Default>(&self, old: &[T]) -> Vec<T> {
+        (self.origins.iter())
+            .map(|origin| match origin {
+                Origin::Same(slot) => old[*slot],
+                _ => T::default(),
+            })
+            .collect()
+    }
+
+    /// The slots of the blocks that are new.
+    pub fn fresh(&self) -> impl Iterator<Item = usize> + '_ {
+        (self.origins.iter().enumerate())
+            .filter(|(_, origin)| !matches!(origin, Origin::Same(_)))
+            .map(|(slot, _)| slot)
+    }
+
     /// A field of the old mesh on the new one: copied, projected or predicted block by block. The volume-weighted
     /// integral of every component stays what it was.
     pub fn remap<R: Multiresolution>(

@@ -1,20 +1,12 @@
 //! Adaptation of the solid's grid: the initial mesh, and the step from one mesh to the next.
 
-use mesh::{Field, FluxRegister, Mesh, Origin, Patch, ScratchPool, Side, for_some_blocks};
+use mesh::{Field, FluxRegister, Mesh, Side, for_some_blocks};
 
 use crate::analysis::Analysis;
-use crate::block::BlockReport;
 use crate::state::component::COUNT;
 use crate::{Boundary, ElasticState, SolidError, SolidSetup, SolidSolver};
 
-/// Cells of the grid from which the initial mesh is found, refined and coarsened from there.
-const FIRST_CELLS: usize = 1 << 18;
-
-/// Cells that a wave crosses in a step, as the initial mesh assumes.
-const COURANT: f64 = 0.5;
-
-/// The mesh that the initial state asks for, filled with it: found by adapting and filling anew until the mesh stays
-/// what it is. Without adaptation the uniform one on the finest level.
+/// The mesh that the initial state asks for, filled with it.
 pub(crate) fn initial_mesh<const N: usize>(
     setup: &SolidSetup,
     analysis: &Analysis,
@@ -22,31 +14,10 @@ pub(crate) fn initial_mesh<const N: usize>(
 ) -> Result<(Mesh<N>, Field), SolidError> {
     let kinds = setup.boundaries;
     let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
-    let cells = |level: u8| (setup.coarsest[0] << level) * (setup.coarsest[1] << level);
-    let level = match &setup.adaptation {
-        Some(_) => (0..=setup.levels).rev().find(|level| cells(*level) <= FIRST_CELLS).unwrap_or(0),
-        None => setup.levels,
-    };
-    let mut mesh = Mesh::<N>::on_level(setup.domain, setup.coarsest, level, setup.levels, periodic)?;
-    let Some(adaptation) = &setup.adaptation else {
-        let state = fill(&mesh, initial);
-        return Ok((mesh, state));
-    };
-    let scratch = ScratchPool::new(|| Patch::zeros(COUNT));
-    // A level a round, down and up again.
-    for _ in 0..2 * setup.levels + 2 {
-        let state = fill(&mesh, initial);
-        let travel = |slot: usize| {
-            let coarser = mesh.tree().finest() - mesh.tree().leaves()[slot].level;
-            1.0 + COURANT * f64::from(adaptation.every) / f64::from(1u32 << coarser)
-        };
-        match mesh.adapted(&state, analysis, adaptation, &scratch, travel, |_| 0) {
-            None => return Ok((mesh, state)),
-            Some(adapted) => mesh = adapted.mesh,
-        }
-    }
-    let state = fill(&mesh, initial);
-    Ok((mesh, state))
+    let fill = |mesh: &Mesh<N>| fill(mesh, initial);
+    let adaptation = setup.adaptation.as_ref();
+    let SolidSetup { domain, coarsest, levels, .. } = *setup;
+    Ok(Mesh::initial(domain, coarsest, levels, periodic, adaptation, analysis, fill, |_, _| 0)?)
 }
 
 /// The initial state at the cells' centres.
@@ -101,20 +72,13 @@ impl<const N: usize> SolidSolver<N> {
             self.mesh.adapted(&self.state, &self.analysis, adaptation, &self.patches, travel, |_| 0);
         let Some(adapted) = adapted else { return false };
         self.state = adapted.remap(&self.mesh, &self.state, &self.analysis, &self.patches);
+        self.next = Field::zeros(adapted.mesh.blocks(), N * N, COUNT);
+        self.register = FluxRegister::new(adapted.mesh.blocks());
+        self.reports = adapted.carried(&self.reports);
+        let fresh: Vec<usize> = adapted.fresh().collect();
         self.mesh = adapted.mesh;
-        self.next = Field::zeros(self.mesh.blocks(), N * N, COUNT);
-        self.register = FluxRegister::new(self.mesh.blocks());
-        let old = std::mem::take(&mut self.reports);
-        self.reports = (adapted.origins.iter())
-            .map(|origin| match origin {
-                Origin::Same(slot) => old[*slot],
-                _ => BlockReport::default(),
-            })
-            .collect();
-        for (slot, origin) in adapted.origins.iter().enumerate() {
-            if !matches!(origin, Origin::Same(_)) {
-                self.measure(slot);
-            }
+        for slot in fresh {
+            self.measure(slot);
         }
         self.index_surface();
         true

@@ -201,7 +201,7 @@ impl<const N: usize> SolidSolver<N> {
         for_each_block(&mut next, register.values_mut(), &mut reports, |slot, new, stars, report| {
             *report = self.scratch.with(|scratch| step_block(&context, slot, new, stars, scratch));
         });
-        let is_due = |slot: usize| reflux::is_due(&self.mesh, slot);
+        let is_due = |slot: usize| Register::is_due(&self.mesh, slot);
         for_some_blocks(&mut next, &mut reports, is_due, |slot, new, report| {
             reflux::correct(&context, &register, slot, new, report);
         });
