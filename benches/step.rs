@@ -258,6 +258,7 @@ fn fluid_setup(
         liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
         gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
         model: fluid::Model::SaurelAbgrall,
+        sharpening: fluid::Sharpening::None,
         riemann,
         limiter,
         boundaries,

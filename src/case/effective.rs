@@ -74,6 +74,7 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     write_grid(text, &fluid.grid);
     text.name("riemann", &fluid::RiemannSolver::NAMES, fluid.riemann);
     text.name("model", &fluid::Model::NAMES, fluid.model);
+    text.name("interface", &fluid::Sharpening::NAMES, fluid.sharpening);
     text.name("limiter", &mesh::Limiter::NAMES, fluid.limiter);
     text.number("scale_pressure", fluid.scale_pressure);
     text.number("scale_density", fluid.scale_density);

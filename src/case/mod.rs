@@ -18,7 +18,7 @@ mod warnings;
 use std::path::{Path, PathBuf};
 
 use coupler::{Kappa, Scheme, StarSolver};
-use fluid::{InitialCondition, Model, PhaseState, RiemannSolver, StiffenedGas};
+use fluid::{InitialCondition, Model, PhaseState, RiemannSolver, Sharpening, StiffenedGas};
 use mesh::{Adaptation, Geometry, Limiter, Side};
 use solid::{InitialStress, Material, PotentialPulse};
 
@@ -162,6 +162,8 @@ pub struct FluidCase {
     pub riemann: RiemannSolver,
     /// The two-phase model.
     pub model: Model,
+    /// What keeps the interface sharp.
+    pub sharpening: Sharpening,
     /// The limiter of the reconstruction.
     pub limiter: Limiter,
     /// Reference value of the pressure in the thresholds of adaptation, Pa.

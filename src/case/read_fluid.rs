@@ -3,7 +3,7 @@
 use coupler::Scheme;
 use fluid::{
     Boundary, InitialCondition, Model, Phase, PhaseState, Pulse, PulseShape, Region, RiemannSolver, Shape,
-    StiffenedGas,
+    Sharpening, StiffenedGas,
 };
 use mesh::{Geometry, Limiter, Side};
 
@@ -66,6 +66,9 @@ pub(super) fn fluid(
     let inflow = inflow(&mut table, boundary, liquid, faults);
     let riemann = table.choice("riemann", &RiemannSolver::NAMES, faults);
     let model = table.choice("model", &Model::NAMES, faults);
+    let model = model.map_or(Model::FiveEquation, |given| given.value);
+    let by_default = if model == Model::SaurelAbgrall { Sharpening::None } else { Sharpening::Thinc };
+    let sharpening = table.choice("interface", &Sharpening::NAMES, faults);
     let limiter = table.choice("limiter", &Limiter::NAMES, faults);
     let scale_pressure = table.positive("scale_pressure", "Pa", faults);
     let scale_density = table.positive("scale_density", "kg/m3", faults);
@@ -83,7 +86,8 @@ pub(super) fn fluid(
         boundary,
         inflow,
         riemann: riemann.map_or(RiemannSolver::Hllc, |given| given.value),
-        model: model.map_or(Model::SaurelAbgrall, |given| given.value),
+        model,
+        sharpening: sharpening.map_or(by_default, |given| given.value),
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),
         scale_pressure,
         scale_density,

@@ -19,6 +19,7 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         liquid: fluid.liquid,
         gas: fluid.gas,
         model: fluid.model,
+        sharpening: fluid.sharpening,
         riemann: fluid.riemann,
         limiter: fluid.limiter,
         boundaries: fluid.boundary,

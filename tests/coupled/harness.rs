@@ -135,6 +135,7 @@ pub fn water(
         liquid: WATER,
         gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
         model: Model::SaurelAbgrall,
+        sharpening: fluid::Sharpening::None,
         riemann: RiemannSolver::Hllc,
         limiter,
         boundaries,

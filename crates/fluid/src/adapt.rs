@@ -4,7 +4,6 @@ use mesh::{Field, FluxRegister, Mesh};
 
 use crate::analysis::Analysis;
 use crate::solver::{AsksForFiner, InitialState};
-use crate::state::conserved::COUNT;
 use crate::{FluidError, FluidSetup, FluidSolver};
 
 /// The mesh that the initial condition asks for, filled with it.
@@ -16,7 +15,7 @@ pub(crate) fn initial_mesh<const N: usize>(
     asks_for_finer: &AsksForFiner<'_>,
 ) -> Result<(Mesh<N>, Field), FluidError> {
     let fill = |mesh: &Mesh<N>| {
-        let mut state = Field::zeros(mesh.blocks(), N * N, COUNT);
+        let mut state = Field::zeros(mesh.blocks(), N * N, setup.model.components());
         crate::fill::fill(mesh, &analysis.mixture, &mut state, initial);
         state
     };
@@ -58,7 +57,7 @@ impl<const N: usize> FluidSolver<N> {
             self.mesh.adapted(&self.state, &self.analysis, adaptation, &self.patches, travel, |_| 0);
         let Some(adapted) = adapted else { return false };
         self.state = adapted.remap(&self.mesh, &self.state, &self.analysis, &self.patches);
-        self.next = Field::zeros(adapted.mesh.blocks(), N * N, COUNT);
+        self.next = Field::zeros(adapted.mesh.blocks(), N * N, self.state.components());
         self.register = FluxRegister::new(adapted.mesh.blocks());
         self.reports = adapted.carried(&self.reports);
         let fresh: Vec<usize> = adapted.fresh().collect();
@@ -66,6 +65,7 @@ impl<const N: usize> FluidSolver<N> {
         for slot in fresh {
             self.measure_speeds(slot);
         }
+        self.note_gas();
         self.index_sides();
         true
     }

@@ -2,7 +2,7 @@
 
 use mesh::{MOST_COMPONENTS, Multiresolution, Side};
 
-use crate::state::conserved::{COUNT, ENERGY, PHI, RHO};
+use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
 use crate::state::primitive;
 use crate::{Boundary, Mixture, Primitive};
 
@@ -27,6 +27,9 @@ pub(crate) struct Analysis {
 /// behind would else switch prediction off.
 const PHI_SLACK: f64 = 1e-7;
 
+/// As [`PHI_SLACK`], for the mass of a phase relative to all mass.
+const MASS_SLACK: f64 = 1e-7;
+
 /// Relative deviations of ρ and ρE below which no child can be inadmissible.
 const HARMLESS: f64 = 1e-2;
 
@@ -45,8 +48,15 @@ impl Multiresolution for Analysis {
 
     fn share(&self, mean: &[f64], deviations: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
         let (rho, energy, phi) = (mean[RHO], mean[ENERGY], mean[PHI]);
+        let has_phases = mean.len() > GAS;
+        // Of the phases' masses only pure cells' are harmless: all of one, or nothing.
+        let is_small = |d: f64, own: f64| d == 0.0 || d.abs() < HARMLESS * own;
         let harmless = |d: &[f64; MOST_COMPONENTS]| {
-            d[PHI] == 0.0 && d[RHO].abs() < HARMLESS * rho && d[ENERGY].abs() < HARMLESS * energy
+            d[PHI] == 0.0
+                && d[RHO].abs() < HARMLESS * rho
+                && d[ENERGY].abs() < HARMLESS * energy
+                && (!has_phases
+                    || (is_small(d[GAS], mean[GAS]) && is_small(d[RHO] - d[GAS], rho - mean[GAS])))
         };
         if deviations.iter().all(harmless) {
             return 1.0;
@@ -59,6 +69,14 @@ impl Multiresolution for Analysis {
             let room = if d[PHI] > 0.0 { 1.0 + PHI_SLACK - phi } else { phi + PHI_SLACK };
             if d[PHI].abs() > room {
                 share = share.min(room.max(0.0) / d[PHI].abs());
+            }
+            if has_phases {
+                for (own, change) in [(mean[GAS], d[GAS]), (rho - mean[GAS], d[RHO] - d[GAS])] {
+                    let room = 0.5 * own.max(0.0) + MASS_SLACK * rho;
+                    if change < -room {
+                        share = share.min(room / -change);
+                    }
+                }
             }
         }
         let above_floor = |d: &[f64; MOST_COMPONENTS]| {

@@ -5,12 +5,17 @@ use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, limited_differ
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
 use crate::exact_rows::exact_faces;
+use crate::five_equation::{GasBlock, GasScratch};
+use crate::options::TwoPhaseOptions;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
 use crate::rows::{self, FaceRows, Reconstruction};
-use crate::state::conserved::COUNT;
+use crate::state::conserved::{COUNT, PHI};
 use crate::update::{Extremes, Metric, update};
 use crate::{Boundary, Mixture, RiemannSolver};
+
+/// Cells that fall back to first order in a step, block by block.
+pub(crate) type Marks = std::collections::BTreeMap<usize, Vec<usize>>;
 
 /// What all blocks of a step share.
 pub(crate) struct StepContext<'a, const N: usize> {
@@ -19,6 +24,12 @@ pub(crate) struct StepContext<'a, const N: usize> {
     pub analysis: &'a Analysis,
     pub limiter: Limiter,
     pub riemann: RiemannSolver,
+    /// What the five-equation model does in mixed cells; `None` for the paper's mixture.
+    pub two_phase: Option<TwoPhaseOptions>,
+    /// Whether a block has gas in it.
+    pub has_gas: &'a [bool],
+    /// Cells that fall back to first order in this step.
+    pub marks: &'a Marks,
     pub boundaries: &'a Boundaries,
     /// The state at the beginning of the step.
     pub old: &'a Field,
@@ -44,14 +55,16 @@ pub(crate) struct BlockScratch<const N: usize> {
     speeds: Padded<N>,
     face_weight: Vec<f64>,
     inverse_weight: Vec<f64>,
+    pub gas: GasScratch,
 }
 
 impl<const N: usize> BlockScratch<N> {
-    pub fn new() -> Self {
+    /// For fields of so many components.
+    pub fn new(components: usize) -> Self {
         let len = Padded::<N>::LEN;
         Self {
-            cells: Padded::zeros(COUNT),
-            patch: Patch::zeros(COUNT),
+            cells: Padded::zeros(components),
+            patch: Patch::zeros(components),
             s_z: Padded::zeros(COUNT),
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
@@ -62,7 +75,13 @@ impl<const N: usize> BlockScratch<N> {
             speeds: Padded::zeros(3),
             face_weight: vec![0.0; N + 1],
             inverse_weight: vec![0.0; N],
+            gas: GasScratch::new(len),
         }
+    }
+
+    /// The cells of the last block that should be done again at first order.
+    pub fn marked_cells(&self) -> &[usize] {
+        self.gas.marked()
     }
 }
 
@@ -70,6 +89,11 @@ impl<const N: usize> BlockScratch<N> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BlockReport<const N: usize> {
     pub extremes: Extremes,
+    /// Whether there is gas in the block, or a trace of its mass.
+    pub has_gas: bool,
+    /// Cells that should be done again at first order, and those that were.
+    pub marked: u32,
+    pub redone: u32,
     /// Cells that fell back to first order.
     pub fallbacks: u32,
     /// Cells lifted to the pressure floor, and the energy that took (per radian in axial symmetry), J.
@@ -85,6 +109,9 @@ impl<const N: usize> Default for BlockReport<N> {
     fn default() -> Self {
         Self {
             extremes: Extremes::default(),
+            has_gas: false,
+            marked: 0,
+            redone: 0,
             fallbacks: 0,
             floored: 0,
             floor_energy: 0.0,
@@ -163,6 +190,11 @@ pub(crate) fn step_block<const N: usize>(
         &mut scratch.keep,
     );
 
+    let gas_block = GasBlock::of(ctx, slot);
+    if let Some(block) = &gas_block {
+        block.collect(scratch);
+    }
+
     let [rho, v_z, v_r, p, phi] = scratch.half.split::<COUNT>();
     let [d_rho, d_v_z, d_v_r, d_p, d_phi] = scratch.s_z.split::<COUNT>();
     let along_z = Reconstruction {
@@ -172,6 +204,9 @@ pub(crate) fn step_block<const N: usize>(
     };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_z, 1, z_range, &mut scratch.z_faces);
+    if let Some(block) = &gas_block {
+        block.solve_faces(0, &along_z, &scratch.inverse_r, &mut scratch.gas, &mut scratch.z_faces);
+    }
     if ctx.boundaries.kind(Side::ZMin) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMin) {
         let first = ctx.wall_first[slot];
         Boundaries::impose_wall::<N>(
@@ -190,6 +225,13 @@ pub(crate) fn step_block<const N: usize>(
     };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_r, stride, r_range, &mut scratch.r_faces);
+    if let Some(block) = &gas_block {
+        block.solve_faces(1, &along_r, &scratch.inverse_r, &mut scratch.gas, &mut scratch.r_faces);
+        block.gas_fluxes(&mut scratch.gas, [&mut scratch.z_faces, &mut scratch.r_faces]);
+    } else if ctx.two_phase.is_some() {
+        scratch.z_faces.gas.fill(0.0);
+        scratch.r_faces.gas.fill(0.0);
+    }
 
     register_fluxes(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, fluxes);
     let r_low = ctx.mesh.origin(id)[1];
@@ -207,9 +249,11 @@ pub(crate) fn step_block<const N: usize>(
         inverse_weight: &scratch.inverse_weight,
     };
     let old = ctx.old.block(slot);
-    let [speed_z, speed_r, floor] = scratch.speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
-    let extremes = update::<N>(
-        std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
+    let old_rows: [&[f64]; COUNT] = std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]);
+    let mut speeds = scratch.speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
+    let [speed_z, speed_r, floor] = &mut speeds;
+    update::<N>(
+        old_rows,
         &scratch.z_faces,
         &scratch.r_faces,
         ctx.dt,
@@ -219,10 +263,27 @@ pub(crate) fn step_block<const N: usize>(
         [speed_z, speed_r, floor],
     );
 
-    let mut report = BlockReport { extremes, ..BlockReport::default() };
-    report.fallbacks = count_fallbacks::<N>(&scratch.keep);
-    if extremes.floor > 0.0 {
-        let floor = scratch.speeds.component(2);
+    let mut report = BlockReport { fallbacks: count_fallbacks::<N>(&scratch.keep), ..BlockReport::default() };
+    if let Some(block) = &gas_block {
+        let faces = [&scratch.z_faces, &scratch.r_faces];
+        let pressure = scratch.cells.component(3);
+        block.update(
+            &mut scratch.gas,
+            old_rows,
+            pressure,
+            faces,
+            &metric,
+            &scratch.inverse_r,
+            new,
+            &mut speeds,
+            &mut report,
+        );
+    } else if ctx.two_phase.is_some() {
+        new[COUNT * N * N..].fill(0.0);
+    }
+    let [speed_z, speed_r, floor] = &speeds;
+    report.extremes = Extremes::of(&new[PHI * N * N..(PHI + 1) * N * N], [speed_z, speed_r, floor]);
+    if report.extremes.floor > 0.0 {
         for j in 0..N {
             for added in floor[j * N..(j + 1) * N].iter().filter(|added| **added > 0.0) {
                 report.floored += 1;
@@ -239,7 +300,7 @@ pub(crate) fn step_block<const N: usize>(
     report
 }
 
-/// The components of one block of a field.
+/// The first components of one block of a field.
 pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COUNT] {
     let mut rows = block.chunks_exact_mut(N * N);
     std::array::from_fn(|_| rows.next().expect("a block has that many components"))
@@ -262,7 +323,7 @@ fn faces<const N: usize>(
 }
 
 /// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block.
-fn used_face<const N: usize>(k: usize, step: usize) -> bool {
+pub(crate) fn used_face<const N: usize>(k: usize, step: usize) -> bool {
     let (i, j) = (k % Padded::<N>::STRIDE, k / Padded::<N>::STRIDE);
     let inner = mesh::GHOSTS..mesh::GHOSTS + N;
     let faces = mesh::GHOSTS - 1..mesh::GHOSTS + N;

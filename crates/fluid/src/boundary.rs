@@ -34,8 +34,8 @@ impl PressureHistory {
 #[derive(Clone, Debug)]
 pub(crate) struct Boundaries {
     kinds: [Boundary; 4],
-    /// The initial state in the cells along each side.
-    initial: SideStates<Primitive>,
+    /// The initial state in the cells along each side, and the gas's part of its mass.
+    initial: SideStates<(Primitive, f64)>,
     inflow: Option<PressureHistory>,
 }
 
@@ -53,7 +53,7 @@ pub struct WallState {
 impl Boundaries {
     pub fn new(
         kinds: [Boundary; 4],
-        initial: SideStates<Primitive>,
+        initial: SideStates<(Primitive, f64)>,
         inflow: Option<PressureHistory>,
     ) -> Self {
         Self { kinds, initial, inflow }
@@ -70,7 +70,7 @@ impl Boundaries {
             if !mesh.touches(slot, side) {
                 continue;
             }
-            for component in 0..5 {
+            for component in 0..cells.components() {
                 let row = cells.component_mut(component);
                 match self.kind(side) {
                     Boundary::Axis | Boundary::Wall => {
@@ -113,11 +113,11 @@ impl Boundaries {
             }
             let first = if normal(side) == 1 { id.j } else { id.i } as usize * N;
             for along in 0..N {
-                let mut state = *self.initial.at(side, id.level, first + along);
+                let (mut state, _) = *self.initial.at(side, id.level, first + along);
                 if let Some(history) = inflow {
                     state = entering(state, side, history.at(time), mixture);
                 }
-                let (i, j) = ghost(side, N, along);
+                let [_, (i, j)] = beside(side, N, along);
                 let k = Padded::<N>::index(i, j);
                 keep[k] = 0.0;
                 for (component, value) in state.to_array().into_iter().enumerate() {
@@ -125,6 +125,20 @@ impl Boundaries {
                 }
             }
         }
+    }
+
+    /// The gas's part of the mass that open sides hold outside; `None` at other sides.
+    pub fn initial_gas_share<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        side: Side,
+        along: usize,
+    ) -> Option<f64> {
+        let id = mesh.tree().leaves()[slot];
+        let first = if normal(side) == 1 { id.j } else { id.i } as usize * N;
+        matches!(self.kind(side), Boundary::NonReflecting | Boundary::Inflow)
+            .then(|| self.initial.at(side, id.level, first + along).1)
     }
 
     /// Replaces the fluxes through the wall between fluid and solid by those that the wall's state makes.
@@ -156,7 +170,15 @@ fn wall_face(trace: [f64; 5], wall: WallState, mixture: &Mixture) -> Face {
     let mass = star * wall.velocity;
     let kinetic = 0.5 * mass * (wall.velocity * wall.velocity + v_t * v_t);
     let energy = (1.0 + mixture.beta1(phi)) * wall.power + mixture.beta2(phi) * wall.velocity + kinetic;
-    Face { mass, velocity: wall.velocity, pressure: wall.pressure, shear: mass * v_t, energy, phi }
+    Face {
+        mass,
+        velocity: wall.velocity,
+        pressure: wall.pressure,
+        shear: mass * v_t,
+        energy,
+        phi,
+        compression: star / density,
+    }
 }
 
 /// The state behind a plane wave of pressure `p` that enters into `initial` through a side: isentropic, with
@@ -181,9 +203,7 @@ fn entering(initial: Primitive, side: Side, p: f64, mixture: &Mixture) -> Primit
 /// Makes the ghost cells next to a side the mirror images of the cells within, at mid-step.
 fn mirror<const N: usize>(side: Side, half: &mut Padded<N>, keep: &mut [f64]) {
     for along in 0..N {
-        let (i, j) = ghost(side, N, along);
-        let last = N as isize - 1;
-        let (from, to) = (Padded::<N>::index(i.clamp(0, last), j.clamp(0, last)), Padded::<N>::index(i, j));
+        let [from, to] = beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
         for component in 0..5 {
             let row = half.component_mut(component);
             row[to] = if component == normal(side) { -row[from] } else { row[from] };
@@ -197,14 +217,14 @@ fn normal(side: Side) -> usize {
     if matches!(side, Side::ZMin | Side::ZMax) { 1 } else { 2 }
 }
 
-/// The ghost cell next to a side, `along` cells from its beginning.
-fn ghost(side: Side, n: usize, along: usize) -> (isize, isize) {
+/// The cell next to a side, `along` cells from its beginning, and the ghost beyond.
+pub(crate) fn beside(side: Side, n: usize, along: usize) -> [(isize, isize); 2] {
     let (n, along) = (n as isize, along as isize);
     match side {
-        Side::ZMin => (-1, along),
-        Side::ZMax => (n, along),
-        Side::RMin => (along, -1),
-        Side::RMax => (along, n),
+        Side::ZMin => [(0, along), (-1, along)],
+        Side::ZMax => [(n - 1, along), (n, along)],
+        Side::RMin => [(along, 0), (along, -1)],
+        Side::RMax => [(along, n - 1), (along, n)],
     }
 }
 

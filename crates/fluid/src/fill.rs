@@ -2,6 +2,7 @@
 
 use mesh::{Field, Geometry, Mesh, for_some_blocks};
 
+use crate::state::Contents;
 use crate::{InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, Region, Shape};
 
 /// Points per direction at which a cell that a region's edge may cut is sampled.
@@ -21,12 +22,14 @@ pub(crate) fn average(
     mixture: &Mixture,
     centre: [f64; 2],
     widths: [f64; 2],
-) -> Primitive {
-    let mut state = cell(initial, geometry, centre, widths);
+) -> Contents {
+    let mut contents = cell(initial, geometry, centre, widths);
     for pulse in &initial.pulses {
-        add_pulse(pulse, centre, mixture, &mut state);
+        let density = contents.state.density;
+        add_pulse(pulse, centre, mixture, &mut contents.state);
+        contents.gas *= contents.state.density / density;
     }
-    state
+    contents
 }
 
 /// Pulses are followed to this many widths, where exp(−x²) is 1e-7, by cells of at most a quarter of a width.
@@ -60,8 +63,9 @@ pub(crate) fn fill<const N: usize>(
     mesh: &Mesh<N>,
     mixture: &Mixture,
     field: &mut Field,
-    state: &(impl Fn([f64; 2], [f64; 2]) -> Primitive + Sync + ?Sized),
+    state: &(impl Fn([f64; 2], [f64; 2]) -> Contents + Sync + ?Sized),
 ) {
+    let components = field.components();
     for_some_blocks(
         field,
         &mut vec![(); mesh.blocks()],
@@ -72,7 +76,8 @@ pub(crate) fn fill<const N: usize>(
             for j in 0..N {
                 for i in 0..N {
                     let cell = state(mesh.centre(id, i, j), widths);
-                    for (component, value) in cell.to_conserved(mixture).into_iter().enumerate() {
+                    let values = cell.state.to_conserved(mixture).into_iter().chain([cell.gas]);
+                    for (component, value) in values.take(components).enumerate() {
                         block[(component * N + j) * N + i] = value;
                     }
                 }
@@ -82,9 +87,9 @@ pub(crate) fn fill<const N: usize>(
 }
 
 /// The average over one cell, without pulses.
-fn cell(initial: &InitialCondition, geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> Primitive {
+fn cell(initial: &InitialCondition, geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> Contents {
     if !initial.regions.iter().any(|region| may_cut(region, centre, widths)) {
-        return pure(*at_point(initial, centre));
+        return pure(*at_point(initial, centre)).into();
     }
     let mut sums = Sums::default();
     for b in 0..SAMPLES {
@@ -104,6 +109,7 @@ struct Sums {
     weight: f64,
     gas: f64,
     mass: f64,
+    gas_mass: f64,
     momentum: [f64; 2],
     pressure: f64,
     gas_pressure: f64,
@@ -119,20 +125,22 @@ impl Sums {
         self.pressure += weight * state.pressure;
         if state.phase == Phase::Gas {
             self.gas += weight;
+            self.gas_mass += weight * state.density;
             self.gas_pressure += weight * state.pressure;
         }
     }
 
-    fn average(&self) -> Primitive {
+    fn average(&self) -> Contents {
         let phi = self.gas / self.weight;
         let pressure = if phi > MIXED { self.gas_pressure / self.gas } else { self.pressure / self.weight };
-        Primitive {
+        let state = Primitive {
             density: self.mass / self.weight,
             v_z: self.momentum[0] / self.mass,
             v_r: self.momentum[1] / self.mass,
             pressure,
             phi,
-        }
+        };
+        Contents { state, gas: self.gas_mass / self.weight }
     }
 }
 

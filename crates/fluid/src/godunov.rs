@@ -22,7 +22,7 @@ pub fn flux_exact(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
     let star = star_state(&l, &r);
     let at = sample(&l, &r, &star, 0.0);
     // As HLLC has it: what crosses a contact at rest is the left fluid, by nothing.
-    let [_, _, tangential, _, phi] = if star.u >= 0.0 { left } else { right };
+    let [density, _, tangential, _, phi] = if star.u >= 0.0 { left } else { right };
     let kinetic = 0.5 * at.rho * (at.u * at.u + tangential * tangential);
     let energy = mixture.beta1(phi) * at.p + mixture.beta2(phi) + kinetic;
     let mass = at.rho * at.u;
@@ -33,6 +33,7 @@ pub fn flux_exact(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
         shear: mass * tangential,
         energy: at.u * (energy + at.p),
         phi,
+        compression: at.rho / density,
     }
 }
 

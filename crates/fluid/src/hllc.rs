@@ -18,6 +18,8 @@ pub struct Face {
     pub energy: f64,
     /// Gas fraction of the fluid that crosses.
     pub phi: f64,
+    /// ρ*/ρ: how much denser what crosses is on the face than on the side it comes from.
+    pub compression: f64,
 }
 
 /// HLLC flux for two-phase flow with an advected gas fraction.
@@ -69,8 +71,17 @@ pub fn flux_hllc(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
     let pressure = if supersonic { p } else { p_star };
     let density = if supersonic { rho } else { rho * compression };
     let total = if supersonic { energy } else { energy_star };
+    let compression = if supersonic { 1.0 } else { compression };
     let mass = density * velocity;
-    Face { mass, velocity, pressure, shear: mass * v, energy: velocity * (total + pressure), phi }
+    Face {
+        mass,
+        velocity,
+        pressure,
+        shear: mass * v,
+        energy: velocity * (total + pressure),
+        phi,
+        compression,
+    }
 }
 
 /// By comparison, without the NaN rules of `f64::min`, so that a row of faces vectorises.
@@ -97,7 +108,15 @@ mod tests {
         let [rho, u, v, p, phi] = w;
         let m = mixture();
         let energy = m.beta1(phi) * p + m.beta2(phi) + 0.5 * rho * (u * u + v * v);
-        Face { mass: rho * u, velocity: u, pressure: p, shear: rho * u * v, energy: u * (energy + p), phi }
+        Face {
+            mass: rho * u,
+            velocity: u,
+            pressure: p,
+            shear: rho * u * v,
+            energy: u * (energy + p),
+            phi,
+            compression: 1.0,
+        }
     }
 
     #[test]

@@ -3,13 +3,62 @@
 /// The two-phase model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
+    /// Partial densities, one velocity and one pressure, and a gas fraction that feels compression: five equations in
+    /// one dimension (Kapila et al. 2001). The default.
+    FiveEquation,
+    /// The same without the K term: the gas fraction is only advected (Allaire, Clerc & Kokh 2002). For study.
+    Allaire,
     /// One density, advected gas fraction, linear β₁ and β₂: the paper's mixture (Saurel & Abgrall 1999).
     SaurelAbgrall,
 }
 
 impl Model {
     /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 1] = [("saurel-abgrall", Self::SaurelAbgrall)];
+    pub const NAMES: [(&'static str, Self); 3] = [
+        ("five-equation", Self::FiveEquation),
+        ("allaire", Self::Allaire),
+        ("saurel-abgrall", Self::SaurelAbgrall),
+    ];
+
+    /// Numbers in a cell: ρ, ρv_z, ρv_r, ρE, φ, and the gas's mass m_g where phases have densities of their own.
+    pub fn components(self) -> usize {
+        if self == Self::SaurelAbgrall { 5 } else { 6 }
+    }
+}
+
+/// What keeps the interface between gas and liquid sharp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sharpening {
+    /// The gas fraction on a mixed cell's faces is that of a step (THINC; Shyue & Xiao 2014).
+    Thinc,
+    /// The limited linear reconstruction serves it, too.
+    None,
+}
+
+impl Sharpening {
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 2] = [("thinc", Self::Thinc), ("none", Self::None)];
+}
+
+/// What the five-equation model does in mixed cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TwoPhaseOptions {
+    /// Whether the phases are compressed by their own stiffness (the K term).
+    pub has_closure: bool,
+    /// Whether THINC makes the gas fraction on faces.
+    pub is_sharp: bool,
+}
+
+impl TwoPhaseOptions {
+    /// `None` for the paper's mixture, which has no phases of their own densities.
+    pub fn of(model: Model, sharpening: Sharpening) -> Option<Self> {
+        let is_sharp = sharpening == Sharpening::Thinc;
+        match model {
+            Model::SaurelAbgrall => None,
+            Model::Allaire => Some(Self { has_closure: false, is_sharp }),
+            Model::FiveEquation => Some(Self { has_closure: true, is_sharp }),
+        }
+    }
 }
 
 /// The Riemann solver at cell faces.

@@ -4,17 +4,18 @@ use mesh::{CorrectedFace, FluxRegister, Mesh, Side};
 
 use crate::Mixture;
 use crate::block::{BlockReport, StepContext};
+use crate::five_equation::{Compression, is_mixed};
 use crate::rows::FaceRows;
-use crate::state::conserved::{COUNT, ENERGY, PHI};
+use crate::state::conserved::{COUNT, ENERGY, GAS, PHI};
 use crate::state::primitive;
 
 /// What is registered of a face: mass flux, normal momentum it carries, pressure, tangential momentum flux, energy
-/// flux, velocity u_f of the face, u_f φ_f.
+/// flux, velocity u_f of the face, u_f φ_f, mass flux of the gas.
 ///
-/// The last two carry the gas fraction in its non-conservative form (27): u_f (φ_f − φ) is linear in both, and at
+/// u_f and u_f φ_f carry the gas fraction in its non-conservative form (27): u_f (φ_f − φ) is linear in both, and at
 /// uniform p and u the energy flux is the same linear function of φ_f and ρ_f on every face, so means of fine
 /// faces keep uniform p and u as single faces do.
-pub(crate) const QUANTITIES: usize = 7;
+pub(crate) const QUANTITIES: usize = 8;
 
 /// The fluid's register.
 pub(crate) type Register<const N: usize> = FluxRegister<N, QUANTITIES>;
@@ -38,6 +39,7 @@ pub(crate) fn register_fluxes<const N: usize>(
             faces.energy[k],
             velocity,
             velocity * faces.phi[k],
+            faces.gas[k],
         ]
     });
 }
@@ -58,17 +60,17 @@ pub(crate) fn correct<const N: usize>(
     let r_low = ctx.mesh.origin(id)[1];
     register.for_corrected_faces(ctx.mesh, slot, |face| {
         let CorrectedFace { side, outward, cell: [i, j], difference } = face;
-        let [mass, carried, pressure, shear, energy, velocity, velocity_phi] = difference;
+        let [mass, carried, pressure, shear, energy, velocity, velocity_phi, gas] = difference;
         let cell = |c: usize| (c * N + j) * N + i;
-        let phi = velocity_phi - velocity * ctx.old.block(slot)[cell(PHI)];
+        let phi = velocity_phi - velocity * (ctx.old.block(slot)[cell(PHI)] + expansion(ctx, slot, [i, j]));
         let changes = if matches!(side, Side::ZMin | Side::ZMax) {
-            [mass, carried + pressure, shear, energy, phi].map(|change| outward * dt_z * change)
+            [mass, carried + pressure, shear, energy, phi, gas].map(|change| outward * dt_z * change)
         } else {
             let face = r_low + if side == Side::RMin { 0.0 } else { N as f64 * h_r };
             let weight = ctx.mesh.weight(face) / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
             // The pressure's share of the radial momentum has no weight, see `update.rs`.
             let radial = weight * carried + pressure;
-            [weight * mass, weight * shear, radial, weight * energy, weight * phi]
+            [weight * mass, weight * shear, radial, weight * energy, weight * phi, weight * gas]
                 .map(|change| outward * dt_r * change)
         };
         let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
@@ -80,7 +82,25 @@ pub(crate) fn correct<const N: usize>(
         for (c, value) in u.into_iter().enumerate() {
             new[cell(c)] = value;
         }
+        if ctx.two_phase.is_some() {
+            new[cell(GAS)] -= changes[GAS];
+            report.has_gas |= new[cell(GAS)] != 0.0 || new[cell(PHI)] != 0.0;
+        }
     });
+}
+
+/// What the closure adds to the gas fraction of a mixed cell per change of its volume, see
+/// [`Compression::expansion`]. (Where the interface is on the finest level, as adaptation keeps it, no such cell is
+/// corrected.)
+fn expansion<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, [i, j]: [usize; 2]) -> f64 {
+    let u: [f64; COUNT] = std::array::from_fn(|c| ctx.old.component(slot, c)[j * N + i]);
+    match ctx.two_phase {
+        Some(options) if is_mixed(u[PHI]) => {
+            let [_, _, _, p, phi] = primitive(u, ctx.mixture);
+            Compression::at(p, phi, ctx.mixture, options.has_closure).expansion(phi)
+        }
+        _ => 0.0,
+    }
 }
 
 /// Applies the pressure floor to a corrected cell and takes its speeds into the report; returns the energy added.

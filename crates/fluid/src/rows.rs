@@ -238,13 +238,23 @@ pub(crate) struct FaceRows {
     pub shear: AlignedRow,
     pub energy: AlignedRow,
     pub phi: AlignedRow,
+    /// Mass flux of the gas, where the model has one.
+    pub gas: AlignedRow,
 }
 
 impl FaceRows {
     /// For padded rows of `len` cells, `stride` apart along r.
     pub fn zeros(len: usize, stride: usize) -> Self {
         let row = || AlignedRow::zeros(len, stride);
-        Self { mass: row(), velocity: row(), pressure: row(), shear: row(), energy: row(), phi: row() }
+        Self {
+            mass: row(),
+            velocity: row(),
+            pressure: row(),
+            shear: row(),
+            energy: row(),
+            phi: row(),
+            gas: row(),
+        }
     }
 
     pub fn set(&mut self, k: usize, face: Face) {

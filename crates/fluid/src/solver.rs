@@ -6,12 +6,18 @@ use mesh::{
 };
 
 use crate::analysis::{Analysis, Scales};
-use crate::block::{BlockReport, BlockScratch, step_block};
+use crate::block::{BlockReport, BlockScratch, Marks, StepContext, step_block};
 use crate::boundary::{Boundaries, PressureHistory, WallState};
+use crate::five_equation::marked_blocks;
+use crate::options::TwoPhaseOptions;
 use crate::reflux::{self, Register};
-use crate::state::conserved::COUNT;
+use crate::state::Contents;
+use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::update::Extremes;
-use crate::{Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RiemannSolver, StiffenedGas};
+use crate::{
+    Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RiemannSolver, Sharpening,
+    StiffenedGas,
+};
 
 /// Everything that defines a fluid.
 #[derive(Clone, Debug)]
@@ -28,6 +34,8 @@ pub struct FluidSetup {
     pub gas: StiffenedGas,
     /// The two-phase model.
     pub model: Model,
+    /// What keeps the interface sharp; without a say in the paper's mixture.
+    pub sharpening: Sharpening,
     /// The Riemann solver at cell faces.
     pub riemann: RiemannSolver,
     /// The slope limiter.
@@ -43,7 +51,7 @@ pub struct FluidSetup {
 }
 
 /// What fills a cell (centre, widths) at t = 0.
-pub(crate) type InitialState<'a> = dyn Fn([f64; 2], [f64; 2]) -> Primitive + Sync + 'a;
+pub(crate) type InitialState<'a> = dyn Fn([f64; 2], [f64; 2]) -> Contents + Sync + 'a;
 
 /// Whether a block (low corner, high corner, widths of its cells) is too coarse for what is in it at t = 0.
 pub(crate) type AsksForFiner<'a> = dyn Fn([f64; 2], [f64; 2], [f64; 2]) -> bool + Sync + 'a;
@@ -53,6 +61,8 @@ pub(crate) type AsksForFiner<'a> = dyn Fn([f64; 2], [f64; 2], [f64; 2]) -> bool 
 pub struct Fixups {
     /// Cell-steps at first order, because a reconstructed face state was not admissible.
     pub first_order: u64,
+    /// Cell-steps of mixed cells done again at first order, because a phase would have been drained.
+    pub redone: u64,
     /// Cell-steps lifted to the pressure floor.
     pub floored: u64,
     /// Energy that the floor added, J (per radian in axial symmetry, per metre of depth in planar geometry).
@@ -85,11 +95,15 @@ pub struct FluidSolver<const N: usize> {
     pub(crate) mixture: Mixture,
     pub(crate) limiter: Limiter,
     pub(crate) riemann: RiemannSolver,
+    pub(crate) two_phase: Option<TwoPhaseOptions>,
     pub(crate) boundaries: Boundaries,
     pub(crate) state: Field,
     pub(crate) next: Field,
     pub(crate) register: Register<N>,
     pub(crate) reports: Vec<BlockReport<N>>,
+    /// Whether there is gas in each block, as the reports have it.
+    pub(crate) has_gas: Vec<bool>,
+    pub(crate) marks: Marks,
     pub(crate) analysis: Analysis,
     pub(crate) adaptation: Option<Adaptation>,
     pub(crate) horizon: Horizon,
@@ -121,14 +135,15 @@ impl<const N: usize> FluidSolver<N> {
         )
     }
 
-    /// A fluid filled point by point: `state` gives the primitive variables at a cell's centre (z, r).
+    /// A fluid filled point by point: `state` gives the primitive variables at a cell's centre (z, r), of one phase
+    /// where phases have densities of their own.
     ///
     /// - errors: as [`FluidSolver::new`].
     pub fn from_fn(
         setup: &FluidSetup,
         state: impl Fn([f64; 2]) -> Primitive + Sync,
     ) -> Result<Self, FluidError> {
-        Self::with(setup, &|centre, _| state(centre), &|_, _, _| false)
+        Self::with(setup, &|centre, _| state(centre).into(), &|_, _, _| false)
     }
 
     fn with(
@@ -136,7 +151,6 @@ impl<const N: usize> FluidSolver<N> {
         initial: &InitialState<'_>,
         asks_for_finer: &AsksForFiner<'_>,
     ) -> Result<Self, FluidError> {
-        let Model::SaurelAbgrall = setup.model;
         let kinds = setup.boundaries;
         if kinds.contains(&Boundary::Inflow) && setup.inflow.is_none() {
             return Err(FluidError::NoInflow);
@@ -144,24 +158,29 @@ impl<const N: usize> FluidSolver<N> {
         let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
         let mixture = Mixture::new(setup.liquid, setup.gas);
         let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales };
-        let scratch = ScratchPool::new(BlockScratch::new);
+        let components = setup.model.components();
+        let scratch = ScratchPool::new(|| BlockScratch::new(components));
         let (mesh, state) = crate::adapt::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
         let sides = SideStates::new(&mesh, |centre, widths| {
-            Primitive::from_conserved(initial(centre, widths).to_conserved(&mixture), &mixture)
+            let Contents { state, gas } = initial(centre, widths);
+            (Primitive::from_conserved(state.to_conserved(&mixture), &mixture), gas / state.density)
         });
         let mut solver = Self {
             reports: vec![BlockReport::default(); mesh.blocks()],
+            has_gas: Vec::new(),
+            marks: Marks::new(),
             next: state.clone(),
             register: Register::new(mesh.blocks()),
             state,
             limiter: setup.limiter,
             riemann: setup.riemann,
+            two_phase: TwoPhaseOptions::of(setup.model, setup.sharpening),
             boundaries: Boundaries::new(kinds, sides, setup.inflow.clone()),
             analysis,
             adaptation: setup.adaptation.clone(),
             horizon: Horizon::default(),
-            patches: ScratchPool::new(|| Patch::zeros(COUNT)),
+            patches: ScratchPool::new(|| Patch::zeros(components)),
             scratch,
             wall: Vec::new(),
             wall_first: Vec::new(),
@@ -179,6 +198,7 @@ impl<const N: usize> FluidSolver<N> {
         for slot in 0..solver.mesh.blocks() {
             solver.measure_speeds(slot);
         }
+        solver.note_gas();
         solver.check(0.0)?;
         Ok(solver)
     }
@@ -266,6 +286,9 @@ impl<const N: usize> FluidSolver<N> {
         for_each_block(&mut next, register.values_mut(), &mut reports, |slot, new, fluxes, report| {
             *report = self.scratch.with(|scratch| step_block(&context, slot, new, fluxes, scratch));
         });
+        if reports.iter().any(|report| report.marked > 0) {
+            self.redo_marked(&context, &mut next, &mut register, &mut reports);
+        }
         let is_due = |slot: usize| Register::is_due(&self.mesh, slot);
         for_some_blocks(&mut next, &mut reports, is_due, |slot, new, report| {
             reflux::correct(&context, &register, slot, new, report);
@@ -276,12 +299,45 @@ impl<const N: usize> FluidSolver<N> {
             std::mem::swap(&mut self.state, &mut self.next);
             return Err(error);
         }
+        self.note_gas();
         self.account();
         self.account_wall(dt);
         self.time += dt;
         self.steps += 1;
         self.cell_updates += self.mesh.cells() as u64;
         Ok(())
+    }
+
+    /// Does the blocks around marked cells again, with those cells at first order.
+    fn redo_marked(
+        &self,
+        context: &StepContext<'_, N>,
+        next: &mut Field,
+        register: &mut Register<N>,
+        reports: &mut [BlockReport<N>],
+    ) {
+        let marked: Vec<usize> = reports
+            .iter()
+            .enumerate()
+            .filter(|(_, report)| report.marked > 0)
+            .map(|(slot, _)| slot)
+            .collect();
+        let mut step = |context: &StepContext<'_, N>, slot: usize| {
+            self.scratch.with(|scratch| {
+                let fluxes = register.values_mut().block_mut(slot);
+                reports[slot] = step_block(context, slot, next.block_mut(slot), fluxes, scratch);
+                scratch.marked_cells().to_vec()
+            })
+        };
+        // Which cells they are is still in the scratch of a block's step, and only there.
+        let marks: Marks = marked.into_iter().map(|slot| (slot, step(context, slot))).collect();
+        let context = StepContext { marks: &marks, ..*context };
+        for slot in marked_blocks(&self.mesh, &marks) {
+            step(&context, slot);
+        }
+        for (slot, cells) in &marks {
+            reports[*slot].redone = cells.len() as u32;
+        }
     }
 
     /// Impulse and work of the wall's states in a step of length `dt`.
@@ -305,6 +361,7 @@ impl<const N: usize> FluidSolver<N> {
     fn account(&mut self) {
         for report in &self.reports {
             self.fixups.first_order += u64::from(report.fallbacks);
+            self.fixups.redone += u64::from(report.redone);
             self.fixups.floored += u64::from(report.floored);
             self.fixups.floor_energy += report.floor_energy;
             for (side, [mass, momentum, energy]) in report.inflow.into_iter().enumerate() {
@@ -351,8 +408,17 @@ impl<const N: usize> FluidSolver<N> {
             extremes.speed_z = extremes.speed_z.max(speed(w.v_z));
             extremes.speed_r = extremes.speed_r.max(speed(w.v_r));
         }
-        extremes.phi = maximum(self.state.component(slot, crate::state::conserved::PHI));
+        extremes.phi = maximum(self.state.component(slot, PHI));
         self.reports[slot].extremes = extremes;
+        let has_any =
+            |component: usize| self.state.component(slot, component).iter().any(|value| *value != 0.0);
+        self.reports[slot].has_gas = self.two_phase.is_some() && (has_any(PHI) || has_any(GAS));
+    }
+
+    /// Takes from the reports which blocks have gas.
+    pub(crate) fn note_gas(&mut self) {
+        self.has_gas.clear();
+        self.has_gas.extend(self.reports.iter().map(|report| report.has_gas));
     }
 
     /// Mean pressure of the last step on each face of z_min, in the order of r, Pa.

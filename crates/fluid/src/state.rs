@@ -2,7 +2,8 @@
 
 use crate::Mixture;
 
-/// Conserved components of the one-density model, in the order in which fields hold them: ρ, ρv_z, ρv_r, ρE, φ.
+/// Conserved components in the order in which fields hold them: ρ, ρv_z, ρv_r, ρE, φ, and m_g where phases have
+/// densities of their own.
 pub(crate) mod conserved {
     /// Density ρ.
     pub const RHO: usize = 0;
@@ -12,8 +13,10 @@ pub(crate) mod conserved {
     pub const ENERGY: usize = 3;
     /// Gas fraction φ (advected, not conserved).
     pub const PHI: usize = 4;
-    /// How many.
+    /// How many all models have.
     pub const COUNT: usize = 5;
+    /// Mass of the gas per volume m_g = φρ_g.
+    pub const GAS: usize = 5;
 }
 
 /// Primitive variables of the one-density model.
@@ -64,4 +67,19 @@ pub(crate) fn primitive([rho, mz, mr, energy, phi]: [f64; 5], mixture: &Mixture)
     let (v_z, v_r) = (mz * inverse, mr * inverse);
     let internal = energy - 0.5 * (mz * v_z + mr * v_r);
     [rho, v_z, v_r, (internal - mixture.beta2(phi)) / mixture.beta1(phi), phi]
+}
+
+/// What a cell holds at t = 0: the mixture, and the gas's part of its mass per volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Contents {
+    pub state: Primitive,
+    /// m_g, kg/m³.
+    pub gas: f64,
+}
+
+impl From<Primitive> for Contents {
+    /// Of a pure cell; a mixed one is taken to be of one density.
+    fn from(state: Primitive) -> Self {
+        Self { state, gas: state.phi * state.density }
+    }
 }

@@ -18,6 +18,18 @@ pub(crate) struct Extremes {
     pub floor: f64,
 }
 
+impl Extremes {
+    /// Of the rows that [`update`] writes.
+    pub fn of(phi: &[f64], [speed_z, speed_r, floor]: [&[f64]; 3]) -> Self {
+        Self {
+            speed_z: maximum(speed_z),
+            speed_r: maximum(speed_r),
+            phi: maximum(phi),
+            floor: maximum(floor),
+        }
+    }
+}
+
 /// What the update needs to know of a block's geometry.
 pub(crate) struct Metric<'a> {
     /// Stride and flat index of cell (0, 0) of padded rows.
@@ -30,6 +42,19 @@ pub(crate) struct Metric<'a> {
     pub face_weight: &'a [f64],
     /// 1/r_j (or 1) of the N rows.
     pub inverse_weight: &'a [f64],
+}
+
+impl Metric<'_> {
+    /// Of row `j`, for a step of length `dt`.
+    #[inline(always)]
+    pub fn row(&self, j: usize, dt: f64) -> RowMetric {
+        RowMetric {
+            dt_z: dt * self.inverse_h[0],
+            dt_r: dt * self.inverse_h[1],
+            lower: self.face_weight[j] * self.inverse_weight[j],
+            upper: self.face_weight[j + 1] * self.inverse_weight[j],
+        }
+    }
 }
 
 /// Conservative update of a block of N² cells from its face fluxes, gas fraction in the form (27).
@@ -50,7 +75,7 @@ pub(crate) fn update<const N: usize>(
     mixture: &Mixture,
     new: [&mut [f64]; 5],
     speeds: [&mut [f64]; 3],
-) -> Extremes {
+) {
     let [rho, mz, mr, energy, phi] = new;
     let [speed_z, speed_r, floor] = speeds;
     for j in 0..N {
@@ -62,12 +87,7 @@ pub(crate) fn update<const N: usize>(
             FaceSlices::cut(z_faces, k),
             FaceSlices::cut(r_faces, k - metric.stride),
             FaceSlices::cut(r_faces, k),
-            RowMetric {
-                dt_z: dt * metric.inverse_h[0],
-                dt_r: dt * metric.inverse_h[1],
-                lower: metric.face_weight[j] * metric.inverse_weight[j],
-                upper: metric.face_weight[j + 1] * metric.inverse_weight[j],
-            },
+            metric.row(j, dt),
             *mixture,
             row_mut(rho, at),
             row_mut(mz, at),
@@ -78,12 +98,6 @@ pub(crate) fn update<const N: usize>(
             row_mut(speed_r, at),
             row_mut(floor, at),
         );
-    }
-    Extremes {
-        speed_z: maximum(speed_z),
-        speed_r: maximum(speed_r),
-        phi: maximum(phi),
-        floor: maximum(floor),
     }
 }
 
@@ -121,15 +135,127 @@ impl<'a, const N: usize> FaceSlices<'a, N> {
             phi: row(&faces.phi, at),
         }
     }
+
+    #[inline(always)]
+    fn at(&self, k: usize) -> FaceValues {
+        FaceValues {
+            mass: self.mass[k],
+            velocity: self.velocity[k],
+            pressure: self.pressure[k],
+            shear: self.shear[k],
+            energy: self.energy[k],
+            phi: self.phi[k],
+        }
+    }
 }
 
-/// Time step over cell width, and face weights over the row's weight.
+/// What the balance of one row of cells needs: time step over cell width, and face weights over the row's weight.
 #[derive(Clone, Copy)]
-struct RowMetric {
+pub(crate) struct RowMetric {
     dt_z: f64,
     dt_r: f64,
     lower: f64,
     upper: f64,
+}
+
+impl RowMetric {
+    /// Δt/h_z times the difference of a flux along z.
+    #[inline(always)]
+    pub fn axial(&self, high: f64, low: f64) -> f64 {
+        self.dt_z * (high - low)
+    }
+
+    /// Δt/h_r times the weighted difference of a flux along r.
+    #[inline(always)]
+    pub fn radial(&self, high: f64, low: f64) -> f64 {
+        self.dt_r * (self.upper * high - self.lower * low)
+    }
+}
+
+/// What one face passes on, see [`crate::Face`].
+#[derive(Clone, Copy)]
+pub(crate) struct FaceValues {
+    pub mass: f64,
+    pub velocity: f64,
+    pub pressure: f64,
+    pub shear: f64,
+    pub energy: f64,
+    pub phi: f64,
+}
+
+impl FaceValues {
+    /// Face `k` of some rows.
+    #[inline(always)]
+    pub fn of(faces: &FaceRows, k: usize) -> Self {
+        Self {
+            mass: faces.mass[k],
+            velocity: faces.velocity[k],
+            pressure: faces.pressure[k],
+            shear: faces.shear[k],
+            energy: faces.energy[k],
+            phi: faces.phi[k],
+        }
+    }
+}
+
+/// One cell's conserved variables after the step, paper eqs. (23), (27), before anything is corrected.
+///
+/// Both directions are added before they meet the old value, and alike for both components of the momentum: planar
+/// flow does not tell z from r, to the last bit.
+///
+/// - `faces`: west, east, south, north.
+#[inline(always)]
+pub(crate) fn balance(
+    old: [f64; 5],
+    [west, east, south, north]: [FaceValues; 4],
+    row: RowMetric,
+) -> [f64; 5] {
+    let normal = |f: &FaceValues| f.mass * f.velocity;
+    let force_z = row.axial(normal(&east), normal(&west)) + row.axial(east.pressure, west.pressure);
+    let force_r = row.radial(normal(&north), normal(&south)) + row.dt_r * (north.pressure - south.pressure);
+    let carried = |f: &FaceValues| f.velocity * (f.phi - old[4]);
+    [
+        old[0] - (row.axial(east.mass, west.mass) + row.radial(north.mass, south.mass)),
+        old[1] - (force_z + row.radial(north.shear, south.shear)),
+        old[2] - (force_r + row.axial(east.shear, west.shear)),
+        old[3] - (row.axial(east.energy, west.energy) + row.radial(north.energy, south.energy)),
+        old[4] - (row.axial(carried(&east), carried(&west)) + row.radial(carried(&north), carried(&south))),
+    ]
+}
+
+/// A cell that holds the pressure floor, and what the next time step needs to know of it.
+#[derive(Clone, Copy)]
+pub(crate) struct SettledCell {
+    pub conserved: [f64; 5],
+    /// |v_z| + c, |v_r| + c; infinite if the cell is not admissible.
+    pub speed_z: f64,
+    pub speed_r: f64,
+    /// Energy per volume that the floor added.
+    pub floor: f64,
+}
+
+/// Applies the pressure floor. As `state::primitive`, with one division for 1/ρ and one for 1/β₁, which the sound
+/// speed needs as well.
+#[inline(always)]
+pub(crate) fn settled([rho, mz, mr, energy, phi]: [f64; 5], mixture: &Mixture) -> SettledCell {
+    let inverse_rho = 1.0 / rho;
+    let (v_z, v_r) = (mz * inverse_rho, mr * inverse_rho);
+    let internal = energy - 0.5 * (mz * v_z + mr * v_r);
+    let (beta1, beta2) = (mixture.beta1(phi), mixture.beta2(phi));
+    let inverse_beta1 = 1.0 / beta1;
+    let p = (internal - beta2) * inverse_beta1;
+    let lowest = mixture.pressure_floor(phi);
+    let lifted = if p < lowest { lowest } else { p };
+    let added = beta1 * (lifted - p);
+    let sound = (((1.0 + beta1) * lifted + beta2) * (inverse_beta1 * inverse_rho)).sqrt();
+    let sane = (rho > 0.0) & (sound < f64::MAX);
+    let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
+    SettledCell {
+        conserved: [rho, mz, mr, energy + added, phi],
+        speed_z: speed(v_z),
+        speed_r: speed(v_r),
+        floor: added,
+    }
 }
 
 #[inline(always)]
@@ -150,44 +276,13 @@ fn update_row<const N: usize>(
     speed_r: &mut [f64; N],
     floor: &mut [f64; N],
 ) {
-    let RowMetric { dt_z, dt_r, lower, upper } = metric;
     for k in 0..N {
-        let axial = |high: f64, low: f64| dt_z * (high - low);
-        let radial = |high: f64, low: f64| dt_r * (upper * high - lower * low);
-        let normal = |f: &FaceSlices<'_, N>| f.mass[k] * f.velocity[k];
-        // Both directions are added before they meet the old value, and alike for both components of the
-        // momentum: planar flow does not tell z from r, to the last bit.
-        let new_rho = old[0][k] - (axial(east.mass[k], west.mass[k]) + radial(north.mass[k], south.mass[k]));
-        let force_z = axial(normal(&east), normal(&west)) + axial(east.pressure[k], west.pressure[k]);
-        let force_r = radial(normal(&north), normal(&south)) + dt_r * (north.pressure[k] - south.pressure[k]);
-        let new_mz = old[1][k] - (force_z + radial(north.shear[k], south.shear[k]));
-        let new_mr = old[2][k] - (force_r + axial(east.shear[k], west.shear[k]));
-        let new_energy =
-            old[3][k] - (axial(east.energy[k], west.energy[k]) + radial(north.energy[k], south.energy[k]));
-        let old_phi = old[4][k];
-        let carried = |f: &FaceSlices<'_, N>| f.velocity[k] * (f.phi[k] - old_phi);
-        let new_phi =
-            old_phi - (axial(carried(&east), carried(&west)) + radial(carried(&north), carried(&south)));
-
-        // As `state::primitive`, with one division for 1/ρ and one for 1/β₁, which the sound speed needs as well.
-        let inverse_rho = 1.0 / new_rho;
-        let (v_z, v_r) = (new_mz * inverse_rho, new_mr * inverse_rho);
-        let internal = new_energy - 0.5 * (new_mz * v_z + new_mr * v_r);
-        let (beta1, beta2) = (mixture.beta1(new_phi), mixture.beta2(new_phi));
-        let inverse_beta1 = 1.0 / beta1;
-        let p = (internal - beta2) * inverse_beta1;
-        let lowest = mixture.pressure_floor(new_phi);
-        let lifted = if p < lowest { lowest } else { p };
-        let added = beta1 * (lifted - p);
-        let sound = (((1.0 + beta1) * lifted + beta2) * (inverse_beta1 * inverse_rho)).sqrt();
-        let sane = (new_rho > 0.0) & (sound < f64::MAX);
-        rho[k] = new_rho;
-        mz[k] = new_mz;
-        mr[k] = new_mr;
-        energy[k] = new_energy + added;
-        phi[k] = new_phi;
-        speed_z[k] = if sane { v_z.abs() + sound } else { f64::INFINITY };
-        speed_r[k] = if sane { v_r.abs() + sound } else { f64::INFINITY };
-        floor[k] = added;
+        let faces = [west.at(k), east.at(k), south.at(k), north.at(k)];
+        let before = [old[0][k], old[1][k], old[2][k], old[3][k], old[4][k]];
+        let cell = settled(balance(before, faces, metric), &mixture);
+        [rho[k], mz[k], mr[k], energy[k], phi[k]] = cell.conserved;
+        speed_z[k] = cell.speed_z;
+        speed_r[k] = cell.speed_r;
+        floor[k] = cell.floor;
     }
 }

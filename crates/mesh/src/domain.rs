@@ -148,6 +148,22 @@ impl<const N: usize> Mesh<N> {
         ]
     }
 
+    /// The cell that holds the centre of cell (i, j) of the block in `slot`: (slot, i, j). `i` and `j` may lie beyond the
+    /// block; periodic sides continue on the other one. `None` outside the domain.
+    pub fn cell_at(&self, slot: usize, i: isize, j: isize) -> Option<(usize, usize, usize)> {
+        let id = self.tree.leaves()[slot];
+        let widths = self.widths(id.level);
+        let (first, index) = ([id.i, id.j], [i, j]);
+        let mut point = [0.0; 2];
+        for (axis, [low, high]) in [self.domain.z, self.domain.r].into_iter().enumerate() {
+            let offset = (i64::from(first[axis]) * N as i64 + index[axis] as i64) as f64 + 0.5;
+            let x = low + offset * widths[axis];
+            let is_wrapped = self.tree.periodic()[axis];
+            point[axis] = if is_wrapped { low + (x - low).rem_euclid(high - low) } else { x };
+        }
+        self.locate(point)
+    }
+
     /// Weight of the metric at radius `r`: r itself (per radian) or 1.
     pub fn weight(&self, r: f64) -> f64 {
         match self.domain.geometry {

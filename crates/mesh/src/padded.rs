@@ -60,16 +60,16 @@ impl<const N: usize> Padded<N> {
         rows.flat_map(row).copied().collect()
     }
 
-    /// All components, each a flat row.
+    /// The first C components, each a flat row.
     pub fn split<const C: usize>(&self) -> [&[f64]; C] {
-        assert_eq!(C, self.components, "as many rows as components");
+        assert!(C <= self.components, "no more rows than components");
         let mut rows = self.data.chunks_exact(Self::LEN);
         std::array::from_fn(|_| rows.next().expect("asserted above"))
     }
 
-    /// All components, each a flat row, to write.
+    /// The first C components, each a flat row, to write.
     pub fn split_mut<const C: usize>(&mut self) -> [&mut [f64]; C] {
-        assert_eq!(C, self.components, "as many rows as components");
+        assert!(C <= self.components, "no more rows than components");
         let mut rows = self.data.chunks_exact_mut(Self::LEN);
         std::array::from_fn(|_| rows.next().expect("asserted above"))
     }

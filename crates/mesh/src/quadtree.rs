@@ -50,6 +50,18 @@ pub enum Neighbour {
     Finer([usize; 2]),
 }
 
+impl Neighbour {
+    /// The slots of its leaves.
+    pub fn slots(&self) -> impl Iterator<Item = usize> + use<> {
+        let [first, second] = match *self {
+            Self::Boundary => [None; 2],
+            Self::Same(slot) | Self::Coarser(slot) => [Some(slot), None],
+            Self::Finer([a, b]) => [Some(a), Some(b)],
+        };
+        first.into_iter().chain(second)
+    }
+}
+
 /// A forest of quadtrees over a grid of root blocks, seen through its leaves.
 ///
 /// Leaves are kept in Morton order; the position of a leaf in that order is its *slot*, and all data of
@@ -126,6 +138,11 @@ impl Quadtree {
     /// What lies around the leaf in `slot`, in the order of [`Offset::ALL`].
     pub fn neighbours(&self, slot: usize) -> &[Neighbour; 8] {
         &self.neighbours[slot]
+    }
+
+    /// Whether opposite sides meet, along z and r.
+    pub fn periodic(&self) -> [bool; 2] {
+        self.periodic
     }
 
     /// Blocks along z and r on `level`.

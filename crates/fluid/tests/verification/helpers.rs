@@ -26,6 +26,7 @@ pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -
         liquid: LIQUID,
         gas: GAS,
         model: Model::SaurelAbgrall,
+        sharpening: fluid::Sharpening::None,
         riemann: RiemannSolver::Hllc,
         limiter: Limiter::Mc,
         boundaries,

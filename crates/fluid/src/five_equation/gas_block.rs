@@ -1,0 +1,188 @@
+//! The part of a block's step that only the five-equation model has, where there is gas.
+
+use mesh::{AlignedRow, Padded, Side};
+
+use super::mixed::{MixedCells, Outer};
+use super::reconstruction::{Cells, Stencil};
+use super::update::{gas_fluxes, update_gas, update_mixed};
+use crate::Boundary;
+use crate::block::{BlockReport, BlockScratch, StepContext, split_block};
+use crate::options::TwoPhaseOptions;
+use crate::rows::{FaceRows, Reconstruction, Rows};
+use crate::state::conserved::{GAS, RHO};
+use crate::update::Metric;
+
+/// Scratch of one thread.
+pub(crate) struct GasScratch {
+    mixed: MixedCells,
+    /// m_g/ρ of the padded cells.
+    shares: AlignedRow,
+    /// Which padded cells fall back in this step, and which cells of the block should.
+    is_marked: Vec<bool>,
+    marked: Vec<usize>,
+}
+
+impl GasScratch {
+    /// For padded blocks of `len` cells.
+    pub fn new(len: usize) -> Self {
+        Self {
+            mixed: MixedCells::new(len),
+            shares: AlignedRow::zeros(len, 0),
+            is_marked: vec![false; len],
+            marked: Vec::with_capacity(len),
+        }
+    }
+
+    /// The cells of the last block that should be done again at first order.
+    pub fn marked(&self) -> &[usize] {
+        &self.marked
+    }
+}
+
+/// A block with gas in it or next to it.
+pub(crate) struct GasBlock<'a, const N: usize> {
+    ctx: &'a StepContext<'a, N>,
+    slot: usize,
+    options: TwoPhaseOptions,
+    inverse_h: [f64; 2],
+}
+
+impl<'a, const N: usize> GasBlock<'a, N> {
+    /// `None` where there is no gas, and for the paper's mixture.
+    pub fn of(ctx: &'a StepContext<'a, N>, slot: usize) -> Option<Self> {
+        let options = ctx.two_phase?;
+        let has_gas = |slot: &usize| ctx.has_gas[*slot];
+        let is_near = has_gas(&slot)
+            || (ctx.mesh.tree().neighbours(slot).iter())
+                .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot)));
+        let level = ctx.mesh.tree().leaves()[slot].level;
+        let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
+        is_near.then_some(Self { ctx, slot, options, inverse_h })
+    }
+
+    fn stencil<'b>(&self, inverse_r: &'b [f64]) -> Stencil<'b>
+    where
+        'a: 'b,
+    {
+        Stencil {
+            limiter: self.ctx.limiter,
+            inverse_h: self.inverse_h,
+            inverse_r,
+            dt: self.ctx.dt,
+            mixture: self.ctx.mixture,
+            options: self.options,
+        }
+    }
+
+    /// Finds and reconstructs the mixed cells; `scratch` holds the assembled block and its predicted states.
+    pub fn collect(&self, scratch: &mut BlockScratch<N>) {
+        let BlockScratch { cells, gas, keep, inverse_r, .. } = scratch;
+        let rows = cells.split::<6>();
+        for (share, (gas, rho)) in gas.shares.iter_mut().zip(rows[GAS].iter().zip(rows[RHO])) {
+            *share = gas / rho;
+        }
+        self.impose_outer_shares(&mut gas.shares);
+        gas.mixed.clear();
+        let is_marked = self.ctx.marks.is_empty().then_some(false);
+        if is_marked.is_none() {
+            super::marks::padded_marks(self.ctx.mesh, self.slot, self.ctx.marks, &mut gas.is_marked);
+        }
+        let marks = &gas.is_marked;
+        gas.mixed.collect::<N>(
+            &Cells { rows, stride: Padded::<N>::STRIDE },
+            &self.stencil(inverse_r),
+            Side::ALL.map(|side| self.outer(side)),
+            |k| is_marked.unwrap_or_else(|| marks[k]),
+        );
+        // Their slopes are not those of the kernels, whose verdict on them counts for nothing.
+        for &k in gas.mixed.cells() {
+            keep[k] = 1.0;
+        }
+    }
+
+    fn outer(&self, side: Side) -> Outer {
+        if !self.ctx.mesh.touches(self.slot, side) {
+            return Outer::Block;
+        }
+        match self.ctx.boundaries.kind(side) {
+            Boundary::Axis | Boundary::Wall => Outer::Mirror,
+            Boundary::NonReflecting | Boundary::Inflow | Boundary::Interface => Outer::Given,
+            Boundary::Periodic => Outer::Block,
+        }
+    }
+
+    /// What comes in through an open side is what was there in the beginning; a wall gives back what it got.
+    fn impose_outer_shares(&self, shares: &mut [f64]) {
+        for side in Side::ALL {
+            if self.outer(side) != Outer::Given {
+                continue;
+            }
+            for along in 0..N {
+                let [inner, ghost] =
+                    crate::boundary::beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
+                let given = self.ctx.boundaries.initial_gas_share(self.ctx.mesh, self.slot, side, along);
+                shares[ghost] = given.unwrap_or(shares[inner]);
+            }
+        }
+    }
+
+    /// Solves the faces of mixed cells along one axis (0: z, 1: r).
+    pub fn solve_faces(
+        &self,
+        axis: usize,
+        cells: &Reconstruction<'_>,
+        inverse_r: &[f64],
+        gas: &mut GasScratch,
+        faces: &mut FaceRows,
+    ) {
+        gas.mixed.solve_faces::<N>(axis, cells, self.ctx.riemann, &self.stencil(inverse_r), faces);
+    }
+
+    /// Makes the gas's mass fluxes from those of the mass, which must be final.
+    pub fn gas_fluxes(&self, gas: &mut GasScratch, faces: [&mut FaceRows; 2]) {
+        for (axis, faces) in faces.into_iter().enumerate() {
+            gas_fluxes(&gas.shares, if axis == 0 { 1 } else { Padded::<N>::STRIDE }, faces);
+            gas.mixed.put_gas_fluxes(axis, faces);
+        }
+    }
+
+    /// Advances the gas's mass and does the mixed cells' update again, with the closure.
+    pub fn update(
+        &self,
+        gas: &mut GasScratch,
+        old: Rows<'_>,
+        pressure: &[f64],
+        faces: [&FaceRows; 2],
+        metric: &Metric<'_>,
+        inverse_r: &[f64],
+        new: &mut [f64],
+        speeds: &mut [&mut [f64]; 3],
+        report: &mut BlockReport<N>,
+    ) {
+        let old_gas = self.ctx.old.component(self.slot, GAS);
+        let (first, new_gas) = new.split_at_mut(GAS * N * N);
+        update_gas::<N>(old_gas, faces[0], faces[1], self.ctx.dt, metric, new_gas);
+        let mut rows = split_block::<N>(first);
+        gas.marked.clear();
+        if !gas.mixed.is_empty() {
+            update_mixed::<N>(
+                &gas.mixed,
+                old,
+                pressure,
+                [old_gas, new_gas],
+                faces,
+                metric,
+                &self.stencil(inverse_r),
+                &mut rows,
+                speeds,
+                |cell| gas.marked.push(cell),
+            );
+        }
+        report.marked = gas.marked.len() as u32;
+        let phi = &mut rows[crate::state::conserved::PHI];
+        for fraction in phi.iter_mut() {
+            *fraction = fraction.clamp(0.0, 1.0);
+        }
+        report.has_gas = phi.iter().chain(&*new_gas).any(|value| *value != 0.0);
+    }
+}

@@ -1,0 +1,222 @@
+//! The mixed cells of one block: found, reconstructed, and their faces solved.
+//!
+//! Nearly all cells are pure, and the kernels of `rows.rs` and `update.rs` serve them row by row. What is here walks
+//! lists of the others and puts their fluxes in the place of the kernels'.
+
+use mesh::{Padded, Side};
+
+use super::closure::{Compression, is_mixed};
+use super::reconstruction::{Cells, FaceState, Stencil, face_states};
+use crate::block::used_face;
+use crate::boundary::beside;
+use crate::godunov::flux_exact;
+use crate::hllc::flux_hllc;
+use crate::rows::{FaceRows, Reconstruction};
+use crate::{Face, RiemannSolver};
+
+/// No mixed cell.
+const NONE: u32 = u32::MAX;
+
+/// The mixed cells of a block and of the first layer around it.
+#[derive(Clone, Debug)]
+pub(crate) struct MixedCells {
+    /// Index into the lists of each padded cell.
+    index: Vec<u32>,
+    cells: Vec<usize>,
+    states: Vec<[FaceState; 4]>,
+    /// Faces along z and r whose fluid comes from a mixed cell, with the gas's part of its mass.
+    shares: [Vec<(usize, f64)>; 2],
+}
+
+impl MixedCells {
+    pub fn new(len: usize) -> Self {
+        Self {
+            index: vec![NONE; len],
+            cells: Vec::with_capacity(len),
+            states: Vec::with_capacity(len),
+            shares: [Vec::with_capacity(len), Vec::with_capacity(len)],
+        }
+    }
+
+    /// Forgets the last block.
+    pub fn clear(&mut self) {
+        for k in self.cells.drain(..) {
+            self.index[k] = NONE;
+        }
+        self.states.clear();
+        self.shares.iter_mut().for_each(Vec::clear);
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.cells.is_empty()
+    }
+
+    /// The padded cells on the list.
+    pub fn cells(&self) -> &[usize] {
+        &self.cells
+    }
+
+    fn put(&mut self, k: usize, states: [FaceState; 4]) {
+        self.index[k] = self.cells.len() as u32;
+        self.cells.push(k);
+        self.states.push(states);
+    }
+
+    fn of(&self, k: usize) -> Option<&[FaceState; 4]> {
+        self.states.get(self.index[k] as usize)
+    }
+
+    /// Finds and reconstructs the cells of a block and of those of its ghosts that share a face with it.
+    ///
+    /// - `outer`: what lies beyond each side, see [`Outer`].
+    /// - `is_marked`: cells that fall back to first order; they are on the list also when pure.
+    pub fn collect<const N: usize>(
+        &mut self,
+        cells: &Cells<'_>,
+        stencil: &Stencil<'_>,
+        outer: [Outer; 4],
+        is_marked: impl Fn(usize) -> bool,
+    ) {
+        let n = N as isize;
+        let states = |k: usize| {
+            if is_marked(k) {
+                return Some([cells.mean(k); 4]);
+            }
+            is_mixed(cells.rows[4][k]).then(|| face_states(cells, k, stencil))
+        };
+        for j in 0..n {
+            for i in 0..n {
+                let k = Padded::<N>::index(i, j);
+                if let Some(states) = states(k) {
+                    self.put(k, states);
+                }
+            }
+        }
+        for side in Side::ALL {
+            for along in 0..N {
+                let [inner, ghost] = beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
+                match outer[side as usize] {
+                    Outer::Block => {
+                        if let Some(states) = states(ghost) {
+                            self.put(ghost, states);
+                        }
+                    }
+                    Outer::Mirror => {
+                        if let Some(states) = self.of(inner).copied() {
+                            self.put(ghost, mirrored(states, side));
+                        }
+                    }
+                    Outer::Given => {}
+                }
+            }
+        }
+    }
+
+    /// Solves the faces of the listed cells along one axis (0: z, 1: r); `cells` are the block's others.
+    pub fn solve_faces<const N: usize>(
+        &mut self,
+        axis: usize,
+        cells: &Reconstruction<'_>,
+        riemann: RiemannSolver,
+        stencil: &Stencil<'_>,
+        faces: &mut FaceRows,
+    ) {
+        let step = if axis == 0 { 1 } else { Padded::<N>::STRIDE };
+        let mut shares = std::mem::take(&mut self.shares[axis]);
+        for (k, states) in self.cells.iter().zip(&self.states) {
+            // The face below is the upper one of a listed neighbour.
+            if self.of(k - step).is_none() && used_face::<N>(k - step, step) {
+                let lower = FaceState { w: cells.face_state(k - step, 1.0), gas_share: f64::NAN };
+                let upper = turned(states[2 * axis], axis);
+                solve(k - step, lower, upper, riemann, stencil, faces, &mut shares);
+            }
+            if used_face::<N>(*k, step) {
+                let lower = turned(states[2 * axis + 1], axis);
+                let upper = match self.of(k + step) {
+                    Some(states) => turned(states[2 * axis], axis),
+                    None => FaceState { w: cells.face_state(k + step, -1.0), gas_share: f64::NAN },
+                };
+                solve(*k, lower, upper, riemann, stencil, faces, &mut shares);
+            }
+        }
+        self.shares[axis] = shares;
+    }
+
+    /// Puts the mixed cells' part into the gas's mass fluxes along one axis.
+    pub fn put_gas_fluxes(&self, axis: usize, faces: &mut FaceRows) {
+        for &(k, share) in &self.shares[axis] {
+            faces.gas[k] = faces.mass[k] * share;
+        }
+    }
+}
+
+/// What lies beyond a side of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outer {
+    /// Other blocks, whose cells are the ghosts.
+    Block,
+    /// The mirror image.
+    Mirror,
+    /// States or fluxes that the boundary gives.
+    Given,
+}
+
+/// Normal and tangential velocity in the places of the axial and the radial one.
+fn turned(state: FaceState, axis: usize) -> FaceState {
+    let [rho, v_z, v_r, p, phi] = state.w;
+    if axis == 0 { state } else { FaceState { w: [rho, v_r, v_z, p, phi], ..state } }
+}
+
+fn mirrored(states: [FaceState; 4], side: Side) -> [FaceState; 4] {
+    let axis = if matches!(side, Side::ZMin | Side::ZMax) { 0 } else { 1 };
+    let mut images = states.map(|mut state| {
+        state.w[1 + axis] = -state.w[1 + axis];
+        state
+    });
+    images.swap(2 * axis, 2 * axis + 1);
+    images
+}
+
+/// One Riemann problem: the frozen mixtures' flux, with the gas fraction that follows the density behind the wave.
+fn solve(
+    k: usize,
+    lower: FaceState,
+    upper: FaceState,
+    riemann: RiemannSolver,
+    stencil: &Stencil<'_>,
+    faces: &mut FaceRows,
+    shares: &mut Vec<(usize, f64)>,
+) {
+    let mixture = stencil.mixture;
+    let mut face: Face = match riemann {
+        RiemannSolver::Hllc => flux_hllc(lower.w, upper.w, mixture),
+        RiemannSolver::Exact => flux_exact(lower.w, upper.w, mixture),
+    };
+    let upwind = if face.velocity >= 0.0 { &lower } else { &upper };
+    let [_, _, _, p, phi] = upwind.w;
+    if is_mixed(phi) {
+        let compression = Compression::at(p, phi, mixture, stencil.options.has_closure);
+        face.phi = compression.star_fraction(phi, face.compression);
+    }
+    faces.set(k, face);
+    if !upwind.gas_share.is_nan() {
+        shares.push((k, upwind.gas_share));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_image_beyond_a_side_has_the_face_on_it_in_common() {
+        let state = |phi: f64| FaceState { w: [1.0, 2.0, 3.0, 4.0, phi], gas_share: 0.5 };
+        let states = [state(0.1), state(0.2), state(0.3), state(0.4)];
+        let image = mirrored(states, Side::ZMin);
+        // Its upper face is the cell's lower one, with the normal velocity turned.
+        assert_eq!(image[1].w, [1.0, -2.0, 3.0, 4.0, 0.1]);
+        assert_eq!(image[2].w, [1.0, -2.0, 3.0, 4.0, 0.3]);
+        let image = mirrored(states, Side::RMax);
+        assert_eq!(image[2].w, [1.0, 2.0, -3.0, 4.0, 0.4]);
+    }
+}

@@ -1,0 +1,18 @@
+//! The five-equation model: a true collapse of the gas in a smeared interface.
+//!
+//! The state of a cell is m_g = φρ_g and ρ = m_g + m_l with m_l = (1 − φ)ρ_l, the momentum, the energy and the gas fraction φ.
+//! Pure cells, nearly all, are served by the kernels of the paper's mixture, to which the model then reduces; what is
+//! here serves the mixed ones: the closure that tells how they are compressed (`closure.rs`), their face states
+//! (`reconstruction.rs`, `thinc.rs`), their fluxes (`mixed.rs`) and their update (`update.rs`).
+
+mod closure;
+mod gas_block;
+mod marks;
+mod mixed;
+mod reconstruction;
+mod thinc;
+mod update;
+
+pub(crate) use closure::{Compression, is_mixed};
+pub(crate) use gas_block::{GasBlock, GasScratch};
+pub(crate) use marks::marked_blocks;
