@@ -2,6 +2,7 @@
 
 use mesh::{MOST_COMPONENTS, Multiresolution, Side};
 
+use crate::five_equation::is_mixed;
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
 use crate::state::primitive;
 use crate::{Boundary, Mixture, Primitive};
@@ -26,9 +27,6 @@ pub(crate) struct Analysis {
 /// A gas fraction may leave [0, 1] by this much in prediction; more is limited. Traces of gas that advection left
 /// behind would else switch prediction off.
 const PHI_SLACK: f64 = 1e-7;
-
-/// As [`PHI_SLACK`], for the mass of a phase relative to all mass.
-const MASS_SLACK: f64 = 1e-7;
 
 /// Relative deviations of ρ and ρE below which no child can be inadmissible.
 const HARMLESS: f64 = 1e-2;
@@ -70,11 +68,11 @@ impl Multiresolution for Analysis {
             if d[PHI].abs() > room {
                 share = share.min(room.max(0.0) / d[PHI].abs());
             }
-            if has_phases {
+            // Where phases have masses of their own, those of a pure cell's missing one go with its gas fraction.
+            if has_phases && is_mixed(phi) {
                 for (own, change) in [(mean[GAS], d[GAS]), (rho - mean[GAS], d[RHO] - d[GAS])] {
-                    let room = 0.5 * own.max(0.0) + MASS_SLACK * rho;
-                    if change < -room {
-                        share = share.min(room / -change);
+                    if change < -0.5 * own {
+                        share = share.min(0.5 * own.max(0.0) / -change);
                     }
                 }
             }

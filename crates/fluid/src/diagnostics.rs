@@ -3,7 +3,7 @@
 use mesh::{GHOSTS, Geometry, Padded, limited_differences};
 
 use crate::block::{BlockScratch, StepContext, reconstruct};
-use crate::state::conserved::{COUNT, ENERGY, MOMENTUM_Z, PHI, RHO};
+use crate::state::conserved::{COUNT, ENERGY, GAS, MOMENTUM_Z, PHI, RHO};
 use crate::{FluidSolver, Primitive};
 
 /// Below this gas fraction a cell counts as liquid with traces of gas.
@@ -49,6 +49,8 @@ pub struct Totals {
     pub momentum_z: f64,
     /// Energy, J.
     pub energy: f64,
+    /// Mass of the gas, kg; 0 with the paper's mixture, whose phases have no masses of their own.
+    pub gas_mass: f64,
 }
 
 /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
@@ -148,10 +150,12 @@ impl<const N: usize> FluidSolver<N> {
     pub fn totals(&self) -> Totals {
         let mut totals = Totals::default();
         for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
-            let mut block = [0.0; 3];
+            let mut block = [0.0; 4];
+            let components = [RHO, MOMENTUM_Z, ENERGY, GAS];
+            let kinds = if self.has_gas[slot] { 4 } else { 3 };
             for j in 0..N {
                 let volume = self.mesh.volume(*id, j);
-                for (sum, component) in block.iter_mut().zip([RHO, MOMENTUM_Z, ENERGY]) {
+                for (sum, component) in block.iter_mut().zip(components).take(kinds) {
                     let row = &self.state.component(slot, component)[j * N..(j + 1) * N];
                     *sum += volume * row.iter().sum::<f64>();
                 }
@@ -159,6 +163,7 @@ impl<const N: usize> FluidSolver<N> {
             totals.mass += block[0];
             totals.momentum_z += block[1];
             totals.energy += block[2];
+            totals.gas_mass += block[3];
         }
         totals
     }

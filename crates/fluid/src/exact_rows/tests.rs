@@ -19,7 +19,8 @@ fn solve_one(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> (f64, f64, F
     fluxes(1, &chunk, mixture, mass, velocity, pressure, shear, energy, phi, &mut solved);
     let [[mass], [velocity], [pressure], [shear], [energy], [phi]] = out;
     let u = 0.5 * ((chunk.left.u[0] - chunk.f_left[0]) + (chunk.right.u[0] + chunk.f_right[0]));
-    (chunk.p[0], u, Face { mass, velocity, pressure, shear, energy, phi }, solved[0] == 1.0)
+    let face = Face { mass, velocity, pressure, shear, energy, phi, compression: f64::NAN };
+    (chunk.p[0], u, face, solved[0] == 1.0)
 }
 
 /// Asserts that a problem has the scalar solver's star state to 1e-9; says whether the rows solve it.

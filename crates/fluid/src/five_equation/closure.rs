@@ -17,6 +17,13 @@ pub(crate) fn is_mixed(phi: f64) -> bool {
     phi > PURE && phi < 1.0 - PURE
 }
 
+/// A gas fraction bounded to [0, 1], but for the distance from it that counts as pure: prediction on a finer grid may
+/// take it there, and to take that back without the energy would change the pressure.
+#[inline(always)]
+pub(crate) fn bounded(phi: f64) -> f64 {
+    phi.clamp(-PURE, 1.0 + PURE)
+}
+
 /// What the phases of a mixture at one pressure do under compression.
 ///
 /// Kapila et al. (2001); the mixture's bulk modulus is Wood's (1930): 1/K = φ/K_g + (1 − φ)/K_l with K_k = γ_k (p + π_k).
@@ -72,7 +79,7 @@ impl Compression {
 ///
 /// - `advected`: φ − f + φD, the fraction after pure advection; `phi`, `p`: at the beginning of the step.
 /// - `volume`: D = Δt Σ A u_f/V; `gas`: f = Δt Σ A F_φ/V.
-/// - returns: the gas fraction, in [0, 1] for any D.
+/// - returns: the gas fraction, for any D in [0, 1] but for the distance that counts as pure.
 pub(crate) fn relaxed_fraction(
     advected: f64,
     phi: f64,
@@ -85,10 +92,10 @@ pub(crate) fn relaxed_fraction(
     let (gas_left, liquid_left) = (phi - gas, (1.0 - phi) - (volume - gas));
     let is_vanishing = (phi < 0.5 && gas_left < PURE) || (phi > 0.5 && liquid_left < PURE);
     if is_vanishing {
-        return advected.clamp(0.0, 1.0);
+        return bounded(advected);
     }
     if volume.abs() < LINEAR_BELOW {
-        return (advected + compression.expansion(phi) * volume).clamp(0.0, 1.0);
+        return bounded(advected + compression.expansion(phi) * volume);
     }
     isentropic_fraction(gas_left, liquid_left, p, mixture)
 }
@@ -164,7 +171,8 @@ mod tests {
         for phi in [1e-3, 0.3, 0.9, 0.9999] {
             for p in [2118.0, 1e6, 1e9] {
                 let c = Compression::at(p, phi, &m, true);
-                let (volume, gas) = (0.99e-3, 0.3e-3 * phi);
+                // Small also for the gas's share of the cell.
+                let (volume, gas) = (1e-4 * phi, 0.3e-4 * phi);
                 let linear = relaxed_fraction(phi - gas + phi * volume, phi, p, volume, gas, &c, &m);
                 let full = isentropic_fraction(phi - gas, 1.0 - phi - volume + gas, p, &m);
                 assert!(
@@ -180,7 +188,7 @@ mod tests {
         let m = mixture();
         for (phi, p, volume, gas) in [
             (0.4, 2118.0, -0.2, -0.1),
-            (0.99, 5e7, 0.3, 0.28),
+            (0.99, 5e7, 0.3, 0.295),
             (0.05, 1e5, 0.04, -0.1),
             (0.5, 1e10, -0.45, 0.1),
         ] {
@@ -190,7 +198,8 @@ mod tests {
             // p' from the gas's isentrope; the liquid's must give the rest of the cell.
             let after = p * (left_g / new).powf(1.4);
             let liquid = left_l * ((p + 3e8) / (after + 3e8)).powf(1.0 / 7.15);
-            approx::assert_relative_eq!(new + liquid, 1.0, max_relative = 1e-11);
+            // The pressure loses digits in the power of γ.
+            approx::assert_relative_eq!(new + liquid, 1.0, max_relative = 1e-10);
         }
     }
 
@@ -202,7 +211,7 @@ mod tests {
                 for gas in [-1.0, -1e-7, 0.0, 1e-7, 0.05] {
                     let c = Compression::at(1e5, phi, &m, true);
                     let new = relaxed_fraction(phi - gas + phi * volume, phi, 1e5, volume, gas, &c, &m);
-                    assert!((0.0..=1.0).contains(&new), "{phi} {volume} {gas}: {new}");
+                    assert!((-PURE..=1.0 + PURE).contains(&new), "{phi} {volume} {gas}: {new}");
                 }
             }
         }

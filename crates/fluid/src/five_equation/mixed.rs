@@ -10,9 +10,7 @@ use super::reconstruction::{Cells, FaceState, Stencil, face_states};
 use crate::block::used_face;
 use crate::boundary::beside;
 use crate::godunov::flux_exact;
-use crate::hllc::flux_hllc;
 use crate::rows::{FaceRows, Reconstruction};
-use crate::{Face, RiemannSolver};
 
 /// No mixed cell.
 const NONE: u32 = u32::MAX;
@@ -82,7 +80,7 @@ impl MixedCells {
             if is_marked(k) {
                 return Some([cells.mean(k); 4]);
             }
-            is_mixed(cells.rows[4][k]).then(|| face_states(cells, k, stencil))
+            cells.is_at_interface(k).then(|| face_states(cells, k, stencil))
         };
         for j in 0..n {
             for i in 0..n {
@@ -117,7 +115,6 @@ impl MixedCells {
         &mut self,
         axis: usize,
         cells: &Reconstruction<'_>,
-        riemann: RiemannSolver,
         stencil: &Stencil<'_>,
         faces: &mut FaceRows,
     ) {
@@ -128,7 +125,7 @@ impl MixedCells {
             if self.of(k - step).is_none() && used_face::<N>(k - step, step) {
                 let lower = FaceState { w: cells.face_state(k - step, 1.0), gas_share: f64::NAN };
                 let upper = turned(states[2 * axis], axis);
-                solve(k - step, lower, upper, riemann, stencil, faces, &mut shares);
+                solve(k - step, lower, upper, stencil, faces, &mut shares);
             }
             if used_face::<N>(*k, step) {
                 let lower = turned(states[2 * axis + 1], axis);
@@ -136,7 +133,7 @@ impl MixedCells {
                     Some(states) => turned(states[2 * axis], axis),
                     None => FaceState { w: cells.face_state(k + step, -1.0), gas_share: f64::NAN },
                 };
-                solve(*k, lower, upper, riemann, stencil, faces, &mut shares);
+                solve(*k, lower, upper, stencil, faces, &mut shares);
             }
         }
         self.shares[axis] = shares;
@@ -177,21 +174,20 @@ fn mirrored(states: [FaceState; 4], side: Side) -> [FaceState; 4] {
     images
 }
 
-/// One Riemann problem: the frozen mixtures' flux, with the gas fraction that follows the density behind the wave.
+/// One Riemann problem: the frozen mixtures' exact flux, with the gas fraction that follows the density behind the wave.
+///
+/// Exact whatever solver serves the other faces: HLLC takes the liquid's rarefaction for one jump, and at 5e7 Pa against
+/// a thin gas leaves it 4 MPa behind the wave. In the soft mixed cells that stays, as heat of the gas.
 fn solve(
     k: usize,
     lower: FaceState,
     upper: FaceState,
-    riemann: RiemannSolver,
     stencil: &Stencil<'_>,
     faces: &mut FaceRows,
     shares: &mut Vec<(usize, f64)>,
 ) {
     let mixture = stencil.mixture;
-    let mut face: Face = match riemann {
-        RiemannSolver::Hllc => flux_hllc(lower.w, upper.w, mixture),
-        RiemannSolver::Exact => flux_exact(lower.w, upper.w, mixture),
-    };
+    let mut face = flux_exact(lower.w, upper.w, mixture);
     let upwind = if face.velocity >= 0.0 { &lower } else { &upper };
     let [_, _, _, p, phi] = upwind.w;
     if is_mixed(phi) {

@@ -2,7 +2,7 @@
 
 use mesh::Limiter;
 
-use super::closure::{Compression, PURE};
+use super::closure::{Compression, PURE, is_mixed};
 use super::thinc::Step;
 use crate::Mixture;
 use crate::options::TwoPhaseOptions;
@@ -38,11 +38,19 @@ impl Cells<'_> {
         FaceState { w, gas_share: self.rows[5][k] / w[0] }
     }
 
+    /// Whether a cell is mixed, or pure beside one of the other phase.
+    pub fn is_at_interface(&self, k: usize) -> bool {
+        let phi = self.rows[4];
+        let is_other = |other: usize| (phi[other] - phi[k]).abs() > 0.5;
+        is_mixed(phi[k]) || [k - 1, k + 1, k - self.stride, k + self.stride].into_iter().any(is_other)
+    }
+
     /// The cell by phases; one that is as good as absent has the density `else_densities`.
     fn phases(&self, k: usize, else_densities: [f64; 2]) -> Phases {
         let [rho, v_z, v_r, p, phi, gas] = self.rows.map(|row| row[k]);
-        let rho_g = if phi > PURE { gas / phi } else { else_densities[0] };
-        let rho_l = if 1.0 - phi > PURE { (rho - gas) / (1.0 - phi) } else { else_densities[1] };
+        // A phase's mass may lie below zero by what prediction may take the gas fraction below.
+        let rho_g = if phi > PURE { gas.max(0.0) / phi } else { else_densities[0] };
+        let rho_l = if 1.0 - phi > PURE { (rho - gas).max(0.0) / (1.0 - phi) } else { else_densities[1] };
         [rho_g, rho_l, v_z, v_r, p, phi]
     }
 }
@@ -73,8 +81,13 @@ pub(crate) fn face_states(cells: &Cells<'_>, k: usize, stencil: &Stencil<'_>) ->
     let limited = |[below, above]: [Phases; 2]| -> Phases {
         std::array::from_fn(|c| stencil.limiter.difference(w[c] - below[c], above[c] - w[c]))
     };
-    let differences = around.map(limited);
-    let half = half_step(w, differences, stencil.inverse_r[k], stencil);
+    let mut differences = around.map(limited);
+    let mut half = half_step(w, differences, stencil.inverse_r[k], stencil);
+    let share = kept_share(cells, k, stencil);
+    if share < 1.0 {
+        differences = differences.map(|axis| axis.map(|d| share * d));
+        half = std::array::from_fn(|c| w[c] + share * (half[c] - w[c]));
+    }
     let normal = normal(around, stencil.inverse_h);
     let mut states = [FaceState::default(); 4];
     for axis in 0..2 {
@@ -111,7 +124,32 @@ fn half_step(w: Phases, differences: [Phases; 2], inverse_r: f64, stencil: &Sten
         -compression.modulus * divergence,
         compression.expansion(phi) * divergence,
     ];
-    std::array::from_fn(|c| w[c] + 0.5 * stencil.dt * (source[c] - w[V_Z] * d_z[c] - w[V_R] * d_r[c]))
+    std::array::from_fn(|c| w[c] + 0.5 * stencil.dt * (source[c] - (w[V_Z] * d_z[c] + w[V_R] * d_r[c])))
+}
+
+/// The share of its slopes that a cell keeps. Without the closure a mixed cell is nearly as stiff as liquid, and face
+/// states of gas would let round-off grow, see [`crate::rows::half_step`]; with it the cell gives way.
+fn kept_share(cells: &Cells<'_>, k: usize, stencil: &Stencil<'_>) -> f64 {
+    if stencil.options.has_closure {
+        return 1.0;
+    }
+    let [w, west, east, south, north] =
+        [k, k - 1, k + 1, k - cells.stride, k + cells.stride].map(|k| cells.mean(k).w);
+    let limited = |below: [f64; 5], above: [f64; 5]| -> [f64; 5] {
+        std::array::from_fn(|c| stencil.limiter.difference(w[c] - below[c], above[c] - w[c]))
+    };
+    let (s_z, s_r) = (limited(west, east), limited(south, north));
+    let half_dt = 0.5 * stencil.dt;
+    let (_, share) = crate::rows::half_step(
+        w,
+        s_z,
+        s_r,
+        stencil.inverse_h,
+        stencil.inverse_r[k],
+        half_dt,
+        stencil.mixture,
+    );
+    share
 }
 
 /// The unit normal ∇φ/|∇φ| from central differences; NaN where φ is uniform.
@@ -194,7 +232,9 @@ mod tests {
         let (sharp, smooth) = (of(true), of(false));
         assert!(sharp[0].w[4] > smooth[0].w[4] && sharp[1].w[4] < smooth[1].w[4], "{sharp:?} {smooth:?}");
         // Along the interface there is nothing to sharpen.
-        assert_eq!((sharp[2].w[4], sharp[3].w[4]), (0.4, 0.4));
+        for state in [sharp[2], sharp[3]] {
+            approx::assert_relative_eq!(state.w[4], 0.4, max_relative = 1e-5);
+        }
     }
 
     #[test]

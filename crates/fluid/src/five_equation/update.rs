@@ -2,7 +2,7 @@
 
 use mesh::Padded;
 
-use super::closure::{Compression, relaxed_fraction};
+use super::closure::{Compression, bounded, is_mixed, relaxed_fraction};
 use super::mixed::MixedCells;
 use super::reconstruction::Stencil;
 use crate::rows::{FaceRows, Rows};
@@ -71,6 +71,9 @@ pub(crate) fn update_mixed<const N: usize>(
     for &k in mixed.cells() {
         let Some((i, j)) = inner::<N>(k) else { continue };
         let at = j * N + i;
+        if !is_mixed(old[PHI][at]) {
+            continue;
+        }
         let row = metric.row(j, dt);
         let [west, east] = [k - 1, k].map(|face| FaceValues::of(faces[0], face));
         let [south, north] = [k - metric.stride, k].map(|face| FaceValues::of(faces[1], face));
@@ -85,10 +88,10 @@ pub(crate) fn update_mixed<const N: usize>(
         u[PHI] = if options.has_closure {
             relaxed_fraction(u[PHI], phi, pressure[k], volume, gas_volume, &compression, mixture)
         } else {
-            u[PHI].clamp(0.0, 1.0)
+            bounded(u[PHI])
         };
         let [gas_before, gas_after] = gas.map(|row| row[at]);
-        let falls = |before: f64, after: f64| after < LEAST_SHARE * before;
+        let falls = |before: f64, after: f64| after < LEAST_SHARE * before.max(0.0);
         let is_drained = falls(before[0], u[0])
             || falls(gas_before, gas_after)
             || falls(before[0] - gas_before, u[0] - gas_after)

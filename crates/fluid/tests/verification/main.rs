@@ -7,6 +7,7 @@ mod adaptive_error;
 mod boundaries;
 mod bubble;
 mod contact;
+mod five_equation;
 mod helpers;
 mod ledgers;
 mod orders;
