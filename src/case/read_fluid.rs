@@ -69,6 +69,16 @@ pub(super) fn fluid(
     let model = model.map_or(Model::FiveEquation, |given| given.value);
     let by_default = if model == Model::SaurelAbgrall { Sharpening::None } else { Sharpening::Thinc };
     let sharpening = table.choice("interface", &Sharpening::NAMES, faults);
+    if let Some(given) = sharpening.as_ref().filter(|given| given.value == Sharpening::Thinc)
+        && model == Model::SaurelAbgrall
+    {
+        let message = "\"thinc\" needs phases with densities of their own, got model = \"saurel-abgrall\"";
+        faults.of(
+            given,
+            message.to_owned(),
+            "model = \"five-equation\" (the default), or interface = \"none\"",
+        );
+    }
     let limiter = table.choice("limiter", &Limiter::NAMES, faults);
     let scale_pressure = table.positive("scale_pressure", "Pa", faults);
     let scale_density = table.positive("scale_density", "kg/m3", faults);

@@ -29,6 +29,11 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     if let Some(share) = exchange_share(&whole) {
         whole["coupling"]["exchange_share"] = json!(share);
     }
+    let warnings = warnings(&whole);
+    for warning in &warnings {
+        tracing::warn!("{warning}");
+    }
+    whole.insert("warnings".to_owned(), json!(warnings));
     summary::write(directory, SUMMARY, &whole)?;
     Ok(whole)
 }
@@ -58,6 +63,23 @@ fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
     Some(rest / wall)
 }
 
+/// Share of the collapse's energy above which what the pressure floor added is worth a warning.
+const FLOOR_BUDGET: f64 = 0.01;
+
+/// What of a run's corrections is too much to be passed over.
+fn warnings(whole: &Map<String, Value>) -> Vec<String> {
+    let share = whole.get("fixups").and_then(|fixups| fixups.get("floor_energy_share")?.as_f64());
+    let floor = share.filter(|share| *share > FLOOR_BUDGET).map(|share| {
+        format!(
+            "the pressure floor added {:.2} % of the energy of the collapse (p V of the gas at the start); more than \
+             {:.0} % is too much to trust what follows the collapse: refine, or use model = \"five-equation\"",
+            100.0 * share,
+            100.0 * FLOOR_BUDGET
+        )
+    });
+    floor.into_iter().collect()
+}
+
 /// The numbers one asks for first, in words.
 pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
@@ -75,6 +97,7 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
     if let (Some(radius), Some(time)) = (number("min_equivalent_radius"), number("collapse_time")) {
         words.push(format!("smallest equivalent radius {:.4e} m at {:.4e} s", radius, time));
     }
+    words.extend(warnings(whole).into_iter().map(|warning| format!("warning: {warning}")));
     words.push(format!("see {}", directory.display()));
     words.join("\n")
 }

@@ -28,6 +28,9 @@ pub struct FluidRecord {
     collapse: CollapseFinder,
     peaks: Peaks,
     last_bubble: Bubble,
+    largest_thin_volume: f64,
+    /// Ambient pressure times the gas's initial volume, J/rad (planar: J/m): what a collapse sets free.
+    collapse_energy: f64,
 }
 
 /// Largest values so far, with their times.
@@ -87,6 +90,11 @@ impl FluidRecord {
             collapse: CollapseFinder::default(),
             peaks: Peaks::default(),
             last_bubble: Bubble::default(),
+            largest_thin_volume: 0.0,
+            collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
+                let turn = if case.geometry == Geometry::Axisymmetric { std::f64::consts::TAU } else { 1.0 };
+                fluid.initial.ambient.pressure * solver.bubble().volume / turn
+            }),
         };
         record.cells.see(mesh.cells());
         record.write(solver, 0.0)?;
@@ -139,15 +147,20 @@ impl FluidRecord {
                 axis.jet_tip_z,
                 axis.jet_velocity,
                 bubble.trace_volume,
+                bubble.thin_volume,
                 wall.axis,
                 wall.anywhere,
                 fixups.first_order as f64,
+                fixups.redone as f64,
+                fixups.redone_volume,
                 fixups.floored as f64,
+                fixups.floored_volume,
                 fixups.floor_energy,
             ],
         )?;
         self.collapse.push(time, bubble.volume);
         self.last_bubble = bubble;
+        self.largest_thin_volume = self.largest_thin_volume.max(bubble.thin_volume);
         let peaks = &mut self.peaks;
         for (peak, value) in [
             (&mut peaks.wall, wall.axis),
@@ -220,11 +233,14 @@ impl FluidRecord {
         let with_wall = self.interface.is_some();
         let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
         let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
+        let share = |energy: f64| (self.collapse_energy > 0.0).then_some(energy / self.collapse_energy);
         let value = json!({
             "collapse_time": collapse.map(|c| c.time),
             "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
             "final_equivalent_radius": self.last_bubble.equivalent_radius,
             "trace_gas_volume": self.last_bubble.trace_volume,
+            "thin_gas_volume": self.last_bubble.thin_volume,
+            "thin_gas_volume_largest": self.largest_thin_volume,
             "wall_pressure_peak": peak(self.peaks.wall),
             "wall_pressure_peak_time": peak_time(self.peaks.wall),
             "wall_pressure_peak_interface": peak(self.peaks.wall_interface),
@@ -235,8 +251,12 @@ impl FluidRecord {
             "jet_velocity_peak_time": self.peaks.jet[1],
             "fixups": {
                 "first_order": fixups.first_order,
+                "redone": fixups.redone,
+                "redone_volume": fixups.redone_volume,
                 "floored": fixups.floored,
+                "floored_volume": fixups.floored_volume,
                 "floor_energy": fixups.floor_energy,
+                "floor_energy_share": share(fixups.floor_energy),
             },
         });
         match value {
@@ -249,7 +269,7 @@ impl FluidRecord {
     }
 }
 
-const STEP_COLUMNS: [Column<'static>; 13] = [
+const STEP_COLUMNS: [Column<'static>; 17] = [
     column("time", "s", "time after the step"),
     column("time_step", "s", "length of the step"),
     column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
@@ -258,10 +278,18 @@ const STEP_COLUMNS: [Column<'static>; 13] = [
     column("bubble/jet_tip_z", "m", "distal crossing of gas fraction 1/2 on the axis"),
     column("bubble/jet_velocity", "m/s", "fastest liquid on the axis, positive towards the wall"),
     column("bubble/trace_gas_volume", "m3", "volume integral of the gas fraction where it is at most 1e-6"),
+    column(
+        "bubble/thin_gas_volume",
+        "m3",
+        "volume integral of the gas fraction where it is between 1e-6 and 1e-2",
+    ),
     column("wall/pressure_axis", "Pa", "cell mean at z_min on the axis"),
     column("wall/pressure_max", "Pa", "largest cell mean along z_min"),
     column("fixups/first_order", "1", "cell-steps at first order so far"),
+    column("fixups/redone", "1", "mixed cell-steps done again at first order so far"),
+    column("fixups/redone_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
     column("fixups/floored", "1", "cell-steps lifted to the pressure floor so far"),
+    column("fixups/floored_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
     column("fixups/floor_energy", "J/rad", "energy that the floor added so far (planar: J/m)"),
 ];
 

@@ -94,10 +94,12 @@ pub(crate) struct BlockReport<const N: usize> {
     /// Cells that should be done again at first order, and those that were.
     pub marked: u32,
     pub redone: u32,
+    pub redone_volume: f64,
     /// Cells that fell back to first order.
     pub fallbacks: u32,
-    /// Cells lifted to the pressure floor, and the energy that took (per radian in axial symmetry), J.
+    /// Cells lifted to the pressure floor, their volume and the energy that took (per radian in axial symmetry), J.
     pub floored: u32,
+    pub floored_volume: f64,
     pub floor_energy: f64,
     /// What came in through each side of the domain: mass, axial momentum, energy (per radian).
     pub inflow: [[f64; 3]; 4],
@@ -112,8 +114,10 @@ impl<const N: usize> Default for BlockReport<N> {
             has_gas: false,
             marked: 0,
             redone: 0,
+            redone_volume: 0.0,
             fallbacks: 0,
             floored: 0,
+            floored_volume: 0.0,
             floor_energy: 0.0,
             inflow: [[0.0; 3]; 4],
             wall_pressure: [0.0; N],
@@ -287,6 +291,7 @@ pub(crate) fn step_block<const N: usize>(
         for j in 0..N {
             for added in floor[j * N..(j + 1) * N].iter().filter(|added| **added > 0.0) {
                 report.floored += 1;
+                report.floored_volume += ctx.mesh.volume(id, j);
                 report.floor_energy += added * ctx.mesh.volume(id, j);
             }
         }

@@ -9,6 +9,9 @@ use crate::{FluidSolver, Primitive};
 /// Below this gas fraction a cell counts as liquid with traces of gas.
 pub const TRACE_GAS: f64 = 1e-6;
 
+/// Below this gas fraction gas does not belong to an interface.
+const THIN_GAS: f64 = 1e-2;
+
 /// The gas as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bubble {
@@ -16,6 +19,8 @@ pub struct Bubble {
     pub volume: f64,
     /// ∫ φ [0 < φ ≤ 1e-6] dV, in the same unit.
     pub trace_volume: f64,
+    /// ∫ φ [1e-6 < φ < 1e-2] dV, part of the volume: gas that the interface left behind, which tension may inflate.
+    pub thin_volume: f64,
     /// (3V/4π)^(1/3), planar (V/π)^(1/2), m.
     pub equivalent_radius: f64,
     /// Mean z weighted with the gas fraction, m; NaN without gas.
@@ -79,7 +84,7 @@ impl<const N: usize> FluidSolver<N> {
 
     /// The gas as a whole.
     pub fn bubble(&self) -> Bubble {
-        let (mut volume, mut trace, mut moment) = (0.0, 0.0, 0.0);
+        let (mut volume, mut trace, mut thin, mut moment) = (0.0, 0.0, 0.0, 0.0);
         for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
             if self.largest_phi(slot) <= 0.0 {
                 continue;
@@ -90,6 +95,7 @@ impl<const N: usize> FluidSolver<N> {
                     if *phi > TRACE_GAS {
                         volume += phi * cell;
                         moment += phi * cell * self.mesh.centre(*id, i, j)[0];
+                        thin += if *phi < THIN_GAS { phi * cell } else { 0.0 };
                     } else {
                         trace += phi.max(0.0) * cell;
                     }
@@ -101,7 +107,8 @@ impl<const N: usize> FluidSolver<N> {
             Geometry::Axisymmetric => (std::f64::consts::TAU, (1.5 * volume).cbrt()),
             Geometry::Planar => (1.0, (volume / std::f64::consts::PI).sqrt()),
         };
-        Bubble { volume: turn * volume, trace_volume: turn * trace, equivalent_radius, centroid_z }
+        let [volume, trace_volume, thin_volume] = [volume, trace, thin].map(|v| turn * v);
+        Bubble { volume, trace_volume, thin_volume, equivalent_radius, centroid_z }
     }
 
     /// What happens on the axis.

@@ -77,6 +77,7 @@ pub(crate) fn correct<const N: usize>(
         let added = settle(&mut u, ctx.mixture, report);
         if added > 0.0 {
             report.floored += 1;
+            report.floored_volume += ctx.mesh.volume(id, j);
             report.floor_energy += added * ctx.mesh.volume(id, j);
         }
         for (c, value) in u.into_iter().enumerate() {

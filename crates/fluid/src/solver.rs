@@ -63,8 +63,12 @@ pub struct Fixups {
     pub first_order: u64,
     /// Cell-steps of mixed cells done again at first order, because a phase would have been drained.
     pub redone: u64,
+    /// Volume of those cells, summed over the steps, m³ (per radian in axial symmetry, m² in planar geometry).
+    pub redone_volume: f64,
     /// Cell-steps lifted to the pressure floor.
     pub floored: u64,
+    /// Volume of those cells, likewise.
+    pub floored_volume: f64,
     /// Energy that the floor added, J (per radian in axial symmetry, per metre of depth in planar geometry).
     pub floor_energy: f64,
 }
@@ -336,7 +340,9 @@ impl<const N: usize> FluidSolver<N> {
             step(&context, slot);
         }
         for (slot, cells) in &marks {
+            let id = self.mesh.tree().leaves()[*slot];
             reports[*slot].redone = cells.len() as u32;
+            reports[*slot].redone_volume = cells.iter().map(|cell| self.mesh.volume(id, cell / N)).sum();
         }
     }
 
@@ -362,6 +368,8 @@ impl<const N: usize> FluidSolver<N> {
         for report in &self.reports {
             self.fixups.first_order += u64::from(report.fallbacks);
             self.fixups.redone += u64::from(report.redone);
+            self.fixups.redone_volume += report.redone_volume;
+            self.fixups.floored_volume += report.floored_volume;
             self.fixups.floored += u64::from(report.floored);
             self.fixups.floor_energy += report.floor_energy;
             for (side, [mass, momentum, energy]) in report.inflow.into_iter().enumerate() {

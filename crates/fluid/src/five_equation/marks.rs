@@ -8,8 +8,7 @@ use crate::block::Marks;
 
 /// The blocks whose fluxes change because of marked cells: their own and the neighbours'.
 pub(crate) fn marked_blocks<const N: usize>(mesh: &Mesh<N>, marks: &Marks) -> BTreeSet<usize> {
-    let beside =
-        |slot: &usize| mesh.tree().neighbours(*slot).into_iter().flat_map(|neighbour| neighbour.slots());
+    let beside = |slot: &usize| mesh.tree().neighbours(*slot).iter().flat_map(|neighbour| neighbour.slots());
     marks.keys().copied().chain(marks.keys().flat_map(beside)).collect()
 }
 

@@ -103,7 +103,7 @@ fn uniform_flow_has_no_slow_instability() {
 /// The planar interface between water of 5e7 Pa and thin gas (the bubble's wall at the start).
 #[test]
 fn an_interface_finds_its_star_state_without_overshoot() {
-    const EXACT: [f64; 2] = [2428.952_693, 32.998_030];
+    const EXACT: [f64; 2] = [2_428.952_693, 32.998_030];
     for (riemann, sharpening) in [
         (RiemannSolver::Hllc, Sharpening::Thinc),
         (RiemannSolver::Hllc, Sharpening::None),

@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+"""Tables of the bubble's collapse against exact solutions, as docs/bubble.md shows them.
+
+    python3 scripts/bubble_tables.py free [--cells 20 40 80]        a free bubble against the exact radius
+    python3 scripts/bubble_tables.py parts                          the same with parts of the method switched off
+    python3 scripts/bubble_tables.py wall [--cells 20 40 80]        near a rigid wall
+    python3 scripts/bubble_tables.py robustness                     many pressures, stand-offs and resolutions, rigid and steel
+    python3 scripts/bubble_tables.py stand-off [--cells 40]         collapse time and jet against the stand-off
+
+Runs `cav` (target/release/cav, or --cav) in a directory of its own (--out) and prints Markdown. Needs
+scripts/requirements.txt.
+"""
+
+import argparse
+from pathlib import Path
+
+from bubble import free, robustness, stand_off, wall
+
+TABLES = {
+    "free": free.table,
+    "parts": free.parts,
+    "wall": wall.table,
+    "robustness": robustness.table,
+    "stand-off": stand_off.table,
+}
+
+
+def main():
+    root = Path(__file__).resolve().parent.parent
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("table", choices=TABLES)
+    parser.add_argument("--cells", type=int, nargs="+", help="cells per radius")
+    parser.add_argument("--cav", type=Path, default=root / "target/release/cav")
+    parser.add_argument("--out", type=Path, default=Path("bubble-tables"))
+    options = parser.parse_args()
+    TABLES[options.table](options)
+
+
+if __name__ == "__main__":
+    main()
