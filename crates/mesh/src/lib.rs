@@ -17,6 +17,7 @@
 
 mod adaptation;
 mod aligned;
+mod details;
 mod domain;
 mod field;
 mod geometry;
@@ -29,7 +30,9 @@ mod multiresolution;
 mod padded;
 mod parallel;
 mod patch;
+mod project;
 mod quadtree;
+mod radial;
 mod reduce;
 mod register;
 mod remap;

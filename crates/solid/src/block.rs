@@ -178,15 +178,26 @@ pub(crate) fn report_stresses<const N: usize>(
 ) {
     let id = ctx.mesh.tree().leaves()[slot];
     (report.mises_squared, report.yielded) = (0.0, 0.0);
-    for k in 0..N * N {
-        let at = |c: usize| block[c * N * N + k];
-        let mises = crate::von_mises(at(2), at(3), at(4), at(5));
-        let squared = if mises < f64::MAX { mises * mises } else { f64::INFINITY };
-        report.mises_squared = report.mises_squared.max(squared);
-        if squared > ctx.yield_squared {
-            report.yielded += ctx.mesh.volume(id, k / N);
+    for j in 0..N {
+        let [zz, zr, rr, pp] = [2, 3, 4, 5].map(|c| row::<N>(&block[(c * N + j) * N..]));
+        let squared: [f64; N] = std::array::from_fn(|i| {
+            let mises = crate::von_mises(zz[i], zr[i], rr[i], pp[i]);
+            if mises < f64::MAX { mises * mises } else { f64::INFINITY }
+        });
+        let largest = squared.iter().fold(0.0, |largest: f64, squared| largest.max(*squared));
+        report.mises_squared = report.mises_squared.max(largest);
+        if largest > ctx.yield_squared {
+            let volume = ctx.mesh.volume(id, j);
+            for _ in squared.iter().filter(|squared| **squared > ctx.yield_squared) {
+                report.yielded += volume;
+            }
         }
     }
+}
+
+/// The first N numbers of a row.
+fn row<const N: usize>(numbers: &[f64]) -> &[f64; N] {
+    numbers.first_chunk().expect("rows are whole")
 }
 
 /// The components of one block of a field.
