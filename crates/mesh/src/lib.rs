@@ -16,6 +16,7 @@
 #![forbid(unsafe_code)]
 
 mod adaptation;
+mod ahead;
 mod aligned;
 mod details;
 mod domain;

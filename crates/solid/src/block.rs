@@ -128,6 +128,7 @@ pub(crate) fn step_block<const N: usize>(
         [r0, r1, r3, r4],
         scratch.half.split_mut(),
     );
+    ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
     ctx.boundaries.impose_outer(ctx.mesh, slot, &mut scratch.half, &mut scratch.s_z, &mut scratch.s_r);
 
     let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
@@ -141,12 +142,14 @@ pub(crate) fn step_block<const N: usize>(
         Boundaries::impose_surface::<N>(surface, &along_z, ctx.elasticity, &mut scratch.z_faces);
     }
 
+    ctx.mesh.look_ahead(ctx.old, slot, new, 1, 3);
     let differences = scratch.s_r.split::<COUNT>();
     let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
     let along_r = Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr] };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     rows::faces(&along_r, stride, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
 
+    ctx.mesh.look_ahead(ctx.old, slot, new, 2, 3);
     register_stars(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, stars);
     let metric =
         Metric { stride, origin: Padded::<N>::index(0, 0), inverse_h, inverse_r: &scratch.inverse_r };
