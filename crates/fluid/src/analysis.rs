@@ -73,6 +73,7 @@ impl Multiresolution for Analysis {
 
     /// The largest of |δp|/p_ref, ρc|δv|/p_ref, |δρ|/ρ_ref and |δφ|, with the linearised
     /// β₁ δp = δ(ρE) − v·δ(ρv) + ½v² δρ − (β₁'p + β₂') δφ and ρ δv = δ(ρv) − v δρ.
+    #[inline(always)]
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
         let u: [f64; COUNT] = [cell[0], cell[1], cell[2], cell[3], cell[4]];
         let [rho, v_z, v_r, p, phi] = primitive(u, &self.mixture);
@@ -82,7 +83,9 @@ impl Multiresolution for Analysis {
             - self.mixture.beta2(0.0);
         let kinetic = 0.5 * (v_z * v_z + v_r * v_r);
         let d_p = (d_energy - v_z * d_mz - v_r * d_mr + kinetic * d_rho - per_phi * d_phi) / beta1;
-        let d_v = (d_mz - v_z * d_rho).hypot(d_mr - v_r * d_rho) / rho;
+        let (d_vz, d_vr) = (d_mz - v_z * d_rho, d_mr - v_r * d_rho);
+        // Not `hypot`: it would take as long as all else here together, and nothing can overflow.
+        let d_v = (d_vz * d_vz + d_vr * d_vr).sqrt() / rho;
         let impedance = (rho * self.mixture.stiffness(p, phi)).max(0.0).sqrt();
         let by_pressure = d_p.abs().max(impedance * d_v) / self.scales.pressure;
         by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs())
