@@ -1,6 +1,6 @@
 //! Adaptation of the fluid's grid: the initial mesh, and the step from one mesh to the next.
 
-use mesh::{Field, FluxRegister, Mesh};
+use mesh::{Field, Mesh};
 
 use crate::analysis::Analysis;
 use crate::solver::{AsksForFiner, InitialState};
@@ -56,9 +56,10 @@ impl<const N: usize> FluidSolver<N> {
         let adapted =
             self.mesh.adapted(&self.state, &self.analysis, adaptation, &self.patches, travel, |_| 0);
         let Some(adapted) = adapted else { return false };
-        self.state = adapted.remap(&self.mesh, &self.state, &self.analysis, &self.patches);
-        self.next = Field::zeros(adapted.mesh.blocks(), N * N, self.state.components());
-        self.register = FluxRegister::new(adapted.mesh.blocks());
+        adapted.remap_into(&self.mesh, &self.state, &self.analysis, &self.patches, &mut self.next);
+        std::mem::swap(&mut self.state, &mut self.next);
+        self.next.resize(adapted.mesh.blocks());
+        self.register.resize(adapted.mesh.blocks());
         self.reports = adapted.carried(&self.reports);
         let fresh: Vec<usize> = adapted.fresh().collect();
         self.mesh = adapted.mesh;

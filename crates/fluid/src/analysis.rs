@@ -22,6 +22,8 @@ pub(crate) struct Analysis {
     pub mixture: Mixture,
     pub boundaries: [Boundary; 4],
     pub scales: Scales,
+    /// Whether the gas has a mass of its own, [`GAS`].
+    pub has_phases: bool,
 }
 
 /// A gas fraction may leave [0, 1] by this much in prediction; more is limited. Traces of gas that advection left
@@ -46,14 +48,13 @@ impl Multiresolution for Analysis {
 
     fn share(&self, mean: &[f64], deviations: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
         let (rho, energy, phi) = (mean[RHO], mean[ENERGY], mean[PHI]);
-        let has_phases = mean.len() > GAS;
         // Of the phases' masses only pure cells' are harmless: all of one, or nothing.
         let is_small = |d: f64, own: f64| d == 0.0 || d.abs() < HARMLESS * own;
         let harmless = |d: &[f64; MOST_COMPONENTS]| {
             d[PHI] == 0.0
                 && d[RHO].abs() < HARMLESS * rho
                 && d[ENERGY].abs() < HARMLESS * energy
-                && (!has_phases
+                && (!self.has_phases
                     || (is_small(d[GAS], mean[GAS]) && is_small(d[RHO] - d[GAS], rho - mean[GAS])))
         };
         if deviations.iter().all(harmless) {
@@ -69,7 +70,7 @@ impl Multiresolution for Analysis {
                 share = share.min(room.max(0.0) / d[PHI].abs());
             }
             // Where phases have masses of their own, those of a pure cell's missing one go with its gas fraction.
-            if has_phases && is_mixed(phi) {
+            if self.has_phases && is_mixed(phi) {
                 for (own, change) in [(mean[GAS], d[GAS]), (rho - mean[GAS], d[RHO] - d[GAS])] {
                     if change < -0.5 * own {
                         share = share.min(0.5 * own.max(0.0) / -change);
@@ -89,6 +90,7 @@ impl Multiresolution for Analysis {
 
     /// The largest of |δp|/p_ref, ρc|δv|/p_ref, |δρ|/ρ_ref and |δφ|, with the linearised
     /// β₁ δp = δ(ρE) − v·δ(ρv) + ½v² δρ − (β₁'p + β₂') δφ and ρ δv = δ(ρv) − v δρ.
+    #[inline(always)]
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
         let u: [f64; COUNT] = [cell[0], cell[1], cell[2], cell[3], cell[4]];
         let [rho, v_z, v_r, p, phi] = primitive(u, &self.mixture);
@@ -98,7 +100,9 @@ impl Multiresolution for Analysis {
             - self.mixture.beta2(0.0);
         let kinetic = 0.5 * (v_z * v_z + v_r * v_r);
         let d_p = (d_energy - v_z * d_mz - v_r * d_mr + kinetic * d_rho - per_phi * d_phi) / beta1;
-        let d_v = (d_mz - v_z * d_rho).hypot(d_mr - v_r * d_rho) / rho;
+        let (d_vz, d_vr) = (d_mz - v_z * d_rho, d_mr - v_r * d_rho);
+        // Not `hypot`: it would take as long as all else here together, and nothing can overflow.
+        let d_v = (d_vz * d_vz + d_vr * d_vr).sqrt() / rho;
         let impedance = (rho * self.mixture.stiffness(p, phi)).max(0.0).sqrt();
         let by_pressure = d_p.abs().max(impedance * d_v) / self.scales.pressure;
         by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs())
@@ -125,6 +129,7 @@ mod tests {
             ),
             boundaries: [Boundary::Wall; 4],
             scales: Scales { pressure: 1e7, density: 1000.0 },
+            has_phases: false,
         }
     }
 

@@ -161,8 +161,9 @@ impl<const N: usize> FluidSolver<N> {
         }
         let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales };
         let components = setup.model.components();
+        let has_phases = components > COUNT;
+        let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales, has_phases };
         let scratch = ScratchPool::new(|| BlockScratch::new(components));
         let (mesh, state) = crate::adapt::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.

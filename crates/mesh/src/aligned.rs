@@ -26,6 +26,15 @@ impl AlignedRow {
         let offset = if len == 0 { 0 } else { (ahead + LINE - first % LINE) % LINE };
         Self { data, offset, len, first }
     }
+
+    /// Makes it `len` numbers long. What they are then is not said: memory at hand is used again as it is.
+    pub fn resize(&mut self, len: usize) {
+        if len == 0 || self.offset + len > self.data.len() {
+            // An eighth more, so that a row that grows little by little need not move each time.
+            *self = Self::zeros(len + len / 8, self.first);
+        }
+        self.len = len;
+    }
 }
 
 impl Deref for AlignedRow {
@@ -79,6 +88,16 @@ mod tests {
         assert_eq!(whole_lines(22..358, 20..380), 20..364);
         assert_eq!(whole_lines(20..28, 20..28), 20..28);
         assert_eq!(whole_lines(41..79, 20..80), 36..79);
+    }
+
+    #[test]
+    fn a_row_of_another_length_begins_a_line_too() {
+        let mut row = AlignedRow::zeros(64, 0);
+        for len in [40, 64, 70, 65, 0, 16] {
+            row.resize(len);
+            assert_eq!(row.len(), len);
+            assert!(len == 0 || row.as_ptr().align_offset(64) == 0);
+        }
     }
 
     #[test]

@@ -1,5 +1,8 @@
 //! Where the cells lie: a domain, its coarsest grid and the tree of blocks over it.
 
+use std::sync::Arc;
+
+use crate::radial::{RadialRow, RadialTable};
 use crate::{BlockId, GHOSTS, Geometry, Neighbour, Padded, Quadtree, Side};
 
 /// The rectangle that a medium fills.
@@ -43,6 +46,7 @@ pub struct Mesh<const N: usize> {
     domain: Domain,
     coarsest: [usize; 2],
     tree: Quadtree,
+    radial: Arc<RadialTable>,
     generation: u64,
 }
 
@@ -84,7 +88,12 @@ impl<const N: usize> Mesh<N> {
         let roots = coarsest.map(|cells| u32::try_from((cells << root_level) / N).expect("fits 32 bits"));
         let level = level.clamp(root_level, levels);
         let tree = Quadtree::uniform(root_level, roots, level, levels, periodic);
-        Ok(Self { domain, coarsest, tree, generation: 0 })
+        let fine = (root_level..=levels).map(|level| {
+            let h = (domain.r[1] - domain.r[0]) / (coarsest[1] << level) as f64;
+            (h, (coarsest[1] << level) / 2)
+        });
+        let radial = Arc::new(RadialTable::new(&domain, root_level, fine));
+        Ok(Self { domain, coarsest, tree, radial, generation: 0 })
     }
 
     /// The same domain under other leaves.
@@ -93,6 +102,7 @@ impl<const N: usize> Mesh<N> {
             domain: self.domain,
             coarsest: self.coarsest,
             tree: self.tree.with_leaves(leaves),
+            radial: Arc::clone(&self.radial),
             generation: self.generation + 1,
         }
     }
@@ -172,37 +182,11 @@ impl<const N: usize> Mesh<N> {
         }
     }
 
-    /// The share of a cell's volume that lies in its lower half along r: ½ − h/(4r) with h the width of its
-    /// children and r its centre; planar ½.
-    ///
-    /// - `fine`: the level of the children; `j`: the row of the cell, counted from the domain's r_min.
-    pub(crate) fn lower_share(&self, fine: u8, j: i64) -> f64 {
-        match self.domain.geometry {
-            Geometry::Planar => 0.5,
-            Geometry::Axisymmetric => {
-                let h = self.widths(fine)[1];
-                0.5 - h / (4.0 * (self.domain.r[0] + (2.0 * j as f64 + 1.0) * h))
-            }
-        }
-    }
-
-    /// By what the central difference along r must be multiplied in prediction so that a field proportional to r is
-    /// exact: the means of its cells lie at x = r + h²/(4r) instead of r, with h the width of the children, so
-    /// 4h/(x_{j+1} − x_{j−1}); planar 1.
-    ///
-    /// - `fine`, `j`: as for the shares of the volume.
-    pub(crate) fn odd_factor(&self, fine: u8, j: i64) -> f64 {
-        match self.domain.geometry {
-            Geometry::Planar => 1.0,
-            Geometry::Axisymmetric => {
-                let h = self.widths(fine)[1];
-                let place = |j: i64| {
-                    let r = self.domain.r[0] + (2.0 * j as f64 + 1.0) * h;
-                    r + h * h / (4.0 * r)
-                };
-                4.0 * h / (place(j + 1) - place(j - 1))
-            }
-        }
+    /// The rows of cells from number `first` on, counted from the domain's r_min, whose children are of the level
+    /// `fine`.
+    #[inline]
+    pub(crate) fn radial(&self, fine: u8, first: i64) -> &[RadialRow] {
+        self.radial.from(fine, first)
     }
 
     /// Volume of a cell of row `j` of a block: ‖V‖ = r_j h_r h_z (per radian), planar h_r h_z; paper eq. (23).

@@ -16,6 +16,11 @@ impl Field {
         Self { components, cells, data: AlignedRow::zeros(blocks * cells * components, 0) }
     }
 
+    /// Makes room for so many blocks. What they hold then is not said: memory at hand is used again as it is.
+    pub fn resize(&mut self, blocks: usize) {
+        self.data.resize(blocks * self.block_len());
+    }
+
     /// Numbers per cell.
     pub fn components(&self) -> usize {
         self.components

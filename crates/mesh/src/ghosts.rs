@@ -2,7 +2,7 @@
 //!
 //! Rows are those of [`crate::Padded`] and [`crate::Patch`]: n × n cells with two layers of ghosts around.
 
-use crate::{BlockId, GHOSTS, Mesh, Offset, Padded, Side};
+use crate::{GHOSTS, Offset, Padded, Side};
 
 /// The flat index of cell (i, j) among n × n cells with ghosts.
 #[inline(always)]
@@ -12,11 +12,13 @@ pub(crate) fn index(n: usize, i: isize, j: isize) -> usize {
 }
 
 /// The cells along a side, ghosts at its ends included.
+#[inline(always)]
 pub(crate) fn ghost_range(n: usize) -> std::ops::Range<isize> {
     -(GHOSTS as isize)..(n + GHOSTS) as isize
 }
 
 /// The range of cells that the ghosts in one direction cover.
+#[inline(always)]
 pub(crate) fn ghost_span(n: usize, step: i8) -> std::ops::Range<isize> {
     let (n, g) = (n as isize, GHOSTS as isize);
     match step {
@@ -73,42 +75,6 @@ pub(crate) fn mean([lower, upper]: [[f64; 2]; 2], lower_share: f64) -> f64 {
 pub(crate) fn mean_of_cells<const N: usize>(block: &[f64], i: usize, j: usize, lower_share: f64) -> f64 {
     let k = j * N + i;
     mean([[block[k], block[k + 1]], [block[k + N], block[k + N + 1]]], lower_share)
-}
-
-/// The cell (i, j) of a block's neighbour in one direction, from that neighbour's children, one level finer.
-///
-/// - `fine`: the children that touch the block, see [`crate::Neighbour::Finer`]; `i`, `j`: ghost cell of the block.
-#[inline(always)]
-pub(crate) fn finer_cell<const N: usize>(
-    fine: [&[f64]; 2],
-    offset: Offset,
-    i: isize,
-    j: isize,
-    lower_share: f64,
-) -> f64 {
-    let local_i = (i - isize::from(offset.i) * N as isize) as usize;
-    let local_j = (j - isize::from(offset.j) * N as isize) as usize;
-    let (child_i, child_j) = (local_i / (N / 2), local_j / (N / 2));
-    // Beyond a side the two children differ along it; beyond a corner they are the same.
-    let child = if offset.j == 0 { child_j } else { child_i };
-    mean_of_cells::<N>(fine[child], 2 * (local_i % (N / 2)), 2 * (local_j % (N / 2)), lower_share)
-}
-
-/// Projects the ghosts in one direction from blocks one level finer.
-pub(crate) fn project_finer<const N: usize>(
-    row: &mut [f64],
-    fine: [&[f64]; 2],
-    offset: Offset,
-    mesh: &Mesh<N>,
-    id: BlockId,
-) {
-    let first = id.j as i64 * N as i64;
-    for j in ghost_span(N, offset.j) {
-        let share = mesh.lower_share(id.level + 1, first + j as i64);
-        for i in ghost_span(N, offset.i) {
-            row[Padded::<N>::index(i, j)] = finer_cell::<N>(fine, offset, i, j, share);
-        }
-    }
 }
 
 /// The ghost cells beyond a side, `layer` layers from it, and the inner cells at a depth.

@@ -16,7 +16,9 @@
 #![forbid(unsafe_code)]
 
 mod adaptation;
+mod ahead;
 mod aligned;
+mod details;
 mod domain;
 mod field;
 mod geometry;
@@ -29,7 +31,9 @@ mod multiresolution;
 mod padded;
 mod parallel;
 mod patch;
+mod project;
 mod quadtree;
+mod radial;
 mod reduce;
 mod register;
 mod remap;

@@ -67,8 +67,9 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
             scratch.with(|patch| {
                 patch.fill(mesh, field, slot, rule);
                 let [along_z, along_r] = counting_cells(mesh, tree.leaves()[slot], rule);
-                patch.details(field.block(slot), rule, |i, j, size| {
-                    if size > threshold && along_z.contains(&i) && along_r.contains(&j) {
+                let own = |component, j| &field.component(slot, component)[j * N..];
+                patch.details(own, rule, threshold, |i, j, size| {
+                    if along_z.contains(&i) && along_r.contains(&j) {
                         keep.add(i, j);
                         if size > REFINE * threshold {
                             refine.add(i, j);
@@ -186,8 +187,9 @@ fn refined_again<const N: usize, R: Multiresolution>(
         let id = tree.leaves()[first];
         let parent = BlockId { level: id.level - 1, i: id.i / 2, j: id.j / 2 };
         let [along_z, along_r] = counting_cells(mesh, parent, rule);
-        patch.details(&around.cells(), rule, |i, j, size| {
-            if size > least && along_z.contains(&i) && along_r.contains(&j) {
+        let own = |component, j| &around.component(component)[Padded::<N>::index(0, j as isize)..];
+        patch.details(own, rule, least, |i, j, _| {
+            if along_z.contains(&i) && along_r.contains(&j) {
                 let (a, b) = (i / (N / 2), j / (N / 2));
                 let (i, j) = (2 * (i % (N / 2)), 2 * (j % (N / 2)));
                 kept[a + 2 * b].add(i, j);

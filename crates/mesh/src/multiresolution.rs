@@ -25,7 +25,10 @@ pub trait Multiresolution: Sync {
     /// - `mean`: the cell's components; `deviations`: of its four children.
     fn share(&self, mean: &[f64], deviations: &[[f64; MOST_COMPONENTS]; 4]) -> f64;
 
-    /// The size of a cell's detail relative to the fields' reference values.
+    /// The size of a cell's detail relative to the fields' reference values. It is asked for every cell, so it should
+    /// be inlined, without branches and without calls that do not vectorise.
+    ///
+    /// - `cell`, `detail`: [`MOST_COMPONENTS`] numbers, zeros after the field's own components.
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64;
 }
 
@@ -54,7 +57,7 @@ impl Multiresolution for Plain {
 /// d_z = (ū_{i+1} − ū_{i−1})/8, d_r alike, d_zr = (ū_{++} − ū_{+−} − ū_{−+} + ū_{−−})/64: parabolas integrated over
 /// the halves of the cell. Along r the deviations of the halves are −2(1 − s)d and 2 s d, where s is the lower
 /// half's share of the volume: their weighted mean is zero, and s = ½ is the Cartesian case. Fields that are odd in
-/// r have d_r and d_zr times the factor of [`crate::Mesh::odd_factor`], without which v_r = a r would not be exact.
+/// r have d_r and d_zr times the factor of `radial.rs`, without which v_r = a r would not be exact.
 ///
 /// - `row`, `stride`: one component with neighbours `k ± 1`, `k ± stride`; `radial`: see [`radial_weights`].
 /// - exact for quadratic polynomials in planar geometry; a uniform field has deviations that are exactly zero.

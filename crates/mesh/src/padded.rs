@@ -1,6 +1,7 @@
 //! One block with its ghost layers.
 
-use crate::ghosts::{copy, copy_row, hold, mirror, project_finer};
+use crate::ghosts::{copy, copy_row, hold, mirror};
+use crate::project::project_finer;
 use crate::{AlignedRow, Field, Mesh, Multiresolution, Neighbour, Offset, Patch, Side};
 
 /// Ghost layers on each side: what a slope in a neighbouring cell needs.
@@ -53,13 +54,6 @@ impl<const N: usize> Padded<N> {
         &mut self.data[component * Self::LEN..(component + 1) * Self::LEN]
     }
 
-    /// The block's cells without ghosts, as in a [`Field`].
-    pub(crate) fn cells(&self) -> Vec<f64> {
-        let rows = (0..self.components).flat_map(|component| (0..N).map(move |j| (component, j)));
-        let row = |(component, j)| &self.component(component)[Self::index(0, j as isize)..][..N];
-        rows.flat_map(row).copied().collect()
-    }
-
     /// The first C components, each a flat row.
     pub fn split<const C: usize>(&self) -> [&[f64]; C] {
         assert!(C <= self.components, "no more rows than components");
@@ -90,27 +84,38 @@ impl<const N: usize> Padded<N> {
     ) {
         debug_assert_eq!(field.components(), self.components, "same components");
         let neighbours = mesh.tree().neighbours(slot);
-        for component in 0..self.components {
+        for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
             let own = field.component(slot, component);
-            let row = self.component_mut(component);
             for j in 0..N {
                 let at = Self::index(0, j as isize);
                 copy_row::<N>(row, at, own, j * N);
             }
-            for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
-                match neighbour {
-                    Neighbour::Same(other) => copy::<N>(row, field.component(*other, component), *offset),
-                    Neighbour::Finer(children) => {
-                        let fine = children.map(|child| field.component(child, component));
-                        project_finer(row, fine, *offset, mesh, mesh.tree().leaves()[slot]);
+        }
+        for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
+            let rows = self.data.chunks_exact_mut(Self::LEN);
+            match neighbour {
+                Neighbour::Same(other) => {
+                    let owner = field.block(*other);
+                    for (row, owner) in rows.zip(owner.chunks_exact(N * N)) {
+                        copy::<N>(row, owner, *offset);
                     }
-                    Neighbour::Boundary => hold::<N>(row, *offset),
-                    Neighbour::Coarser(_) => {}
                 }
+                Neighbour::Finer(children) => {
+                    project_finer(
+                        &mut self.data,
+                        field,
+                        *children,
+                        *offset,
+                        mesh,
+                        mesh.tree().leaves()[slot],
+                    );
+                }
+                Neighbour::Boundary => rows.for_each(|row| hold::<N>(row, *offset)),
+                Neighbour::Coarser(_) => {}
             }
         }
         if neighbours.iter().any(|neighbour| matches!(neighbour, Neighbour::Coarser(_))) {
-            patch.fill(mesh, field, slot, rule);
+            patch.fill_for_ghosts(mesh, field, slot, rule);
             for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
                 if matches!(neighbour, Neighbour::Coarser(_)) {
                     patch.predict_ghosts(*offset, rule, self);

@@ -31,6 +31,11 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
         Self { values: Field::zeros(blocks, N, K * Side::ALL.len()) }
     }
 
+    /// Makes room for so many blocks; nothing is kept.
+    pub fn resize(&mut self, blocks: usize) {
+        self.values.resize(blocks);
+    }
+
     /// The values of all blocks, to hand them to the threads that work on the blocks.
     pub fn values_mut(&mut self) -> &mut Field {
         &mut self.values
@@ -123,7 +128,7 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
         // Faces across z lie along r and have areas like the halves of the cell behind them.
         let lower_share = if lower_share {
             let id = mesh.tree().leaves()[slot];
-            mesh.lower_share(id.level + 1, i64::from(id.j) * N as i64 + along as i64)
+            mesh.radial(id.level + 1, i64::from(id.j) * N as i64 + along as i64)[0].lower_share
         } else {
             0.5
         };

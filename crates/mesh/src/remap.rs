@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::ghosts::mean_of_cells;
 use crate::marks::wanted_levels;
 use crate::multiresolution::{MOST_COMPONENTS, Multiresolution};
-use crate::patch::{Radial, continue_beyond, predict};
+use crate::patch::{continue_beyond, odd_components, predict};
 use crate::{Adaptation, BlockId, Field, GHOSTS, Mesh, Padded, Patch, ScratchPool};
 
 /// Where the values of a new block come from.
@@ -111,8 +111,22 @@ impl<const N: usize> Adapted<N> {
         rule: &R,
         scratch: &ScratchPool<Patch<N>>,
     ) -> Field {
+        let mut new = Field::zeros(self.mesh.blocks(), N * N, field.components());
+        self.remap_into(old_mesh, field, rule, scratch, &mut new);
+        new
+    }
+
+    /// [`Adapted::remap`] into a field of as many components that is no longer needed.
+    pub fn remap_into<R: Multiresolution>(
+        &self,
+        old_mesh: &Mesh<N>,
+        field: &Field,
+        rule: &R,
+        scratch: &ScratchPool<Patch<N>>,
+        new: &mut Field,
+    ) {
         let components = field.components();
-        let mut new = Field::zeros(self.mesh.blocks(), N * N, components);
+        new.resize(self.mesh.blocks());
         let padded = ScratchPool::new(|| Padded::<N>::zeros(components));
         (new.as_mut_slice().par_chunks_mut(components * N * N)).zip(&self.origins).with_min_len(4).for_each(
             |(block, origin)| match *origin {
@@ -128,7 +142,6 @@ impl<const N: usize> Adapted<N> {
                 }),
             },
         );
-        new
     }
 }
 
@@ -138,7 +151,7 @@ fn project<const N: usize>(mesh: &Mesh<N>, field: &Field, first: usize, block: &
     let first_row = i64::from(id.j / 2) * N as i64;
     for (component, cells) in block.chunks_exact_mut(N * N).enumerate() {
         for j in 0..N {
-            let share = mesh.lower_share(id.level, first_row + j as i64);
+            let share = mesh.radial(id.level, first_row + j as i64)[0].lower_share;
             for i in 0..N {
                 let child = field.component(first + i / (N / 2) + 2 * (j / (N / 2)), component);
                 cells[j * N + i] = mean_of_cells::<N>(child, 2 * (i % (N / 2)), 2 * (j % (N / 2)), share);
@@ -160,11 +173,11 @@ fn predict_child<const N: usize>(
     let half = N / 2;
     let (first_i, first_j) = ((child % 2) * half, (child / 2) * half);
     let mut cells = [[0.0; MOST_COMPONENTS]; 4];
-    let mut radial = Radial::new(N + 2 * GHOSTS);
-    radial.set(mesh, id.level + 1, i64::from(id.j) * N as i64, padded.components(), rule);
+    let odd = odd_components(padded.components(), rule);
+    let rows = mesh.radial(id.level + 1, i64::from(id.j) * N as i64);
     for j in 0..half {
         let row = first_j + j;
-        let at = |component: usize| radial.of(component, row + GHOSTS);
+        let at = |component: usize| rows[row].weights[usize::from(odd[component])];
         for i in 0..half {
             let k = Padded::<N>::index((first_i + i) as isize, row as isize);
             let (len, stride) = (Padded::<N>::LEN, N + 2 * GHOSTS);

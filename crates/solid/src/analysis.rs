@@ -33,6 +33,7 @@ impl Multiresolution for Analysis {
     }
 
     /// The largest of |δσ|/σ_ref over the stresses and ρ̄c₁|δv|/σ_ref.
+    #[inline(always)]
     fn significance(&self, _: &[f64], detail: &[f64]) -> f64 {
         let velocity = self.impedance * detail[0].abs().max(detail[1].abs());
         detail[2..6].iter().fold(velocity, |largest, stress| stress.abs().max(largest)) / self.stress_scale

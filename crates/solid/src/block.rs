@@ -128,6 +128,7 @@ pub(crate) fn step_block<const N: usize>(
         [r0, r1, r3, r4],
         scratch.half.split_mut(),
     );
+    ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
     ctx.boundaries.impose_outer(ctx.mesh, slot, &mut scratch.half, &mut scratch.s_z, &mut scratch.s_r);
 
     let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
@@ -141,12 +142,14 @@ pub(crate) fn step_block<const N: usize>(
         Boundaries::impose_surface::<N>(surface, &along_z, ctx.elasticity, &mut scratch.z_faces);
     }
 
+    ctx.mesh.look_ahead(ctx.old, slot, new, 1, 3);
     let differences = scratch.s_r.split::<COUNT>();
     let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
     let along_r = Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr] };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     rows::faces(&along_r, stride, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
 
+    ctx.mesh.look_ahead(ctx.old, slot, new, 2, 3);
     register_stars(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, stars);
     let metric =
         Metric { stride, origin: Padded::<N>::index(0, 0), inverse_h, inverse_r: &scratch.inverse_r };
@@ -178,15 +181,26 @@ pub(crate) fn report_stresses<const N: usize>(
 ) {
     let id = ctx.mesh.tree().leaves()[slot];
     (report.mises_squared, report.yielded) = (0.0, 0.0);
-    for k in 0..N * N {
-        let at = |c: usize| block[c * N * N + k];
-        let mises = crate::von_mises(at(2), at(3), at(4), at(5));
-        let squared = if mises < f64::MAX { mises * mises } else { f64::INFINITY };
-        report.mises_squared = report.mises_squared.max(squared);
-        if squared > ctx.yield_squared {
-            report.yielded += ctx.mesh.volume(id, k / N);
+    for j in 0..N {
+        let [zz, zr, rr, pp] = [2, 3, 4, 5].map(|c| row::<N>(&block[(c * N + j) * N..]));
+        let squared: [f64; N] = std::array::from_fn(|i| {
+            let mises = crate::von_mises(zz[i], zr[i], rr[i], pp[i]);
+            if mises < f64::MAX { mises * mises } else { f64::INFINITY }
+        });
+        let largest = squared.iter().fold(0.0, |largest: f64, squared| largest.max(*squared));
+        report.mises_squared = report.mises_squared.max(largest);
+        if largest > ctx.yield_squared {
+            let volume = ctx.mesh.volume(id, j);
+            for _ in squared.iter().filter(|squared| **squared > ctx.yield_squared) {
+                report.yielded += volume;
+            }
         }
     }
+}
+
+/// The first N numbers of a row.
+fn row<const N: usize>(numbers: &[f64]) -> &[f64; N] {
+    numbers.first_chunk().expect("rows are whole")
 }
 
 /// The components of one block of a field.

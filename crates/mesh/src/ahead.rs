@@ -1,0 +1,47 @@
+//! Fetching what will be needed, while there is something to compute.
+
+use std::hint::black_box;
+
+use crate::{Field, Mesh, Neighbour, Offset, Side};
+
+/// Numbers in a cache line.
+const LINE: usize = 8;
+
+/// Numbers in a field, 16 MiB of them, below which it comes from the caches fast enough: there fetching ahead costs more
+/// than it saves.
+const FAR: usize = 1 << 21;
+
+impl<const N: usize> Mesh<N> {
+    /// Loads a part of the memory that a step is about to need, so that it comes while the present block is computed: of
+    /// what the next block will be the first to read, and of where the present one will be written. A kernel that hardly
+    /// computes would else wait for both.
+    ///
+    /// In the order of the slots a block's own cells have been read by its lower neighbours, as ghosts. What nobody has
+    /// read yet is the block beyond the upper side along z.
+    ///
+    /// - `target`: where the block in `slot` will be written; `part` of `parts`: not all at once, since only so many
+    ///   lines can be under way.
+    pub fn look_ahead(&self, field: &Field, slot: usize, target: &[f64], part: usize, parts: usize) {
+        debug_assert!(part < parts, "part {part} of {parts}");
+        debug_assert_eq!(Offset::ALL[Side::ZMax as usize], Offset { i: 1, j: 0 });
+        if field.as_slice().len() < FAR {
+            return;
+        }
+        fetch(target, part, parts);
+        let next = slot + 1;
+        if next < self.blocks()
+            && let Neighbour::Same(other) = self.tree().neighbours(next)[Side::ZMax as usize]
+            && other > next
+        {
+            fetch(field.block(other), part, parts);
+        }
+    }
+}
+
+/// Loads a number from each line of a part.
+fn fetch(block: &[f64], part: usize, parts: usize) {
+    let len = block.len() / parts;
+    for number in block[part * len..(part + 1) * len].iter().step_by(LINE) {
+        black_box(*number);
+    }
+}

@@ -1,0 +1,217 @@
+//! Projection of cells, ghosts among them, from the blocks that own them.
+//!
+//! A padded block takes its ghosts from finer blocks, a [`crate::Patch`] its cells from blocks of the level above its
+//! own, of two levels above, or of its own. All walk rows of cells, so that the inner loops are plain ones.
+
+use std::ops::Range;
+
+use crate::ghosts::{ghost_span, index, mean};
+use crate::radial::RadialRow;
+use crate::{BlockId, Field, GHOSTS, Mesh, Neighbour, Offset, Padded};
+
+/// Ranges of cells along z and r.
+pub(crate) type Window = [Range<isize>; 2];
+
+/// The ghosts in one direction around n × n cells, as far as they are in a window.
+pub(crate) fn ghosts_within(n: usize, offset: Offset, window: &Window) -> Window {
+    let meet = |a: Range<isize>, b: &Range<isize>| a.start.max(b.start)..a.end.min(b.end);
+    [meet(ghost_span(n, offset.i), &window[0]), meet(ghost_span(n, offset.j), &window[1])]
+}
+
+/// Means of 2 × 2 cells along two rows, the second `stride` after the first.
+#[inline(always)]
+pub(crate) fn project_rows(cells: &[f64], stride: usize, lower_share: f64, means: &mut [f64]) {
+    // In lengths known to the compiler: half a block of 16, a pair of ghosts.
+    let (n, mut k) = (means.len(), 0);
+    while k + 8 <= n {
+        project_some::<8>(&cells[2 * k..], stride, lower_share, &mut means[k..]);
+        k += 8;
+    }
+    while k + 2 <= n {
+        project_some::<2>(&cells[2 * k..], stride, lower_share, &mut means[k..]);
+        k += 2;
+    }
+    if k < n {
+        project_some::<1>(&cells[2 * k..], stride, lower_share, &mut means[k..]);
+    }
+}
+
+#[inline(always)]
+fn project_some<const L: usize>(cells: &[f64], stride: usize, lower_share: f64, means: &mut [f64]) {
+    let ends = "rows of the block";
+    let means: &mut [f64; L] = means.first_chunk_mut().expect(ends);
+    let (lower, upper) = (&cells[..2 * L], &cells[stride..][..2 * L]);
+    for k in 0..L {
+        let (low, high) = ([lower[2 * k], lower[2 * k + 1]], [upper[2 * k], upper[2 * k + 1]]);
+        means[k] = mean([low, high], lower_share);
+    }
+}
+
+/// Fills the cells of a patch in a window, as far as they are within the domain.
+///
+/// - `patch`: components of (N/2 + 4)² cells; `rows`: its rows, two ghost rows first; `slot`: the patch's block.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn project_window<const N: usize>(
+    patch: &mut [f64],
+    rows: &[RadialRow],
+    mesh: &Mesh<N>,
+    field: &Field,
+    slot: usize,
+    window: &Window,
+) {
+    let id = mesh.tree().leaves()[slot];
+    let len = rows.len() * rows.len();
+    let own = (Offset { i: 0, j: 0 }, Neighbour::Same(slot));
+    let around = Offset::ALL.into_iter().zip(*mesh.tree().neighbours(slot));
+    for (offset, neighbour) in std::iter::once(own).chain(around) {
+        let span = ghosts_within(N / 2, offset, window);
+        if span.iter().any(|range| range.is_empty()) {
+            continue;
+        }
+        for (component, row) in patch.chunks_exact_mut(len).enumerate() {
+            let of = |slot: usize| field.component(slot, component);
+            match neighbour {
+                Neighbour::Same(other) => project_same::<N>(row, of(other), offset, &span, rows),
+                Neighbour::Coarser(other) => copy_coarser::<N>(row, of(other), offset, &span, id),
+                Neighbour::Finer([a, b]) => {
+                    project_twice(row, [of(a), of(b)], offset, &span, rows, mesh, id);
+                }
+                Neighbour::Boundary => {}
+            }
+        }
+    }
+}
+
+/// Means of 2 × 2 cells of a block's finer neighbours: the cells `i` of row `j`, numbered as that neighbour's own if
+/// it were of the block's level.
+///
+/// - `fine`: the children that touch the block, see [`crate::Neighbour::Finer`].
+#[inline(always)]
+fn project_children<const N: usize>(
+    fine: [&[f64]; 2],
+    offset: Offset,
+    i: Range<usize>,
+    j: usize,
+    lower_share: f64,
+    means: &mut [f64],
+) {
+    let half = N / 2;
+    let row = 2 * (j % half) * N;
+    // Beyond a side the two children differ along it; beyond a corner they are the same.
+    if offset.j != 0 && offset.i == 0 {
+        let middle = i.end.min(half).saturating_sub(i.start);
+        let (first, second) = means.split_at_mut(middle);
+        if !first.is_empty() {
+            project_rows(&fine[0][row + 2 * i.start..], N, lower_share, first);
+        }
+        if !second.is_empty() {
+            project_rows(&fine[1][row + 2 * (i.start.max(half) - half)..], N, lower_share, second);
+        }
+    } else {
+        let child = if offset.j == 0 { j / half } else { i.start / half };
+        project_rows(&fine[child][row + 2 * (i.start % half)..], N, lower_share, means);
+    }
+}
+
+/// The cells of a neighbour's own numbering that a range of ghosts covers.
+#[inline(always)]
+fn local(range: &Range<isize>, step: i8, n: usize) -> Range<usize> {
+    let first = isize::from(step) * n as isize;
+    (range.start - first) as usize..(range.end - first) as usize
+}
+
+/// Projects the ghosts of a padded block in one direction from blocks one level finer, all components.
+///
+/// - `children`: their slots, see [`Neighbour::Finer`].
+pub(crate) fn project_finer<const N: usize>(
+    padded: &mut [f64],
+    field: &Field,
+    children: [usize; 2],
+    offset: Offset,
+    mesh: &Mesh<N>,
+    id: BlockId,
+) {
+    let (span_i, span_j) = (ghost_span(N, offset.i), ghost_span(N, offset.j));
+    let rows = mesh.radial(id.level + 1, i64::from(id.j) * N as i64 + span_j.start as i64);
+    let from = local(&span_i, offset.i, N);
+    for (component, row) in padded.chunks_exact_mut(Padded::<N>::LEN).enumerate() {
+        let fine = children.map(|child| field.component(child, component));
+        for (j, radial) in span_j.clone().zip(rows) {
+            let to = Padded::<N>::index(span_i.start, j);
+            let local_j = (j - isize::from(offset.j) * N as isize) as usize;
+            let means = &mut row[to..to + from.len()];
+            project_children::<N>(fine, offset, from.clone(), local_j, radial.lower_share, means);
+        }
+    }
+}
+
+/// Cells of a patch from its own block, or ghosts in one direction from a block of the same level.
+///
+/// - `window`: the cells; `rows`: of the patch, two ghost rows first.
+#[inline(always)]
+fn project_same<const N: usize>(
+    row: &mut [f64],
+    owner: &[f64],
+    offset: Offset,
+    [span_i, span_j]: &Window,
+    rows: &[RadialRow],
+) {
+    let (half, n) = (N / 2, N as isize);
+    let local_i = (2 * span_i.start - isize::from(offset.i) * n) as usize;
+    for j in span_j.clone() {
+        let share = rows[(j + GHOSTS as isize) as usize].lower_share;
+        let local_j = (2 * j - isize::from(offset.j) * n) as usize;
+        let to = index(half, span_i.start, j);
+        project_rows(&owner[local_j * N + local_i..], N, share, &mut row[to..to + span_i.len()]);
+    }
+}
+
+/// Ghosts of a patch from a block of the patch's own level.
+#[inline(always)]
+fn copy_coarser<const N: usize>(
+    row: &mut [f64],
+    owner: &[f64],
+    offset: Offset,
+    [span_i, span_j]: &Window,
+    id: BlockId,
+) {
+    let (half, n) = ((N / 2) as i64, N as i64);
+    // Both counted from the domain's edge in cells of the coarse level, as if periodic images went on.
+    let first = |at: u32, step: i8| {
+        let coarse_block = (i64::from(at) + i64::from(step)).div_euclid(2);
+        (i64::from(at) * half - coarse_block * n) as isize
+    };
+    let (first_i, first_j) = (first(id.i, offset.i), first(id.j, offset.j));
+    for j in span_j.clone() {
+        let to = index(N / 2, span_i.start, j);
+        let from = ((first_j + j) * N as isize + first_i + span_i.start) as usize;
+        row[to..to + span_i.len()].copy_from_slice(&owner[from..from + span_i.len()]);
+    }
+}
+
+/// Ghosts of a patch from blocks one level finer than the block itself.
+#[inline(always)]
+fn project_twice<const N: usize>(
+    row: &mut [f64],
+    fine: [&[f64]; 2],
+    offset: Offset,
+    [span_i, span_j]: &Window,
+    rows: &[RadialRow],
+    mesh: &Mesh<N>,
+    id: BlockId,
+) {
+    let from = local(&(2 * span_i.start..2 * span_i.end), offset.i, N);
+    let first = i64::from(id.j) * N as i64;
+    for j in span_j.clone() {
+        let halves = mesh.radial(id.level + 1, first + 2 * j as i64);
+        let mut between = [[0.0; N]; 2];
+        for (b, means) in between.iter_mut().enumerate() {
+            let local_j = (2 * j + b as isize - isize::from(offset.j) * N as isize) as usize;
+            let means = &mut means[..from.len()];
+            project_children::<N>(fine, offset, from.clone(), local_j, halves[b].lower_share, means);
+        }
+        let to = index(N / 2, span_i.start, j);
+        let share = rows[(j + GHOSTS as isize) as usize].lower_share;
+        project_rows(between.as_flattened(), N, share, &mut row[to..to + span_i.len()]);
+    }
+}
