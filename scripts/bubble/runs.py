@@ -116,6 +116,12 @@ def run(options, name, **parameters):
     return Run(directory), 0
 
 
+def wide_enough(radius, end):
+    """Side of a box, 6.4 · 2^n radii, to whose far sides and back no wave gets before the end. A non-reflecting side
+    lets waves out but holds back the inflow of a slow collapse: p∞ − p = ρcv there."""
+    return 6.4 * radius * 2.0 ** max(0, int(np.ceil(np.log2(0.5 * 1500.0 * end / (6.4 * radius)))))
+
+
 def rayleigh_time(radius, pressure, gas_pressure):
     """Rayleigh's collapse time of an empty bubble, 0.915 R √(ρ/Δp), s."""
     return 0.91468 * radius * np.sqrt(1000.0 / (pressure - gas_pressure))
