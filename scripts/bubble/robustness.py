@@ -6,8 +6,8 @@ from .runs import rayleigh_time, run, wide_enough
 
 RADIUS = 1e-3
 # Ambient pressure and gas pressure; the gas is air at 293 K.
-PRESSURES = [(1e5, 100.0), (1e5, 2118.0), (1e5, 1e4), (1e6, 1e3), (1e6, 1e5), (1e7, 2118.0), (1e7, 1e5), (1e8, 100.0),
-             (1e8, 1e5)]
+PRESSURES = [(1e8, 1e5), (1e8, 100.0), (1e7, 1e5), (1e7, 2118.0), (1e6, 1e5), (1e6, 1e3), (1e5, 1e4), (1e5, 2118.0),
+             (1e5, 100.0)]
 STAND_OFFS = [1.05, 1.5, 2.0, 4.0]
 WALLS = ["rigid", "structural-steel"]
 CELLS = [20, 40, 80]

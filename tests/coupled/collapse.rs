@@ -47,3 +47,61 @@ fn the_figures_case_has_its_known_peaks() {
         assert!((found / wanted - 1.0).abs() < tolerance, "{what}: {found:e} of {wanted:e}");
     }
 }
+
+/// A bubble so near the steel that its gas comes to the wall: the traces of mixed cells, and the fluxes through the wall
+/// from them, must be those of their own face states.
+#[test]
+fn gas_comes_to_the_steel() {
+    let text = r#"
+geometry = "axisymmetric"
+[time]
+end = 16e-6
+[fluid]
+z = [0.0, 6.4e-3]
+r = [0.0, 6.4e-3]
+cells = [16, 16]
+levels = 3
+epsilon = 1e-3
+[fluid.liquid]
+gamma = 7.15
+pi = 3e8
+[fluid.gas]
+gamma = 1.4
+pi = 0.0
+[fluid.ambient]
+density = 1000.0
+pressure = 1e7
+[[fluid.region]]
+shape = "sphere"
+centre = [1.5e-3, 0.0]
+radius = 1e-3
+phase = "gas"
+density = 1.2
+pressure = 1e5
+[solid]
+z = [-6.4e-3, 0.0]
+r = [0.0, 6.4e-3]
+cells = [16, 16]
+levels = 3
+epsilon = 1e-3
+material = "structural-steel"
+[coupling]
+scheme = "riemann"
+"#;
+    let mut sides = Sides::of(&crate::harness::case(text));
+    let (mut gas_at_the_wall, mut wall) = (0.0_f64, Peak::default());
+    let mut gas = [f64::NAN; 2];
+    sides.run(|fluid, _| {
+        for face in fluid.mesh().blocks_along(mesh::Side::ZMin) {
+            gas_at_the_wall = gas_at_the_wall.max(fluid.cell(face, 0, 0).phi);
+        }
+        wall.push(fluid.time(), fluid.wall_pressures().axis);
+        let mass = fluid.totals().gas_mass;
+        gas = [if gas[0].is_nan() { mass } else { gas[0] }, mass];
+        assert!(fluid.largest_speeds().iter().all(|speed| speed.is_finite()));
+    });
+    eprintln!("gas fraction at the wall {gas_at_the_wall:.2}, pressure {:?}, gas mass {gas:?}", wall.0);
+    assert!(gas_at_the_wall > 0.1, "the gas does not come to the wall");
+    assert!((gas[1] / gas[0] - 1.0).abs() < 1e-12);
+    assert!(wall.0[0] > 1.5e8 && wall.0[0] < 4e8, "{:?}", wall.0);
+}

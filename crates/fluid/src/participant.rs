@@ -4,8 +4,33 @@ use coupler::{TraceRow, WallRegister};
 use mesh::Padded;
 
 use crate::block::{BlockScratch, reconstruct};
+use crate::five_equation::{Cells, Stencil, face_states};
 use crate::rows::{half_step, rates};
-use crate::{FluidSolver, WallState};
+use crate::{FluidSolver, Mixture, WallState};
+
+/// Writes a trace that stays as it is through the step and along the face.
+fn put_steady(w: [f64; 5], mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
+    let at = mixture.at(w[4]);
+    use TraceRow::{
+        Density, DensityRate, DensitySlope, Gamma, NormalVelocity, NormalVelocityRate, NormalVelocitySlope,
+        Pi, Pressure, PressureRate, PressureSlope, Shear, TangentialVelocity, TangentialVelocityRate,
+    };
+    let state = [(Density, w[0]), (NormalVelocity, w[1]), (TangentialVelocity, w[2]), (Pressure, w[3])];
+    let law = [(Gamma, at.gamma), (Pi, at.pi)];
+    let still = [
+        Shear,
+        DensityRate,
+        NormalVelocityRate,
+        TangentialVelocityRate,
+        PressureRate,
+        DensitySlope,
+        NormalVelocitySlope,
+        PressureSlope,
+    ];
+    for (row, value) in state.into_iter().chain(law).chain(still.map(|row| (row, 0.0))) {
+        put(row, face, value);
+    }
+}
 
 impl<const N: usize> FluidSolver<N> {
     /// Number of faces on the wall to the solid; 0 without one.
@@ -39,8 +64,13 @@ impl<const N: usize> FluidSolver<N> {
             self.scratch.with(|scratch| {
                 reconstruct(&self.context(dt), slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
+                let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);
                 for j in 0..N {
                     let k = Padded::<N>::index(0, j as isize);
+                    if let Some(state) = at_interface(k) {
+                        put_steady(state, &self.mixture, first + j, &mut put);
+                        continue;
+                    }
                     let w: [f64; 5] = std::array::from_fn(|c| cells.component(c)[k]);
                     let d_z: [f64; 5] = std::array::from_fn(|c| s_z.component(c)[k]);
                     let d_r: [f64; 5] = std::array::from_fn(|c| s_r.component(c)[k]);
@@ -73,6 +103,22 @@ impl<const N: usize> FluidSolver<N> {
                 }
             });
         }
+    }
+
+    /// The state at mid-step on the wall's face of a cell that holds both phases; `None` of other cells.
+    fn interface_trace(
+        &self,
+        cells: &Padded<N>,
+        inverse_r: &[f64],
+        inverse_h: [f64; 2],
+        k: usize,
+        dt: f64,
+    ) -> Option<[f64; 5]> {
+        let options = self.two_phase?;
+        let cells = Cells { rows: cells.split::<6>(), stride: Padded::<N>::STRIDE };
+        let mixture = &self.mixture;
+        let stencil = Stencil { limiter: self.limiter, inverse_h, inverse_r, dt, mixture, options };
+        cells.is_at_interface(k).then(|| face_states(&cells, k, &stencil)[0].w)
     }
 
     /// Sets the wall's state for the next step from what the other side returned.

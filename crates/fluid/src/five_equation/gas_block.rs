@@ -13,6 +13,9 @@ use crate::rows::{FaceRows, Reconstruction, Rows};
 use crate::state::conserved::{GAS, PHI, RHO};
 use crate::update::Metric;
 
+/// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
+const NOT_THEIRS: f64 = -0.0;
+
 /// Scratch of one thread.
 pub(crate) struct GasScratch {
     mixed: MixedCells,
@@ -77,7 +80,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
 
     /// Finds and reconstructs the mixed cells; `scratch` holds the assembled block and its predicted states.
     pub fn collect(&self, scratch: &mut BlockScratch<N>) {
-        let BlockScratch { cells, gas, keep, inverse_r, .. } = scratch;
+        let BlockScratch { cells, gas, half, keep, inverse_r, .. } = scratch;
         let rows = cells.split::<6>();
         for (share, (gas, rho)) in gas.shares.iter_mut().zip(rows[GAS].iter().zip(rows[RHO])) {
             *share = gas / rho;
@@ -95,9 +98,13 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             Side::ALL.map(|side| self.outer(side)),
             |k| is_marked.unwrap_or_else(|| marks[k]),
         );
-        // Their slopes are not those of the kernels, whose verdict on them counts for nothing.
-        for &k in gas.mixed.cells() {
-            keep[k] = 1.0;
+        // What the kernels made of these cells counts for nothing. What the wall to the solid asks for is on the lower
+        // face along z.
+        for (k, states) in gas.mixed.listed() {
+            keep[k] = NOT_THEIRS;
+            for (component, value) in states[0].w.into_iter().enumerate() {
+                half.component_mut(component)[k] = value;
+            }
         }
     }
 

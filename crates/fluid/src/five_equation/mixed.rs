@@ -54,6 +54,11 @@ impl MixedCells {
         &self.cells
     }
 
+    /// The same with the states on their faces.
+    pub fn listed(&self) -> impl Iterator<Item = (usize, &[FaceState; 4])> {
+        self.cells.iter().copied().zip(&self.states)
+    }
+
     fn put(&mut self, k: usize, states: [FaceState; 4]) {
         self.index[k] = self.cells.len() as u32;
         self.cells.push(k);
