@@ -1,5 +1,6 @@
 //! Fluid and solid together, in this process: what the interface does to waves, impulse and work.
 
+mod adaptive_pulse;
 mod collapse;
 mod hammer;
 mod harness;

@@ -1,0 +1,117 @@
+//! What adaptation costs and saves where a pulse meets steel, measured by the error of the uniform grids.
+
+use std::time::Instant;
+
+use crate::harness::{Sides, case};
+
+/// A spherical pulse above steel on 16 · 2^`levels` cells of 6.4 mm: 12 cells per width at level 4. A corner of the solid
+/// is kept on the finest level, so that all runs of a resolution make the same steps: what is compared is the grids'
+/// doing, not that of longer steps while the solid is quiet.
+fn pulse(levels: u8, adaptive: bool) -> String {
+    let grid =
+        format!("cells = [16, 16]\nlevels = {levels}\n{}", if adaptive { "" } else { "adapt = false\n" });
+    let corner = if adaptive {
+        format!(
+            "[[solid.refine]]\nshape = \"box\"\nz = [-6.4e-3, -6.3e-3]\nr = [6.3e-3, 6.4e-3]\nat_least = {levels}\n"
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        r#"
+geometry = "axisymmetric"
+[time]
+end = 2e-6
+[fluid]
+z = [0.0, 6.4e-3]
+r = [0.0, 6.4e-3]
+{grid}
+[fluid.liquid]
+gamma = 7.15
+pi = 3e8
+[fluid.ambient]
+density = 1000.0
+pressure = 1e5
+[[fluid.pulse]]
+shape = "sphere"
+centre = [1.5e-3, 0.0]
+width = 3e-4
+amplitude = 1e4
+[solid]
+z = [-6.4e-3, 0.0]
+r = [0.0, 6.4e-3]
+{grid}
+material = "structural-steel"
+initial_stress = "hydrostatic"
+{corner}
+[coupling]
+scheme = "riemann"
+"#
+    )
+}
+
+/// p and ρc v in the fluid, the stresses and ρ̄c₁ v in the solid, at the centres of 256 × 256 cells of each.
+struct Outcome {
+    fluid: Vec<[f64; 3]>,
+    solid: Vec<[f64; 6]>,
+    updates: u64,
+    seconds: f64,
+    steps: u64,
+}
+
+const SAMPLES: usize = 256;
+
+fn run(levels: u8, adaptive: bool) -> Outcome {
+    let mut sides = Sides::of(&case(&pulse(levels, adaptive)));
+    let started = Instant::now();
+    sides.run(|_, _| ());
+    let seconds = started.elapsed().as_secs_f64();
+    let (fluid, solid) = (sides.fluid.solver(), sides.solid.solver());
+    let h = 6.4e-3 / SAMPLES as f64;
+    let places = || {
+        (0..SAMPLES * SAMPLES).map(|k| [(k % SAMPLES) as f64, (k / SAMPLES) as f64].map(|x| (x + 0.5) * h))
+    };
+    let (z_f, z_s) = (1.4647e6, 7800.0 * 5990.0);
+    let in_fluid = |[z, r]: [f64; 2]| {
+        let w = fluid.sample([z, r]).expect("inside");
+        [w.pressure - 1e5, z_f * w.v_z, z_f * w.v_r]
+    };
+    let in_solid = |[z, r]: [f64; 2]| {
+        let w = solid.sample([-z, r]).expect("inside");
+        let stresses = [w.stress_zz + 1e5, w.stress_zr, w.stress_rr + 1e5, w.stress_phiphi + 1e5];
+        [stresses[0], stresses[1], stresses[2], stresses[3], z_s * w.v_z, z_s * w.v_r]
+    };
+    Outcome {
+        fluid: places().map(in_fluid).collect(),
+        solid: places().map(in_solid).collect(),
+        updates: fluid.cell_updates() + solid.cell_updates(),
+        seconds,
+        steps: fluid.steps(),
+    }
+}
+
+/// The L1 difference, each place weighted with its radius.
+fn difference<const K: usize>(a: &[[f64; K]], b: &[[f64; K]]) -> f64 {
+    let apart = |(k, (a, b)): (usize, (&[f64; K], &[f64; K]))| {
+        let r = (k / SAMPLES) as f64 + 0.5;
+        r * a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>()
+    };
+    a.iter().zip(b).enumerate().map(apart).sum()
+}
+
+#[test]
+#[ignore = "a minute on a quiet machine"]
+fn a_pulse_on_steel_loses_little_to_adaptation() {
+    let (finer, uniform, adaptive) = (run(5, false), run(4, false), run(4, true));
+    let errors = [difference(&uniform.fluid, &finer.fluid), difference(&uniform.solid, &finer.solid)];
+    let losses = [difference(&adaptive.fluid, &uniform.fluid), difference(&adaptive.solid, &uniform.solid)];
+    let [fluid, solid] = [0, 1].map(|k| losses[k] / errors[k]);
+    let updates = adaptive.updates as f64 / uniform.updates as f64;
+    eprintln!(
+        "difference / error: fluid {fluid:.3}, solid {solid:.3}; cell updates {updates:.3}, seconds {:.2} of {:.2}, \
+         steps {} and {}",
+        adaptive.seconds, uniform.seconds, adaptive.steps, uniform.steps
+    );
+    assert_eq!(adaptive.steps, uniform.steps, "the same steps");
+    assert!(fluid < 0.1 && solid < 0.1 && updates < 1.0 / 3.0);
+}
