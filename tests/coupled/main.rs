@@ -7,4 +7,5 @@ mod ledgers;
 mod modes;
 mod pulse;
 mod rest;
+mod start;
 mod weak;

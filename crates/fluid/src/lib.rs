@@ -24,6 +24,7 @@ mod mixture;
 mod options;
 mod participant;
 mod predictor;
+mod rayleigh;
 mod reflux;
 mod rows;
 mod solver;
@@ -36,8 +37,9 @@ pub use diagnostics::{AxisState, Bubble, Snapshot, TRACE_GAS, Totals, WallPressu
 pub use eos::StiffenedGas;
 pub use error::FluidError;
 pub use hllc::{Face, flux_hllc};
-pub use initial::{InitialCondition, Phase, PhaseState, Pulse, PulseShape, Region, Shape};
+pub use initial::{InitialCondition, InitialPressure, Phase, PhaseState, Pulse, PulseShape, Region, Shape};
 pub use mixture::Mixture;
 pub use options::{Boundary, Model, RiemannSolver, Sharpening};
+pub use rayleigh::{RayleighError, RayleighField};
 pub use solver::{BoundaryLedger, Fixups, FluidSetup, FluidSolver};
 pub use state::Primitive;

@@ -10,6 +10,7 @@ use crate::helpers::*;
 fn pulse(centre: [f64; 2], direction: [f64; 2]) -> InitialCondition {
     InitialCondition {
         ambient: PhaseState { phase: Phase::Liquid, density: 1000.0, pressure: 1e5, velocity: [0.0; 2] },
+        pressure: fluid::InitialPressure::Uniform,
         regions: vec![],
         pulses: vec![Pulse {
             shape: PulseShape::Plane { direction: Some(direction) },
