@@ -9,6 +9,7 @@ mod adapt;
 mod analysis;
 mod block;
 mod boundary;
+mod bubbles;
 mod diagnostics;
 mod elementary;
 mod eos;
@@ -33,7 +34,8 @@ mod update;
 
 pub use analysis::Scales;
 pub use boundary::{PressureHistory, WallState};
-pub use diagnostics::{AxisState, Bubble, Snapshot, TRACE_GAS, Totals, WallPressures};
+pub use bubbles::{BubbleCuts, TRACE_GAS};
+pub use diagnostics::{AxisState, Bubble, Snapshot, Totals, WallPressures};
 pub use eos::StiffenedGas;
 pub use error::FluidError;
 pub use hllc::{Face, flux_hllc};
