@@ -235,6 +235,7 @@ fn fluid_near_a_wall<const N: usize>(
     let at_rest = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
     let initial = InitialCondition {
         ambient: at_rest(Phase::Liquid, 1000.0, 5e7),
+        pressure: fluid::InitialPressure::Uniform,
         regions: vec![Region {
             shape: Shape::Sphere { centre: [0.03, 0.0], radius: 0.01 },
             state: at_rest(Phase::Gas, 0.0266, 2118.0),

@@ -161,6 +161,15 @@ const BAD: &[(Edit, &[&str])] = &[
     (Append("[[fluid.pulse]]\nshape = \"plane\"\ncentre = 0.004\nwidth = 1e-3\namplitude = 1e4\ndirection = [1, 1]"), &["fluid.pulse.0.direction", "goes along z"]),
     (Append("[[fluid.pulse]]\nshape = \"sphere\"\ncentre = [0.004, 0]\nwidth = 1e-3\namplitude = 1e4\ndirection = [1, 0]"), &["fluid.pulse.0.direction: unknown key"]),
     (Append("[fluid.gas]\ngamma = 0.4"), &["fluid.gas.gamma: must be greater than 1"]),
+    // The pressure of the start.
+    (Sets(&["fluid.initial_pressure=raileigh"]), &["fluid.initial_pressure", "did you mean `rayleigh`?", "`uniform`"]),
+    (Sets(&["fluid.initial_pressure=rayleigh", "fluid.region.0.phase=liquid"]), &["fluid.initial_pressure: \"rayleigh\"", "no region is gas", "[[fluid.region]]", "\"uniform\""]),
+    (Sets(&["fluid.initial_pressure=rayleigh", "fluid.ambient.phase=gas"]), &["fluid.initial_pressure: \"rayleigh\"", "the ambient phase is gas", "\"liquid\""]),
+    (Sets(&["fluid.initial_pressure=rayleigh", "fluid.region=[{ shape = \"box\", z = [1e-3, 2e-3], r = [0, 1e-3], phase = \"gas\", density = 1, pressure = 1e5 }]"]), &["fluid.initial_pressure: \"rayleigh\"", "the gas of region 0 is none", "make fluid.region.0 a \"sphere\""]),
+    (Sets(&["fluid.initial_pressure=rayleigh", "fluid.region.0.radius=0.004"]), &["fluid.initial_pressure: \"rayleigh\"", "region 0 is 0.004 m above it with a radius of 0.004 m", "move fluid.region.0 up"]),
+    (Sets(&["fluid.initial_pressure=rayleigh", "fluid.region=[{ shape = \"sphere\", centre = [0.003, 0], radius = 1e-3, phase = \"gas\", density = 1, pressure = 1e5 }, { shape = \"sphere\", centre = [0.005, 0], radius = 1.5e-3, phase = \"gas\", density = 1, pressure = 1e5 }]"]), &["fluid.initial_pressure: \"rayleigh\"", "regions 0 and 1 overlap", "fluid.region.0 and fluid.region.1 apart"]),
+    (Sets(&["fluid.initial_pressure=rayleigh", "fluid.region=[{ shape = \"sphere\", centre = [0.003, 0], radius = 1e-3, phase = \"gas\", density = 1, pressure = 1e5 }, { shape = \"sphere\", centre = [0.005000001, 0], radius = 1e-3, phase = \"gas\", density = 1, pressure = 9e5 }]"]), &["fluid.initial_pressure: \"rayleigh\"", "too near to each other", "more space"]),
+    (Sets(&["fluid.initial_pressure=rayleigh", "geometry=planar"]), &["fluid.initial_pressure: \"rayleigh\"", "the geometry is planar", "axisymmetric"]),
     // Boundaries.
     (Append("[fluid.boundary]\nz_min = \"wall\""), &["fluid.boundary.z_min", "is the interface", "remove `z_min`"]),
     (Append("[fluid.boundary]\nr_min = \"wall\""), &["fluid.boundary.r_min", "is the axis"]),
@@ -351,6 +360,7 @@ fn every_kind_of_value_survives_being_written_out() {
         "time.snapshot_every=3.1e-7",
         "fluid.riemann=exact",
         "fluid.limiter=eno",
+        "fluid.initial_pressure=rayleigh",
         "fluid.boundary={ z_max = \"inflow\", r_max = \"wall\" }",
         "fluid.inflow.pressure=[[0, 1e6], [0.1e-6, 2e7]]",
         "fluid.pulse=[{ shape = \"plane\", centre = 0.008, width = 1e-3, amplitude = 1e5, direction = [-2, 0] }, \
@@ -477,6 +487,7 @@ fn the_hash_ignores_form_and_output_and_nothing_else() {
         "fluid.adapt_every=4",
         "fluid.scale_pressure=1e6",
         "fluid.scale_density=1.0",
+        "fluid.initial_pressure=rayleigh",
         "fluid.refine=[{ shape = \"interface\", at_least = 3 }]",
         "solid.scale_stress=1e7",
         "fluid.liquid.gamma=7.0",
@@ -553,6 +564,12 @@ fn the_report_knows_the_papers_case() {
     ] {
         assert!(report.contains(part), "no `{part}` in:\n{report}");
     }
+    // Two mirrored spheres at one potential: by the series of image charges 11.25 MPa on the plane between them.
+    let sets = ["fluid.initial_pressure=rayleigh".to_owned()];
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml");
+    let start = Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}"));
+    let report = cav::case::report(&start);
+    assert!(report.contains("rayleigh, 11.25 MPa at z_min on the axis"), "{report}");
     // The same bubble above a rigid wall is the rigid case, to the last key.
     let rigid = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/rigid-wall.toml"));
     let text = case.effective_toml();

@@ -309,11 +309,12 @@ fn summary(directory: &Path) -> serde_json::Value {
 }
 
 /// Datasets with their lengths; those of the first list are as long as the run has steps, the first state included.
-const EVERY_STEP: [&str; 25] = [
+const EVERY_STEP: [&str; 26] = [
     "/time",
     "/bubble/volume",
     "/bubble/equivalent_radius",
     "/bubble/centroid_z",
+    "/bubble/gas_mass",
     "/bubble/jet_tip_z",
     "/bubble/jet_velocity",
     "/probes/wall/time",
@@ -369,6 +370,44 @@ fn a_run_leaves_all_that_is_promised() {
         fs::read(workshop.path("one/case.toml")).expect("a case"),
         fs::read(workshop.path("again/case.toml")).expect("a case")
     );
+}
+
+/// Of several bubbles each has its datasets, numbered from the wall; one alone has none.
+#[test]
+fn several_bubbles_are_told_apart() {
+    let workshop = Workshop::new();
+    let region = |z: f64, radius: f64| {
+        format!(
+            "{{ shape = \"sphere\", centre = [{z}, 0.0], radius = {radius}, phase = \"gas\", density = 1.2, \
+             pressure = 1e5 }}"
+        )
+    };
+    let regions = format!("fluid.region=[{}, {}]", region(0.008, 1e-3), region(0.004, 2e-3));
+    for (out, set) in [("two", &regions[..]), ("one", "fluid.region.0.radius=2e-3")] {
+        good_run(&workshop, &["run", "case.toml", "--out", out, "--in-process", "--set", set]);
+    }
+    let open = |out: &str| {
+        hdf5::File::open(workshop.path(out).join("history.h5"))
+            .unwrap_or_else(|error| panic!("{out}: {error}"))
+    };
+    assert!(!open("one").link_exists("bubbles"));
+    let history = open("two");
+    let read = |name: &str| {
+        let values = history.dataset(name).and_then(|dataset| dataset.read_raw::<f64>());
+        values.unwrap_or_else(|error| panic!("{name}: {error}"))
+    };
+    for (number, z, radius) in [(1, 0.004, 2e-3), (2, 0.008, 1e-3)] {
+        let first = |what: &str| read(&format!("/bubbles/{number}/{what}"))[0];
+        assert!((first("centroid_z") - z).abs() < 2e-4, "{number}");
+        assert!((first("equivalent_radius") / radius - 1.0).abs() < 0.02, "{number}");
+    }
+    for what in ["volume", "gas_mass"] {
+        let [whole, one, two] = ["bubble", "bubbles/1", "bubbles/2"].map(|of| read(&format!("/{of}/{what}")));
+        assert_eq!(whole.len(), read("/time").len());
+        for (row, whole) in whole.iter().enumerate() {
+            assert!(((one[row] + two[row]) / whole - 1.0).abs() < 1e-12, "{what} in row {row}");
+        }
+    }
 }
 
 fn complete_directory(workshop: &Workshop, out: &str) {

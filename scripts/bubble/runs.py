@@ -18,7 +18,6 @@ class Run:
             self.time = file["time"][:]
             self.volume = file["bubble/volume"][:]
             self.jet = file["bubble/jet_velocity"][:]
-            self.wall = file["wall/pressure_axis"][:]
 
     def first_minimum(self):
         """Time and volume of the first minimum of the volume below half the initial one that a rise of 1 % follows."""
@@ -39,10 +38,12 @@ def case_text(*, pressure, gas, radius, centre, side, cells, end, model="five-eq
     """A case: a gas bubble (density, pressure) about (centre, 0) in liquid of a pressure, in a box of a side that is
     2^n times the radius times 32 over the cells per radius."""
     levels = round(np.log2(side / radius * cells / ROOT_CELLS))
+    # Without a wall the bubble is in the middle of a box twice as long.
+    low, roots = (-side, 2 * ROOT_CELLS) if wall == "none" else (0.0, ROOT_CELLS)
     sharpening = f'interface = "{interface}"\n' if interface else ""
     began = f'initial_pressure = "{start}"\n' if start != "uniform" else ""
     solid = ""
-    if wall != "rigid":
+    if wall not in ("rigid", "none"):
         solid = f"""
 [solid]
 z = [-{side}, 0.0]
@@ -56,7 +57,7 @@ material = "{wall}"
 z_min = "non-reflecting"
 r_max = "non-reflecting"
 """
-    scheme = "rigid" if wall == "rigid" else "riemann"
+    scheme = wall if wall in ("rigid", "none") else "riemann"
     return f"""geometry = "axisymmetric"
 
 [time]
@@ -64,9 +65,9 @@ end = {end}
 cfl = 0.45
 
 [fluid]
-z = [0.0, {side}]
+z = [{low}, {side}]
 r = [0.0, {side}]
-cells = [{ROOT_CELLS}, {ROOT_CELLS}]
+cells = [{roots}, {ROOT_CELLS}]
 levels = {levels}
 epsilon = {epsilon}
 model = "{model}"

@@ -25,7 +25,7 @@ def table(options):
             result, code = run(options, f"stand-off-{pressure:.0e}-{'free' if is_free else stand_off}-{cells}",
                                pressure=pressure, gas=(density, gas), radius=RADIUS,
                                centre=0.0 if is_free else stand_off * RADIUS, side=side, cells=cells,
-                               end=1.5 * scale, start=start)
+                               end=1.5 * scale, start=start, wall="none" if is_free else "rigid")
             if code:
                 print(f"| {pressure:.0e} Pa, {start} | {stand_off} | exit code {code} | | | | |", flush=True)
                 continue

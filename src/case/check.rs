@@ -3,14 +3,14 @@
 use std::fmt::Write as _;
 
 use coupler::Scheme;
-use fluid::{Phase, PhaseState, PulseShape, Shape};
-use mesh::{BLOCK, Geometry};
+use fluid::{Phase, PhaseState, PulseShape, RayleighField, Shape};
+use mesh::{BLOCK, Geometry, Side};
 use solid::Material;
 
 use super::format::{duration, hex, mebibytes, plain, si};
 use super::scales::sound_speed;
 use super::warnings::SAFE_CFL;
-use super::{Case, FluidCase, GridCase, SolidCase};
+use super::{Case, FluidCase, GridCase, SolidCase, index};
 
 /// Wall time per cell and step of the fluid on one core, ns: an estimate for the release build.
 const FLUID_NS: f64 = 60.0;
@@ -168,6 +168,17 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
             parts.push(format!("Rayleigh collapse time {}", si(time, "s")));
         }
         line(text, &format!("region {number}"), &parts.join(", "));
+    }
+    // The case was read, so it has the field that it asks for.
+    let z_min = fluid.grid.z[0];
+    let field = RayleighField::of(&fluid.initial, case.geometry, z_min, fluid.boundary[index(Side::ZMin)]);
+    if let Ok(Some(field)) = field {
+        let numbers = format!(
+            "rayleigh, {} at z_min on the axis, on the bubbles that of the gas to {:.0e}",
+            si(field.pressure([z_min, 0.0]), "Pa"),
+            field.error()
+        );
+        line(text, "pressure", &numbers);
     }
     for (number, pulse) in fluid.initial.pulses.iter().enumerate() {
         let cells =

@@ -76,6 +76,7 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     text.name("model", &fluid::Model::NAMES, fluid.model);
     text.name("interface", &fluid::Sharpening::NAMES, fluid.sharpening);
     text.name("limiter", &mesh::Limiter::NAMES, fluid.limiter);
+    text.name("initial_pressure", &fluid::InitialPressure::NAMES, fluid.initial.pressure);
     text.number("scale_pressure", fluid.scale_pressure);
     text.number("scale_density", fluid.scale_density);
     write_refine(text, "[[fluid.refine]]", &fluid.grid);

@@ -5,6 +5,7 @@ mod cross;
 mod effective;
 mod error;
 mod format;
+mod initial_pressure;
 mod read;
 mod read_adaptation;
 mod read_fluid;

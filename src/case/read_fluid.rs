@@ -2,15 +2,15 @@
 
 use coupler::Scheme;
 use fluid::{
-    Boundary, InitialCondition, Model, Phase, PhaseState, Pulse, PulseShape, Region, RiemannSolver, Shape,
-    Sharpening, StiffenedGas,
+    Boundary, InitialCondition, InitialPressure, Model, Phase, PhaseState, Pulse, PulseShape, Region,
+    RiemannSolver, Shape, Sharpening, StiffenedGas,
 };
 use mesh::{Geometry, Limiter, Side};
 
 use super::read::{Context, boundaries, history};
 use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, Given, Table, number, pair};
-use super::{FluidCase, GridCase, Inflow, scales};
+use super::{FluidCase, GridCase, Inflow, initial_pressure, scales};
 
 /// The shapes of regions and pulses by name.
 #[derive(Clone, Copy, PartialEq)]
@@ -61,8 +61,12 @@ pub(super) fn fluid(
         grid: placed.as_ref().map(|(grid, _)| grid.clone()),
         geometry: context.geometry,
     };
-    let initial = initial(&mut table, &setting, faults);
+    let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
+    let initial = initial(&mut table, pressure.as_ref(), &setting, faults);
     let boundary = sides(&mut table, context, faults);
+    if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
+        initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
+    }
     let inflow = inflow(&mut table, boundary, liquid, faults);
     let riemann = table.choice("riemann", &RiemannSolver::NAMES, faults);
     let model = table.choice("model", &Model::NAMES, faults);
@@ -135,7 +139,12 @@ fn stiffened_gas(
     sound.then_some(StiffenedGas { gamma: gamma.value, pi: pi.value })
 }
 
-fn initial(table: &mut Table<'_>, setting: &Setting, faults: &mut Faults) -> Option<InitialCondition> {
+fn initial(
+    table: &mut Table<'_>,
+    pressure: Option<&Given<InitialPressure>>,
+    setting: &Setting,
+    faults: &mut Faults,
+) -> Option<InitialCondition> {
     let ambient = if table.has("ambient") {
         table.table("ambient", faults).and_then(|mut table| {
             let ambient = state(&mut table, Some(Phase::Liquid), setting, faults);
@@ -156,6 +165,7 @@ fn initial(table: &mut Table<'_>, setting: &Setting, faults: &mut Faults) -> Opt
         .collect();
     Some(InitialCondition {
         ambient: ambient?,
+        pressure: pressure.map_or(InitialPressure::Uniform, |given| given.value),
         regions: regions.into_iter().collect::<Option<_>>()?,
         pulses: pulses.into_iter().collect::<Option<_>>()?,
     })

@@ -63,7 +63,12 @@ mod tests {
 
     fn at_rest(pressure: f64) -> InitialCondition {
         let ambient = PhaseState { phase: Phase::Liquid, density: 1000.0, pressure, velocity: [0.0; 2] };
-        InitialCondition { ambient, regions: vec![], pulses: vec![] }
+        InitialCondition {
+            ambient,
+            pressure: fluid::InitialPressure::Uniform,
+            regions: vec![],
+            pulses: vec![],
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the fluid's side writes: snapshots, histories, its part of the summary.
 
-use fluid::{Bubble, FluidSolver};
+use fluid::{Bubble, BubbleCuts, FluidSolver};
 use mesh::{BLOCK, Geometry, Side};
 use serde_json::{Map, Value, json};
 
@@ -12,12 +12,14 @@ use super::side_files::{SideFiles, SideNames};
 use super::wall_faces::WallFaces;
 use crate::case::{Case, FLUID_FIELDS, Medium};
 use crate::output::run_directory::{FLUID_FIELDS as FIELDS_FILE, FLUID_HISTORY};
-use crate::output::{Column, FieldSpec, OutputError, RunDirectory, SeriesId, Storage};
+use crate::output::{Column, FieldSpec, HistoryFile, OutputError, RunDirectory, SeriesId, Storage};
 
 /// Everything that the fluid's side writes.
 pub struct FluidRecord {
     files: SideFiles,
     steps: SeriesId,
+    /// One row for each bubble side by side; absent with less than two.
+    bubbles: Option<SeriesId>,
     interface: Option<InterfaceHistory>,
     conservation: SeriesId,
     ticker: Ticker,
@@ -31,6 +33,7 @@ pub struct FluidRecord {
     largest_thin_volume: f64,
     /// Ambient pressure times the gas's initial volume, J/rad (planar: J/m): what a collapse sets free.
     collapse_energy: f64,
+    cuts: BubbleCuts,
 }
 
 /// Largest values so far, with their times.
@@ -58,7 +61,9 @@ impl FluidRecord {
         };
         let mut files = SideFiles::create(case, directory, names)?;
         let history = &mut files.history;
+        let cuts = case.fluid.as_ref().map(|fluid| BubbleCuts::of(&fluid.initial)).unwrap_or_default();
         let steps = history.add_series("", &STEP_COLUMNS)?;
+        let bubbles = bubble_series(&cuts, history)?;
         let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.wall_edges());
         let mut wall_pressures = Vec::new();
         solver.wall_cells(|_, pressure, _| wall_pressures.push(pressure));
@@ -95,6 +100,8 @@ impl FluidRecord {
                 let turn = if case.geometry == Geometry::Axisymmetric { std::f64::consts::TAU } else { 1.0 };
                 fluid.initial.ambient.pressure * solver.bubble().volume / turn
             }),
+            cuts,
+            bubbles,
         };
         record.cells.see(mesh.cells());
         record.write(solver, 0.0)?;
@@ -148,6 +155,7 @@ impl FluidRecord {
                 axis.jet_velocity,
                 bubble.trace_volume,
                 bubble.thin_volume,
+                bubble.gas_mass,
                 wall.axis,
                 wall.anywhere,
                 fixups.first_order as f64,
@@ -158,6 +166,12 @@ impl FluidRecord {
                 fixups.floor_energy,
             ],
         )?;
+        if let Some(series) = self.bubbles {
+            self.cuts.follow(solver);
+            let numbers = |b: Bubble| [b.volume, b.equivalent_radius, b.centroid_z, b.gas_mass];
+            let row: Vec<f64> = solver.bubbles(&self.cuts).into_iter().flat_map(numbers).collect();
+            history.push(series, &row)?;
+        }
         self.collapse.push(time, bubble.volume);
         self.last_bubble = bubble;
         self.largest_thin_volume = self.largest_thin_volume.max(bubble.thin_volume);
@@ -269,7 +283,31 @@ impl FluidRecord {
     }
 }
 
-const STEP_COLUMNS: [Column<'static>; 17] = [
+/// Makes the series of the single bubbles, `bubbles/1` the one nearest to the wall, where there are several.
+fn bubble_series(cuts: &BubbleCuts, history: &mut HistoryFile) -> Result<Option<SeriesId>, OutputError> {
+    if cuts.bubbles() < 2 {
+        return Ok(None);
+    }
+    let names: Vec<[String; 4]> = (1..=cuts.bubbles())
+        .map(|number| BUBBLE_COLUMNS.map(|(name, ..)| format!("bubbles/{number}/{name}")))
+        .collect();
+    let columns: Vec<Column<'_>> = names
+        .iter()
+        .flat_map(|names| names.iter().zip(BUBBLE_COLUMNS))
+        .map(|(name, (_, unit, description))| column(name, unit, description))
+        .collect();
+    history.add_series("", &columns).map(Some)
+}
+
+/// Name, unit and description of what is recorded of each of several bubbles.
+const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
+    ("volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6, between this bubble's cuts"),
+    ("equivalent_radius", "m", "radius of the ball of that volume"),
+    ("centroid_z", "m", "mean z weighted with the gas fraction"),
+    ("gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
+];
+
+const STEP_COLUMNS: [Column<'static>; 18] = [
     column("time", "s", "time after the step"),
     column("time_step", "s", "length of the step"),
     column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
@@ -283,6 +321,7 @@ const STEP_COLUMNS: [Column<'static>; 17] = [
         "m3",
         "volume integral of the gas fraction where it is between 1e-6 and 1e-2",
     ),
+    column("bubble/gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
     column("wall/pressure_axis", "Pa", "cell mean at z_min on the axis"),
     column("wall/pressure_max", "Pa", "largest cell mean along z_min"),
     column("fixups/first_order", "1", "cell-steps at first order so far"),

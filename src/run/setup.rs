@@ -1,7 +1,7 @@
 //! A case made into solvers.
 
-use fluid::{FluidError, FluidSetup, FluidSolver, PressureHistory};
-use mesh::{BLOCK, Domain};
+use fluid::{FluidError, FluidSetup, FluidSolver, PressureHistory, RayleighField};
+use mesh::{BLOCK, Domain, Side};
 use solid::{ElasticState, InitialStress, PotentialPulse, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
 
 use crate::case::{Case, FluidCase, GridCase, SolidCase};
@@ -53,13 +53,27 @@ pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
     }
 }
 
-/// A case's solid: the stress that carries the fluid's ambient pressure, and its pulses.
+/// The pressure with which a case's fluid begins above the wall, where it is not uniform.
+fn rayleigh_field(case: &Case) -> Option<RayleighField> {
+    let fluid = case.fluid.as_ref()?;
+    let side = fluid.boundary[Side::ZMin as usize];
+    // A case is refused in reading if it has not the field that it asks for.
+    RayleighField::of(&fluid.initial, case.geometry, fluid.grid.z[0], side).ok().flatten()
+}
+
+/// A case's solid: the stress that carries the fluid's pressure on the wall, and its pulses.
+///
+/// Where that pressure varies along the wall, σ_zz does so throughout the depth, and what is across stays as it is under
+/// the ambient pressure: div σ = 0, so nothing moves before the fluid does.
 pub fn solid_solver(case: &Case, solid: &SolidCase) -> Result<SolidSolver<BLOCK>, SolidError> {
     let pressure = case.fluid.as_ref().map_or(0.0, |fluid| fluid.initial.ambient.pressure);
+    let field = rayleigh_field(case);
+    let surface = solid.grid.z[1];
+    let on_wall = |r: f64| field.as_ref().map_or(pressure, |field| field.pressure([surface, r]));
     let setup = solid_setup(case, solid);
     let (lambda, mu) = (solid.material.lambda(), solid.material.mu());
     SolidSolver::new(setup, |point| {
-        let mut state = ElasticState { stress_zz: -pressure, ..ElasticState::default() };
+        let mut state = ElasticState { stress_zz: -on_wall(point[1]), ..ElasticState::default() };
         if solid.initial_stress == InitialStress::Hydrostatic {
             (state.stress_rr, state.stress_phiphi) = (-pressure, -pressure);
         }

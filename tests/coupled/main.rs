@@ -8,4 +8,5 @@ mod ledgers;
 mod modes;
 mod pulse;
 mod rest;
+mod start;
 mod weak;

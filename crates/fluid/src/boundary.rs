@@ -164,6 +164,8 @@ impl Boundaries {
 /// The flux through a wall that moves with `wall.velocity`, see [`Boundaries::impose_wall`].
 fn wall_face(trace: [f64; 5], wall: WallState, mixture: &Mixture) -> Face {
     let [density, v_n, v_t, pressure, phi] = trace;
+    // As in the trace that the other side got: on the wall the reconstruction may leave the unit interval.
+    let phi = phi.clamp(0.0, 1.0);
     let at = mixture.at(phi);
     let fluid = coupler::FluidTrace { pressure, velocity: v_n, density, gamma: at.gamma, pi: at.pi };
     let star = coupler::star_density(&fluid, wall.pressure);

@@ -1,18 +1,12 @@
 //! Numbers that are read off the fluid's state.
 
-use mesh::{GHOSTS, Geometry, Padded, limited_differences};
+use mesh::{GHOSTS, Padded, limited_differences};
 
 use crate::block::{BlockScratch, StepContext, reconstruct};
 use crate::state::conserved::{COUNT, ENERGY, GAS, MOMENTUM_Z, PHI, RHO};
 use crate::{FluidSolver, Primitive};
 
-/// Below this gas fraction a cell counts as liquid with traces of gas.
-pub const TRACE_GAS: f64 = 1e-6;
-
-/// Below this gas fraction gas does not belong to an interface.
-const THIN_GAS: f64 = 1e-2;
-
-/// The gas as a whole.
+/// The gas as a whole, or of one of several bubbles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bubble {
     /// ∫ φ [φ > 1e-6] dV, m³ (planar: m² per metre of depth).
@@ -25,6 +19,9 @@ pub struct Bubble {
     pub equivalent_radius: f64,
     /// Mean z weighted with the gas fraction, m; NaN without gas.
     pub centroid_z: f64,
+    /// Mass of the gas, traces included, kg (planar: kg per metre of depth); NaN with the paper's mixture, whose phases
+    /// have no masses of their own.
+    pub gas_mass: f64,
 }
 
 /// What happens on the axis (planar: in the first row of cells).
@@ -80,35 +77,6 @@ impl<const N: usize> FluidSolver<N> {
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> Primitive {
         let u: [f64; COUNT] = std::array::from_fn(|c| self.state.component(slot, c)[j * N + i]);
         Primitive::from_conserved(u, &self.mixture)
-    }
-
-    /// The gas as a whole.
-    pub fn bubble(&self) -> Bubble {
-        let (mut volume, mut trace, mut thin, mut moment) = (0.0, 0.0, 0.0, 0.0);
-        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
-            if self.largest_phi(slot) <= 0.0 {
-                continue;
-            }
-            for (j, row) in self.state.component(slot, PHI).chunks_exact(N).enumerate() {
-                let cell = self.mesh.volume(*id, j);
-                for (i, phi) in row.iter().enumerate() {
-                    if *phi > TRACE_GAS {
-                        volume += phi * cell;
-                        moment += phi * cell * self.mesh.centre(*id, i, j)[0];
-                        thin += if *phi < THIN_GAS { phi * cell } else { 0.0 };
-                    } else {
-                        trace += phi.max(0.0) * cell;
-                    }
-                }
-            }
-        }
-        let centroid_z = moment / volume;
-        let (turn, equivalent_radius) = match self.mesh.domain().geometry {
-            Geometry::Axisymmetric => (std::f64::consts::TAU, (1.5 * volume).cbrt()),
-            Geometry::Planar => (1.0, (volume / std::f64::consts::PI).sqrt()),
-        };
-        let [volume, trace_volume, thin_volume] = [volume, trace, thin].map(|v| turn * v);
-        Bubble { volume, trace_volume, thin_volume, equivalent_radius, centroid_z }
     }
 
     /// What happens on the axis.

@@ -9,6 +9,9 @@ pub enum FluidError {
     /// A side is an inflow, but there is no pressure history.
     #[error("a side of the fluid is an inflow, but there is no pressure history for it")]
     NoInflow,
+    /// The liquid's pressure cannot be the harmonic one.
+    #[error("the initial pressure cannot be Rayleigh's: {0}")]
+    Rayleigh(#[from] crate::RayleighError),
     /// A cell left the range in which the equations make sense.
     #[error(
         "the fluid is not physical at z = {z:.6e} m, r = {r:.6e} m, t = {time:.6e} s (step {step}): \

@@ -3,7 +3,9 @@
 use mesh::{Field, Geometry, Mesh, for_some_blocks};
 
 use crate::state::Contents;
-use crate::{InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, Region, Shape};
+use crate::{
+    InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, RayleighField, Region, Shape,
+};
 
 /// Points per direction at which a cell that a region's edge may cut is sampled.
 const SAMPLES: usize = 32;
@@ -16,14 +18,21 @@ const MIXED: f64 = 1e-6;
 /// Cells that the edge of a region cuts hold the volume fractions of what they contain; a mixed cell has
 /// density φρ_g + (1 − φ)ρ_l and the *gas's* pressure. At the liquid's pressure the gas in it would be
 /// compressed gas that expands as soon as the run starts.
+///
+/// - `field`: the pressure that cells of pure ambient liquid have at their centres, and their density along the isentrope
+///   of the ambient state; that state itself without. The liquid of cells that a bubble cuts is at the gas's pressure.
 pub(crate) fn average(
     initial: &InitialCondition,
+    field: Option<&RayleighField>,
     geometry: Geometry,
     mixture: &Mixture,
     centre: [f64; 2],
     widths: [f64; 2],
 ) -> Contents {
-    let mut contents = cell(initial, geometry, centre, widths);
+    let mut contents = match field {
+        None => cell(initial, &initial.ambient, geometry, centre, widths),
+        Some(field) => cell_in_field(initial, field, geometry, mixture, centre, widths),
+    };
     for pulse in &initial.pulses {
         let density = contents.state.density;
         add_pulse(pulse, centre, mixture, &mut contents.state);
@@ -86,10 +95,47 @@ pub(crate) fn fill<const N: usize>(
     );
 }
 
-/// The average over one cell, without pulses.
-fn cell(initial: &InitialCondition, geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> Contents {
+/// The average over one cell, without pulses, where the ambient liquid has a pressure field.
+fn cell_in_field(
+    initial: &InitialCondition,
+    field: &RayleighField,
+    geometry: Geometry,
+    mixture: &Mixture,
+    centre: [f64; 2],
+    widths: [f64; 2],
+) -> Contents {
+    let ambient = |pressure: f64| compressed(&initial.ambient, mixture, pressure);
+    let cut = initial
+        .regions
+        .iter()
+        .rev()
+        .find(|region| region.state.phase == Phase::Gas && may_cut(region, centre, widths));
+    if let Some(region) = cut {
+        let contents = cell(initial, &ambient(region.state.pressure), geometry, centre, widths);
+        if contents.state.phi > 0.0 {
+            return contents;
+        }
+    }
+    cell(initial, &ambient(field.pressure(centre)), geometry, centre, widths)
+}
+
+/// A state brought to another pressure along its isentrope, (p + π)/ρ^γ = const.
+fn compressed(state: &PhaseState, mixture: &Mixture, pressure: f64) -> PhaseState {
+    let at = mixture.at(pure(*state).phi);
+    let ratio = (pressure + at.pi) / (state.pressure + at.pi);
+    PhaseState { density: state.density * ratio.powf(1.0 / at.gamma), pressure, ..*state }
+}
+
+/// The average over one cell, without pulses, with `ambient` where no region is.
+fn cell(
+    initial: &InitialCondition,
+    ambient: &PhaseState,
+    geometry: Geometry,
+    centre: [f64; 2],
+    widths: [f64; 2],
+) -> Contents {
     if !initial.regions.iter().any(|region| may_cut(region, centre, widths)) {
-        return pure(*at_point(initial, centre)).into();
+        return pure(*at_point(initial, ambient, centre)).into();
     }
     let mut sums = Sums::default();
     for b in 0..SAMPLES {
@@ -97,7 +143,7 @@ fn cell(initial: &InitialCondition, geometry: Geometry, centre: [f64; 2], widths
             let offset = |k: usize, h: f64| h * ((k as f64 + 0.5) / SAMPLES as f64 - 0.5);
             let point = [centre[0] + offset(a, widths[0]), centre[1] + offset(b, widths[1])];
             let weight = if geometry == Geometry::Axisymmetric { point[1] } else { 1.0 };
-            sums.add(weight, at_point(initial, point));
+            sums.add(weight, at_point(initial, ambient, point));
         }
     }
     sums.average()
@@ -155,10 +201,10 @@ fn pure(state: PhaseState) -> Primitive {
 }
 
 /// The state at a point: the last region painted over it, else the ambient.
-fn at_point(initial: &InitialCondition, point: [f64; 2]) -> &PhaseState {
+fn at_point<'a>(initial: &'a InitialCondition, ambient: &'a PhaseState, point: [f64; 2]) -> &'a PhaseState {
     (initial.regions.iter().rev())
         .find(|region| contains(&region.shape, point))
-        .map_or(&initial.ambient, |region| &region.state)
+        .map_or(ambient, |region| &region.state)
 }
 
 fn contains(shape: &Shape, [z, r]: [f64; 2]) -> bool {
@@ -210,13 +256,14 @@ fn distance(pulse: &crate::Pulse, [z, r]: [f64; 2]) -> (f64, Option<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StiffenedGas;
+    use crate::{InitialPressure, StiffenedGas};
     use mesh::Domain;
 
     fn bubble(centre: f64) -> InitialCondition {
         let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
         InitialCondition {
             ambient: state(Phase::Liquid, 1000.0, 5e7),
+            pressure: InitialPressure::Uniform,
             regions: vec![Region {
                 shape: Shape::Sphere { centre: [centre, 0.0], radius: 0.3 },
                 state: state(Phase::Gas, 0.0266, 2118.0),
@@ -230,11 +277,12 @@ mod tests {
         let mesh = Mesh::<8>::uniform(domain, [1, 1], 6, [false; 2]).unwrap();
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
-        let mut field = Field::zeros(mesh.blocks(), 64, 5);
-        fill(&mesh, &mixture, &mut field, &|centre, widths| {
-            average(initial, Geometry::Axisymmetric, &mixture, centre, widths)
+        let mut state = Field::zeros(mesh.blocks(), 64, 5);
+        let field = RayleighField::of(initial, Geometry::Axisymmetric, 0.0, crate::Boundary::Wall).unwrap();
+        fill(&mesh, &mixture, &mut state, &|centre, widths| {
+            average(initial, field.as_ref(), Geometry::Axisymmetric, &mixture, centre, widths)
         });
-        (mesh, field, mixture)
+        (mesh, state, mixture)
     }
 
     #[test]
@@ -271,6 +319,32 @@ mod tests {
             }
         }
         assert!(mixed > 50, "{mixed} mixed cells");
+    }
+
+    /// Pure liquid has the field's pressure on the ambient isentrope, up to the bubble; mixed cells the gas's pressure
+    /// and a liquid that is as light as at it.
+    #[test]
+    fn liquid_in_a_field_lies_on_the_ambient_isentrope() {
+        let mut initial = bubble(0.5);
+        initial.pressure = InitialPressure::Rayleigh;
+        let (mesh, state, mixture) = filled(&initial);
+        let field = RayleighField::new(&initial, Geometry::Axisymmetric, Some(0.0)).unwrap();
+        let isentrope = |p: f64| 1000.0 * ((p + 3e8) / 3.5e8_f64).powf(1.0 / 7.15);
+        let (mut mixed, mut lowest) = (0, f64::INFINITY);
+        for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+            for (j, i) in (0..8).flat_map(|j| (0..8).map(move |i| (j, i))) {
+                let u = std::array::from_fn(|c| state.component(slot, c)[j * 8 + i]);
+                let w = Primitive::from_conserved(u, &mixture);
+                let liquid = w.phi == 0.0;
+                let pressure = if liquid { field.pressure(mesh.centre(*id, i, j)) } else { 2118.0 };
+                let density = w.phi * 0.0266 + (1.0 - w.phi) * isentrope(pressure);
+                assert!((w.pressure - pressure).abs() < 1e-6 * 5e7, "{w:?} {pressure}");
+                assert!((w.density - density).abs() < 1e-9 * 1000.0, "{w:?} {density}");
+                mixed += usize::from(w.phi > 0.0 && w.phi < 1.0);
+                lowest = lowest.min(if liquid { pressure } else { lowest });
+            }
+        }
+        assert!(mixed > 50 && lowest < 0.05 * 5e7, "{mixed} mixed cells, lowest pressure {lowest}");
     }
 
     #[test]

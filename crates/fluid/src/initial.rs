@@ -81,11 +81,27 @@ pub enum PulseShape {
     },
 }
 
+/// The pressure in the ambient liquid at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InitialPressure {
+    /// That of the ambient state, up to the bubbles' walls.
+    Uniform,
+    /// The harmonic field that ends at the gas's pressure on the bubbles, see [`crate::RayleighField`].
+    Rayleigh,
+}
+
+impl InitialPressure {
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 2] = [("uniform", Self::Uniform), ("rayleigh", Self::Rayleigh)];
+}
+
 /// Everything that fills the domain at t = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InitialCondition {
     /// What is there before any region is painted.
     pub ambient: PhaseState,
+    /// The pressure that the ambient liquid has about the regions.
+    pub pressure: InitialPressure,
     /// Painted in order.
     pub regions: Vec<Region>,
     /// Added last.

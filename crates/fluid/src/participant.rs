@@ -84,7 +84,9 @@ impl<const N: usize> FluidSolver<N> {
                     )
                     .map(|rate| keep * rate);
                     let trace: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
-                    let at = self.mixture.at(trace[4]);
+                    // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
+                    // mixture's β₁ soon has the wrong sign, and γ with it.
+                    let at = self.mixture.at(trace[4].clamp(0.0, 1.0));
                     let face = first + j;
                     put(TraceRow::Density, face, trace[0]);
                     put(TraceRow::NormalVelocity, face, trace[1]);

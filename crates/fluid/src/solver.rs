@@ -15,8 +15,8 @@ use crate::state::Contents;
 use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::update::Extremes;
 use crate::{
-    Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RiemannSolver, Sharpening,
-    StiffenedGas,
+    Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RayleighField, RiemannSolver,
+    Sharpening, StiffenedGas,
 };
 
 /// Everything that defines a fluid.
@@ -128,13 +128,17 @@ pub struct FluidSolver<const N: usize> {
 impl<const N: usize> FluidSolver<N> {
     /// A fluid filled with an initial condition. Scratch is made for the current rayon pool's threads.
     ///
-    /// - errors: [`FluidError::Mesh`], [`FluidError::NoInflow`], [`FluidError::NonPhysical`].
+    /// - errors: [`FluidError::Mesh`], [`FluidError::NoInflow`], [`FluidError::Rayleigh`],
+    ///   [`FluidError::NonPhysical`].
     pub fn new(setup: &FluidSetup, initial: &InitialCondition) -> Result<Self, FluidError> {
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let geometry = setup.domain.geometry;
+        let Domain { geometry, z: [z_min, _], .. } = setup.domain;
+        let field = RayleighField::of(initial, geometry, z_min, setup.boundaries[Side::ZMin as usize])?;
         Self::with(
             setup,
-            &|centre, widths| crate::fill::average(initial, geometry, &mixture, centre, widths),
+            &|centre, widths| {
+                crate::fill::average(initial, field.as_ref(), geometry, &mixture, centre, widths)
+            },
             &|low, high, widths| crate::fill::asks_for_finer(initial, low, high, widths),
         )
     }

@@ -40,6 +40,7 @@ fn carried(geometry: Geometry, riemann: RiemannSolver, bounds: Vec<LevelBound>, 
     let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [200.0, 0.0] };
     let initial = InitialCondition {
         ambient: state(Phase::Liquid, 1000.0),
+        pressure: fluid::InitialPressure::Uniform,
         regions: vec![Region {
             shape: Shape::Sphere { centre: [1.0, 0.0], radius: 0.3 },
             state: state(Phase::Gas, 1.2),

@@ -133,6 +133,7 @@ fn pulse(name: &'static str, geometry: Geometry, centre: [f64; 2]) -> Problem {
         },
         initial: InitialCondition {
             ambient: liquid(pressure),
+            pressure: fluid::InitialPressure::Uniform,
             regions: vec![],
             pulses: vec![Pulse { shape: PulseShape::Sphere, centre, width, amplitude }],
         },
@@ -154,6 +155,7 @@ fn sod() -> Problem {
         },
         initial: InitialCondition {
             ambient: gas(1.0, 1.0),
+            pressure: fluid::InitialPressure::Uniform,
             regions: vec![Region {
                 shape: Shape::Box { z: [0.5, 2.0], r: [-1.0, 2.0] },
                 state: gas(0.125, 0.1),

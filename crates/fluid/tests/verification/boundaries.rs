@@ -1,6 +1,6 @@
 //! Waves leave through open sides, and what rests stays at rest.
 
-use coupler::WallRegister;
+use coupler::{TraceRow, WallRegister};
 use fluid::PressureHistory;
 use fluid::{Boundary, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Pulse, PulseShape};
 use mesh::Side;
@@ -10,6 +10,7 @@ use crate::helpers::*;
 fn pulse(centre: [f64; 2], direction: [f64; 2]) -> InitialCondition {
     InitialCondition {
         ambient: PhaseState { phase: Phase::Liquid, density: 1000.0, pressure: 1e5, velocity: [0.0; 2] },
+        pressure: fluid::InitialPressure::Uniform,
         regions: vec![],
         pulses: vec![Pulse {
             shape: PulseShape::Plane { direction: Some(direction) },
@@ -25,6 +26,38 @@ fn left_over(fluid: &FluidSolver<8>) -> f64 {
     let mut largest = 0.0_f64;
     each_cell(fluid, |_, _, w| largest = largest.max((w.pressure - 1e5).abs() / 1e4));
     largest
+}
+
+/// The slopes of the cells along the wall are not limited from beyond it. Beside cells that hold gas the gas fraction
+/// of their traces would be below zero, and with it β₁: a negative γ, and no star state.
+#[test]
+fn a_trace_beside_gas_is_that_of_a_mixture() {
+    for depth in [0.02, 0.03, 0.05] {
+        let sides = [Boundary::Interface, Boundary::NonReflecting, Boundary::Axis, Boundary::NonReflecting];
+        let setup = FluidSetup { model: fluid::Model::FiveEquation, ..setup(AXIAL, [16, 16], sides) };
+        let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
+        let initial = InitialCondition {
+            ambient: state(Phase::Liquid, 1000.0, 1e6),
+            pressure: fluid::InitialPressure::Uniform,
+            regions: vec![fluid::Region {
+                shape: fluid::Shape::Sphere { centre: [0.2 + 2.0 * 0.0625 - depth, 0.0], radius: 0.2 },
+                state: state(Phase::Gas, 1.2, 1e5),
+            }],
+            pulses: vec![],
+        };
+        let fluid = FluidSolver::<16>::new(&setup, &initial).unwrap();
+        let mut faces = 0;
+        fluid.write_trace(fluid.time_step_limit(CFL), |row, face, value| {
+            let allowed = match row {
+                TraceRow::Gamma => GAS.gamma..=LIQUID.gamma * (1.0 + 1e-12),
+                TraceRow::Pi => GAS.pi..=LIQUID.pi * (1.0 + 1e-12),
+                _ => f64::NEG_INFINITY..=f64::INFINITY,
+            };
+            assert!(allowed.contains(&value), "depth {depth}, face {face}: {value:e} is none of {allowed:?}");
+            faces += 1;
+        });
+        assert!(faces > 16);
+    }
 }
 
 #[test]

@@ -19,6 +19,7 @@ fn half_bubble(limiter: Limiter) -> FluidSolver<16> {
     let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
     let initial = InitialCondition {
         ambient: state(Phase::Liquid, 1000.0, 5e7),
+        pressure: fluid::InitialPressure::Uniform,
         regions: vec![Region {
             shape: Shape::Sphere { centre: [0.0, 0.0], radius: 1.0 },
             state: state(Phase::Gas, 0.0266, 2118.0),

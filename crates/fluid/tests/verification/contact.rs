@@ -32,6 +32,7 @@ fn carried(
     let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [200.0, 0.0] };
     let initial = InitialCondition {
         ambient: state(Phase::Liquid, 1000.0),
+        pressure: fluid::InitialPressure::Uniform,
         regions: vec![Region {
             shape: Shape::Sphere { centre: [1.0, centre_r], radius: 0.3 },
             state: state(Phase::Gas, density),

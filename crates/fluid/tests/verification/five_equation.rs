@@ -22,7 +22,12 @@ fn state(phase: Phase, density: f64, pressure: f64, v_z: f64) -> PhaseState {
 
 fn bubble_in(ambient: PhaseState, gas: PhaseState, centre: [f64; 2], radius: f64) -> InitialCondition {
     let region = Region { shape: Shape::Sphere { centre, radius }, state: gas };
-    InitialCondition { ambient, regions: vec![region], pulses: vec![] }
+    InitialCondition {
+        ambient,
+        pressure: fluid::InitialPressure::Uniform,
+        regions: vec![region],
+        pulses: vec![],
+    }
 }
 
 fn advance<const N: usize>(fluid: &mut FluidSolver<N>) {

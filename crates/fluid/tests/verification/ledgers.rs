@@ -47,6 +47,7 @@ fn bubble(centre: [f64; 2]) -> InitialCondition {
     let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
     InitialCondition {
         ambient: state(Phase::Liquid, 1000.0, 5e6),
+        pressure: fluid::InitialPressure::Uniform,
         regions: vec![Region {
             shape: Shape::Sphere { centre, radius: 0.3 },
             state: state(Phase::Gas, 1.2, 1e5),

@@ -12,5 +12,6 @@ mod helpers;
 mod ledgers;
 mod orders;
 mod random_trees;
+mod rayleigh_start;
 mod shock_tubes;
 mod symmetry;

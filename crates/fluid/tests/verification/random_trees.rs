@@ -55,6 +55,7 @@ fn bubble(random: &mut Random, pressures: [f64; 2], velocity: f64) -> InitialCon
     let centre = [random.within(0.2, 0.8), random.within(0.0, 0.8)];
     InitialCondition {
         ambient: state(Phase::Liquid, 1000.0, pressures[0]),
+        pressure: fluid::InitialPressure::Uniform,
         regions: vec![Region {
             shape: Shape::Sphere { centre, radius: random.within(0.1, 0.3) },
             state: state(Phase::Gas, 1.2, pressures[1]),

@@ -108,6 +108,7 @@ fn a_bubble_at_a_wall_is_the_same_in_blocks_of_any_size() {
         let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
         let initial = InitialCondition {
             ambient: state(Phase::Liquid, 1000.0, 5e7),
+            pressure: fluid::InitialPressure::Uniform,
             regions: vec![Region {
                 shape: Shape::Sphere { centre: [0.35, 0.0], radius: 0.2 },
                 state: state(Phase::Gas, 0.0266, 2118.0),

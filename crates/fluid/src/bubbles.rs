@@ -1,0 +1,293 @@
+//! The gas as a whole, and bubbles told apart along the axis.
+
+use mesh::Geometry;
+
+use crate::state::conserved::{GAS, PHI};
+use crate::{Bubble, FluidSolver, InitialCondition, Phase, Shape};
+
+/// Below this gas fraction a cell counts as liquid with traces of gas.
+pub const TRACE_GAS: f64 = 1e-6;
+
+/// Below this gas fraction gas does not belong to an interface.
+const THIN_GAS: f64 = 1e-2;
+
+/// From this gas fraction on a cell counts as part of a bubble when the gaps between bubbles are looked for.
+const OF_A_BUBBLE: f64 = 0.5;
+
+/// Where bubbles are told apart: planes z = const in the gaps between them, ascending.
+///
+/// A plane stays in the middle between the nearest cells with φ ≥ ½ below and above it. Where there is none on one side
+/// up to the next plane (a bubble smaller than a cell), or where such a cell lies across the plane (two bubbles have
+/// merged), it stays where it was. Gas belongs to the bubble between whose planes its cell's centre is, so the parts of
+/// a bubble that its jet has pierced or torn stay one bubble.
+///
+/// Valid for: bubbles beside each other along z. Tests: two and three bubbles that move, merge and vanish.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BubbleCuts {
+    cuts: Vec<f64>,
+}
+
+impl BubbleCuts {
+    /// Between the gas regions of an initial condition; none with fewer than two, or in ambient gas.
+    pub fn of(initial: &InitialCondition) -> Self {
+        let mut ranges: Vec<[f64; 2]> = initial
+            .regions
+            .iter()
+            .filter(|region| region.state.phase == Phase::Gas && initial.ambient.phase == Phase::Liquid)
+            .map(|region| match region.shape {
+                Shape::Sphere { centre: [z, _], radius } => [z - radius, z + radius],
+                Shape::Box { z, .. } => z,
+            })
+            .collect();
+        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
+        ranges.sort_by(|a, b| middle(*a).total_cmp(&middle(*b)));
+        let between = |pair: &[[f64; 2]]| {
+            // Regions that overlap may reach beyond each other's middles.
+            middle([pair[0][1], pair[1][0]]).clamp(middle(pair[0]), middle(pair[1]))
+        };
+        Self { cuts: ranges.windows(2).map(between).collect() }
+    }
+
+    /// How many bubbles they tell apart; one without any cut.
+    pub fn bubbles(&self) -> usize {
+        self.cuts.len() + 1
+    }
+
+    /// The planes' z, ascending, m.
+    pub fn positions(&self) -> &[f64] {
+        &self.cuts
+    }
+
+    /// Which bubble gas at `z` belongs to, from 0.
+    fn bubble_at(&self, z: f64) -> usize {
+        self.cuts.partition_point(|cut| *cut < z)
+    }
+
+    /// Follows the gaps to where they are now; to be called after every step.
+    pub fn follow<const N: usize>(&mut self, fluid: &FluidSolver<N>) {
+        if self.cuts.is_empty() {
+            return;
+        }
+        // For each plane where the gas below it ends and the gas above it begins, and whether gas lies across.
+        let mut gaps = vec![(f64::NEG_INFINITY, f64::INFINITY, false); self.cuts.len()];
+        for (slot, id) in fluid.mesh.tree().leaves().iter().enumerate() {
+            if fluid.largest_phi(slot) < OF_A_BUBBLE {
+                continue;
+            }
+            let half = 0.5 * fluid.mesh.widths(id.level)[0];
+            let phi = fluid.state.component(slot, PHI);
+            for i in 0..N {
+                if !(0..N).any(|j| phi[j * N + i] >= OF_A_BUBBLE) {
+                    continue;
+                }
+                let z = fluid.mesh.centre(*id, i, 0)[0];
+                let (low, high, bubble) = (z - half, z + half, self.bubble_at(z));
+                if let Some(above) = gaps.get_mut(bubble) {
+                    let cut = self.cuts[bubble];
+                    *above = (above.0.max(high), above.1, above.2 || high > cut);
+                }
+                if let Some(below) = bubble.checked_sub(1) {
+                    let gap = &mut gaps[below];
+                    *gap = (gap.0, gap.1.min(low), gap.2 || low < self.cuts[below]);
+                }
+            }
+        }
+        for (cut, (below, above, across)) in self.cuts.iter_mut().zip(gaps) {
+            if !across && below.is_finite() && above.is_finite() {
+                *cut = 0.5 * (below + above);
+            }
+        }
+    }
+}
+
+/// Integrals over some of the gas, per radian in axial symmetry, per metre of depth in planar geometry.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    volume: f64,
+    trace: f64,
+    thin: f64,
+    moment: f64,
+    gas_mass: f64,
+}
+
+impl Sums {
+    fn bubble(self, geometry: Geometry) -> Bubble {
+        let (turn, equivalent_radius) = match geometry {
+            Geometry::Axisymmetric => (std::f64::consts::TAU, (1.5 * self.volume).cbrt()),
+            Geometry::Planar => (1.0, (self.volume / std::f64::consts::PI).sqrt()),
+        };
+        Bubble {
+            volume: turn * self.volume,
+            trace_volume: turn * self.trace,
+            thin_volume: turn * self.thin,
+            equivalent_radius,
+            centroid_z: self.moment / self.volume,
+            gas_mass: turn * self.gas_mass,
+        }
+    }
+}
+
+impl<const N: usize> FluidSolver<N> {
+    /// The gas as a whole.
+    pub fn bubble(&self) -> Bubble {
+        self.gas_sums(&BubbleCuts::default())[0].bubble(self.mesh.domain().geometry)
+    }
+
+    /// The bubbles that `cuts` tell apart, the lowest first. Their volumes and masses add up to those of the whole.
+    pub fn bubbles(&self, cuts: &BubbleCuts) -> Vec<Bubble> {
+        let geometry = self.mesh.domain().geometry;
+        self.gas_sums(cuts).into_iter().map(|sums| sums.bubble(geometry)).collect()
+    }
+
+    fn gas_sums(&self, cuts: &BubbleCuts) -> Vec<Sums> {
+        let mut all = vec![Sums::default(); cuts.bubbles()];
+        let has_masses = self.two_phase.is_some();
+        if !has_masses {
+            all.iter_mut().for_each(|sums| sums.gas_mass = f64::NAN);
+        }
+        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
+            if self.largest_phi(slot) <= 0.0 && !self.has_gas[slot] {
+                continue;
+            }
+            for (j, row) in self.state.component(slot, PHI).chunks_exact(N).enumerate() {
+                let cell = self.mesh.volume(*id, j);
+                for (i, phi) in row.iter().enumerate() {
+                    let z = self.mesh.centre(*id, i, j)[0];
+                    let sums = &mut all[cuts.bubble_at(z)];
+                    if *phi > TRACE_GAS {
+                        sums.volume += phi * cell;
+                        sums.thin += if *phi < THIN_GAS { phi * cell } else { 0.0 };
+                        sums.moment += phi * cell * z;
+                    } else {
+                        sums.trace += phi.max(0.0) * cell;
+                    }
+                    if has_masses {
+                        sums.gas_mass += self.state.component(slot, GAS)[j * N + i] * cell;
+                    }
+                }
+            }
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        Boundary, FluidSetup, InitialPressure, Model, PhaseState, Region, RiemannSolver, Scales, Sharpening,
+        StiffenedGas,
+    };
+    use mesh::{Domain, Limiter};
+
+    /// A column of 8 m with [`CELLS`] cells along z.
+    const CELLS: usize = 128;
+
+    fn state(phase: Phase, velocity: f64) -> PhaseState {
+        let density = if phase == Phase::Gas { 10.0 } else { 1000.0 };
+        PhaseState { phase, density, pressure: 1e5, velocity: [velocity, 0.0] }
+    }
+
+    fn of_spheres(spheres: &[[f64; 2]], velocity: f64) -> InitialCondition {
+        let region = |&[z, radius]: &[f64; 2]| Region {
+            shape: Shape::Sphere { centre: [z, 0.0], radius },
+            state: state(Phase::Gas, velocity),
+        };
+        InitialCondition {
+            ambient: state(Phase::Liquid, velocity),
+            pressure: InitialPressure::Uniform,
+            regions: spheres.iter().map(region).collect(),
+            pulses: vec![],
+        }
+    }
+
+    fn fluid(spheres: &[[f64; 2]], velocity: f64, model: Model) -> FluidSolver<16> {
+        let setup = FluidSetup {
+            domain: Domain { geometry: Geometry::Axisymmetric, z: [0.0, 8.0], r: [0.0, 1.0] },
+            coarsest: [CELLS, 16],
+            levels: 0,
+            liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
+            gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
+            model,
+            sharpening: Sharpening::None,
+            riemann: RiemannSolver::Hllc,
+            limiter: Limiter::Mc,
+            boundaries: [Boundary::Periodic, Boundary::Periodic, Boundary::Axis, Boundary::Wall],
+            inflow: None,
+            adaptation: None,
+            scales: Scales { pressure: 1e5, density: 1e3 },
+        };
+        FluidSolver::new(&setup, &of_spheres(spheres, velocity)).expect("a fluid")
+    }
+
+    /// Two bubbles and three are carried along by a uniform flow, up and down, farther than the gaps between them are
+    /// wide. Planes that stayed would have one bubble's gas counted as the other's.
+    #[test]
+    fn bubbles_that_move_keep_their_gas() {
+        for (spheres, velocity) in [
+            (&[[2.0, 0.5], [3.4, 0.7]][..], 200.0),
+            (&[[5.6, 0.7], [6.9, 0.4]], -200.0),
+            (&[[0.9, 0.5], [2.05, 0.4], [3.3, 0.6]], 200.0),
+        ] {
+            let mut fluid = fluid(spheres, velocity, Model::FiveEquation);
+            let mut cuts = BubbleCuts::of(&of_spheres(spheres, velocity));
+            assert_eq!(cuts.bubbles(), spheres.len());
+            let first = fluid.bubbles(&cuts);
+            for ([z, radius], bubble) in spheres.iter().zip(&first) {
+                assert!((bubble.centroid_z - z).abs() < 1e-3, "{bubble:?}");
+                let volume = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+                assert!((bubble.volume / volume - 1.0).abs() < 2e-3, "{bubble:?}");
+                assert!((bubble.gas_mass / (10.0 * volume) - 1.0).abs() < 2e-3, "{bubble:?}");
+                assert!((bubble.equivalent_radius / radius - 1.0).abs() < 1e-3, "{bubble:?}");
+            }
+            while fluid.time() < 7e-3 {
+                fluid.step(fluid.time_step_limit(0.45)).expect("a step");
+                cuts.follow(&fluid);
+            }
+            let way = velocity * fluid.time();
+            let last = fluid.bubbles(&cuts);
+            for (before, after) in first.iter().zip(&last) {
+                let moved = after.centroid_z - before.centroid_z;
+                assert!((moved / way - 1.0).abs() < 0.02, "{moved} of {way}");
+                // The scheme smears gas across gaps of three and four cells.
+                assert!((after.gas_mass / before.gas_mass - 1.0).abs() < 0.01, "{before:?} {after:?}");
+            }
+            let whole = fluid.bubble();
+            let sum = |part: fn(&Bubble) -> f64| last.iter().map(part).sum::<f64>();
+            approx::assert_relative_eq!(sum(|b| b.volume), whole.volume, max_relative = 1e-12);
+            approx::assert_relative_eq!(sum(|b| b.gas_mass), whole.gas_mass, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn cuts_stay_where_bubbles_merge_and_where_one_vanishes() {
+        let three = [[1.5, 0.5], [3.5, 0.5], [6.0, 0.5]];
+        let mut cuts = BubbleCuts::of(&of_spheres(&three, 0.0));
+        assert_eq!(cuts.positions(), [2.5, 4.75]);
+        // The middle one vanishes: its planes stay, though there is gas beyond the next ones.
+        cuts.follow(&fluid(&[[1.5, 0.5], [6.0, 0.5]], 0.0, Model::FiveEquation));
+        assert_eq!(cuts.positions(), [2.5, 4.75]);
+        // The upper two merge at their plane, the lower one rises.
+        cuts.follow(&fluid(&[[1.75, 0.5], [4.25, 0.75], [5.25, 0.75]], 0.0, Model::FiveEquation));
+        let positions = cuts.positions();
+        assert!((positions[0] - 2.875).abs() < 0.07 && positions[1] == 4.75, "{positions:?}");
+        // They part again.
+        cuts.follow(&fluid(&[[1.75, 0.5], [4.0, 0.5], [5.75, 0.5]], 0.0, Model::FiveEquation));
+        assert!((cuts.positions()[1] - 4.875).abs() < 0.07, "{:?}", cuts.positions());
+    }
+
+    #[test]
+    fn overlapping_regions_and_single_ones_have_ascending_cuts_or_none() {
+        let cuts = |spheres: &[[f64; 2]]| BubbleCuts::of(&of_spheres(spheres, 0.0)).cuts;
+        assert_eq!(cuts(&[[2.0, 1.0]]), []);
+        assert_eq!(cuts(&[[5.0, 0.5], [2.0, 1.0]]), [3.75], "in the order of z");
+        let nested = cuts(&[[2.0, 1.5], [2.25, 0.1], [6.0, 1.0]]);
+        assert_eq!(nested, [2.25, 3.675], "between the middles");
+    }
+
+    #[test]
+    fn the_papers_mixture_has_volumes_but_no_masses() {
+        let bubble = fluid(&[[4.0, 0.5]], 0.0, Model::SaurelAbgrall).bubble();
+        assert!(bubble.volume > 0.5 && bubble.gas_mass.is_nan(), "{bubble:?}");
+    }
+}

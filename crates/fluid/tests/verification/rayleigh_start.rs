@@ -1,0 +1,115 @@
+//! A bubble that starts in the harmonic pressure moves as Rayleigh has it, and no wave leaves it.
+
+use fluid::{
+    Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState, Region,
+    Shape, Sharpening,
+};
+use mesh::{Adaptation, Domain};
+
+use crate::helpers::*;
+
+const FAR: f64 = 1e5;
+const GAS_PRESSURE: f64 = 2118.0;
+/// Of the liquid at [`FAR`], m/s.
+const SOUND: f64 = 1464.8;
+
+fn bubble(pressure: InitialPressure) -> InitialCondition {
+    let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
+    InitialCondition {
+        ambient: state(Phase::Liquid, 1000.0, FAR),
+        pressure,
+        regions: vec![Region {
+            shape: Shape::Sphere { centre: [0.0, 0.0], radius: 1.0 },
+            state: state(Phase::Gas, 0.0266, GAS_PRESSURE),
+        }],
+        pulses: vec![],
+    }
+}
+
+/// A free bubble of radius 1 m, 20 cells, in 6.4 m of water.
+fn free(pressure: InitialPressure) -> FluidSolver<16> {
+    let open = Boundary::NonReflecting;
+    let setup = FluidSetup {
+        domain: Domain { geometry: AXIAL, z: [-3.2, 3.2], r: [0.0, 3.2] },
+        model: Model::FiveEquation,
+        sharpening: Sharpening::Thinc,
+        ..setup(AXIAL, [128, 64], [open, open, Boundary::Axis, open])
+    };
+    FluidSolver::new(&setup, &bubble(pressure)).unwrap()
+}
+
+fn fastest(fluid: &FluidSolver<16>) -> f64 {
+    let mut fastest = 0.0_f64;
+    each_cell(fluid, |_, _, w| fastest = fastest.max(w.v_z.hypot(w.v_r)));
+    fastest
+}
+
+/// From rest ρ ∂t v = −∇p: at the distance s the liquid comes in with v = t (p∞ − p_gas) R/(ρ s²), which on the surface
+/// is Rayleigh's acceleration. A jump of pressure makes (p∞ − p_gas)/(ρc) at once, whatever R is.
+#[test]
+fn it_starts_with_rayleighs_acceleration() {
+    let [mut harmonic, mut uniform] = [InitialPressure::Rayleigh, InitialPressure::Uniform].map(free);
+    let acceleration = (FAR - GAS_PRESSURE) / 1000.0;
+    assert!(fastest(&harmonic) == 0.0 && fastest(&uniform) == 0.0);
+    run_to(&mut harmonic, 0.1 / SOUND);
+    run_to(&mut uniform, 0.1 / SOUND);
+    let hammer = (FAR - GAS_PRESSURE) / (1000.0 * SOUND);
+    let [slow, fast] = [fastest(&harmonic) / hammer, fastest(&uniform) / hammer];
+    eprintln!("fastest after 0.1 R/c: {slow:.3} and {fast:.3} of the water hammer's velocity");
+    assert!(slow < 0.2 && fast > 0.9, "{slow} {fast}");
+    run_to(&mut harmonic, 0.3 / SOUND);
+    for s in [1.5, 1.9, 2.4] {
+        for angle in [0.0_f64, 0.8, 1.5, 2.6] {
+            let (sin, cos) = (angle.sin(), angle.cos());
+            let w = harmonic.sample([s * cos, s * sin + 0.01]).unwrap();
+            let inwards = -(w.v_z * cos + w.v_r * sin);
+            let want = acceleration * harmonic.time() / (s * s);
+            eprintln!("s = {s}, angle {angle}: {:.4} of Rayleigh's", inwards / want);
+            assert!((inwards / want - 1.0).abs() < 0.05, "s = {s}, angle {angle}: {inwards} {want}");
+        }
+    }
+}
+
+/// The pressure 2 R from the centre, until what the start sends has passed there.
+#[test]
+fn it_radiates_no_wave() {
+    let [harmonic, uniform] = [InitialPressure::Rayleigh, InitialPressure::Uniform].map(|pressure| {
+        let mut fluid = free(pressure);
+        let at = |fluid: &FluidSolver<16>| fluid.sample([0.0, 2.0]).unwrap().pressure;
+        let (start, mut wave) = (at(&fluid), 0.0_f64);
+        while fluid.time() < 1.6 / SOUND {
+            fluid.step(fluid.time_step_limit(CFL)).unwrap();
+            wave = wave.max((at(&fluid) - start).abs());
+        }
+        wave / (FAR - GAS_PRESSURE)
+    });
+    eprintln!("largest change of pressure 2 R away: {harmonic:.4} and {uniform:.4} of the jump");
+    // 0.52 and 0.03; that is what the flow's own pressure has changed by then.
+    assert!(uniform > 0.4 && harmonic < 0.1 * uniform, "{harmonic} {uniform}");
+}
+
+/// The pressure's details are there from the first mesh on: it is finer about the bubble than one that only sees the
+/// bubble's edge, and coarse far away.
+#[test]
+fn the_first_mesh_follows_the_field() {
+    let cells_at = |pressure| {
+        let open = Boundary::NonReflecting;
+        let adaptation = Adaptation { epsilon: 1e-5, every: 8, bounds: vec![] };
+        let setup = FluidSetup {
+            domain: Domain { geometry: AXIAL, z: [-25.6, 25.6], r: [0.0, 25.6] },
+            levels: 5,
+            model: Model::FiveEquation,
+            sharpening: Sharpening::Thinc,
+            adaptation: Some(adaptation),
+            scales: fluid::Scales { pressure: FAR - GAS_PRESSURE, density: 1e3 },
+            ..setup(AXIAL, [32, 16], [open, open, Boundary::Axis, open])
+        };
+        let fluid = FluidSolver::<16>::new(&setup, &bubble(pressure)).unwrap();
+        let levels: Vec<u8> = fluid.mesh().tree().leaves().iter().map(|id| id.level).collect();
+        assert!(levels.contains(&5) && levels.contains(&2), "{levels:?}");
+        levels.len()
+    };
+    let [harmonic, uniform] = [InitialPressure::Rayleigh, InitialPressure::Uniform].map(cells_at);
+    eprintln!("{harmonic} blocks, {uniform} without the field");
+    assert!(harmonic > uniform, "{harmonic} {uniform}");
+}
