@@ -82,6 +82,63 @@ pub(crate) fn project_window<const N: usize>(
     }
 }
 
+/// Fills what prediction of a block's ghosts in one direction, beyond which it is coarser, needs of its patch, as far as it
+/// is within the domain: the layer of cells next to the side, which the padded block knows, and the two layers beyond.
+///
+/// - `patch`, `rows`, `slot`: as for [`project_window`]; `padded`: the block with the ghosts of its level.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn project_for_ghosts<const N: usize>(
+    patch: &mut [f64],
+    rows: &[RadialRow],
+    padded: &[f64],
+    mesh: &Mesh<N>,
+    field: &Field,
+    slot: usize,
+    towards: Offset,
+) {
+    let id = mesh.tree().leaves()[slot];
+    let len = rows.len() * rows.len();
+    let half = (N / 2) as isize;
+    let spans = |step: i8| match step {
+        -1 => (0..1, -2..1),
+        0 => (-1..half + 1, -1..half + 1),
+        _ => (half - 1..half, half - 1..half + 2),
+    };
+    let ((known_i, window_i), (known_j, window_j)) = (spans(towards.i), spans(towards.j));
+    for (row, cells) in patch.chunks_exact_mut(len).zip(padded.chunks_exact(Padded::<N>::LEN)) {
+        for j in known_j.clone() {
+            let share = rows[(j + GHOSTS as isize) as usize].lower_share;
+            let from = &cells[Padded::<N>::index(2 * known_i.start, 2 * j)..];
+            let to = index(N / 2, known_i.start, j);
+            project_rows(from, Padded::<N>::STRIDE, share, &mut row[to..to + known_i.len()]);
+        }
+    }
+    let window = [window_i, window_j];
+    for (offset, neighbour) in Offset::ALL.into_iter().zip(mesh.tree().neighbours(slot)) {
+        let span = ghosts_within(N / 2, offset, &window);
+        if span.iter().any(|range| range.is_empty()) {
+            continue;
+        }
+        let is_known =
+            |range: &Range<isize>, known: &Range<isize>| known.start <= range.start && range.end <= known.end;
+        let is_known = is_known(&span[0], &known_i) && is_known(&span[1], &known_j);
+        let components = patch.chunks_exact_mut(len).enumerate();
+        match *neighbour {
+            Neighbour::Coarser(other) => components.for_each(|(component, row)| {
+                copy_coarser::<N>(row, field.component(other, component), offset, &span, id);
+            }),
+            Neighbour::Same(other) if !is_known => components.for_each(|(component, row)| {
+                project_same::<N>(row, field.component(other, component), offset, &span, rows);
+            }),
+            Neighbour::Finer(children) if !is_known => components.for_each(|(component, row)| {
+                let fine = children.map(|child| field.component(child, component));
+                project_twice(row, fine, offset, &span, rows, mesh, id);
+            }),
+            _ => {}
+        }
+    }
+}
+
 /// Means of 2 × 2 cells of a block's finer neighbours: the cells `i` of row `j`, numbered as that neighbour's own if
 /// it were of the block's level.
 ///
@@ -123,6 +180,7 @@ fn local(range: &Range<isize>, step: i8, n: usize) -> Range<usize> {
 /// Projects the ghosts of a padded block in one direction from blocks one level finer, all components.
 ///
 /// - `children`: their slots, see [`Neighbour::Finer`].
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn project_finer<const N: usize>(
     padded: &mut [f64],
     field: &Field,
@@ -132,15 +190,28 @@ pub(crate) fn project_finer<const N: usize>(
     id: BlockId,
 ) {
     let (span_i, span_j) = (ghost_span(N, offset.i), ghost_span(N, offset.j));
-    let rows = mesh.radial(id.level + 1, i64::from(id.j) * N as i64 + span_j.start as i64);
-    let from = local(&span_i, offset.i, N);
+    let rows = &mesh.radial(id.level + 1, i64::from(id.j) * N as i64 + span_j.start as i64)[..span_j.len()];
+    // The first cells of a child that touch the block, along z and along r.
+    let first = |step: i8| if step < 0 { N - 2 * GHOSTS } else { 0 };
+    let from = first(offset.j) * N + first(offset.i);
+    let to = Padded::<N>::index(span_i.start, span_j.start);
+    let (half, stride) = (N / 2, Padded::<N>::STRIDE);
     for (component, row) in padded.chunks_exact_mut(Padded::<N>::LEN).enumerate() {
-        let fine = children.map(|child| field.component(child, component));
-        for (j, radial) in span_j.clone().zip(rows) {
-            let to = Padded::<N>::index(span_i.start, j);
-            let local_j = (j - isize::from(offset.j) * N as isize) as usize;
-            let means = &mut row[to..to + from.len()];
-            project_children::<N>(fine, offset, from.clone(), local_j, radial.lower_share, means);
+        let [a, b] = children.map(|child| &field.component(child, component)[from..]);
+        let row = &mut row[to..];
+        if offset.i == 0 {
+            for (j, radial) in rows.iter().enumerate() {
+                let (first, second) = row[j * stride..][..N].split_at_mut(half);
+                project_rows(&a[2 * j * N..], N, radial.lower_share, first);
+                project_rows(&b[2 * j * N..], N, radial.lower_share, second);
+            }
+        } else {
+            // Beyond a corner there is one child only.
+            for (j, radial) in rows.iter().enumerate() {
+                let fine = if j < half { a } else { b };
+                let cells = &fine[2 * (j % half) * N..];
+                project_some::<GHOSTS>(cells, N, radial.lower_share, &mut row[j * stride..]);
+            }
         }
     }
 }
