@@ -3,7 +3,7 @@
 use crate::details::{DetailRows, details_of_rows};
 use crate::ghosts::{continue_within, ghost_range, index};
 use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations};
-use crate::project::{Window, project_rows, project_window};
+use crate::project::{Window, copy_cells, project_rows, project_window};
 use crate::radial::RadialRow;
 use crate::{Field, GHOSTS, Mesh, Padded, Side};
 
@@ -139,7 +139,7 @@ impl<const N: usize> Patch<N> {
                 for j in window[1].clone() {
                     let from = index(Self::HALF, window[0].start, j);
                     let at = Padded::<N>::index(first_i + window[0].start, first_j + j);
-                    to[at..at + width].copy_from_slice(&row[from..from + width]);
+                    copy_cells(&mut to[at..at + width], &row[from..from + width]);
                 }
             }
         }

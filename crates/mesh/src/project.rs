@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::ghosts::{ghost_span, index, mean};
+use crate::ghosts::{copy_row, ghost_span, index, mean};
 use crate::radial::RadialRow;
 use crate::{BlockId, Field, GHOSTS, Mesh, Neighbour, Offset, Padded};
 
@@ -44,6 +44,23 @@ fn project_some<const L: usize>(cells: &[f64], stride: usize, lower_share: f64, 
     for k in 0..L {
         let (low, high) = ([lower[2 * k], lower[2 * k + 1]], [upper[2 * k], upper[2 * k + 1]]);
         means[k] = mean([low, high], lower_share);
+    }
+}
+
+/// Copies a few cells: a call that copies two numbers costs more than they do.
+#[inline(always)]
+pub(crate) fn copy_cells(to: &mut [f64], from: &[f64]) {
+    let (n, mut k) = (to.len(), 0);
+    while k + 8 <= n {
+        copy_row::<8>(to, k, from, k);
+        k += 8;
+    }
+    while k + 2 <= n {
+        copy_row::<2>(to, k, from, k);
+        k += 2;
+    }
+    if k < n {
+        to[k] = from[k];
     }
 }
 
@@ -97,20 +114,28 @@ pub(crate) fn project_for_ghosts<const N: usize>(
     towards: Offset,
 ) {
     let id = mesh.tree().leaves()[slot];
-    let len = rows.len() * rows.len();
-    let half = (N / 2) as isize;
+    let (stride, fine_stride) = (N / 2 + 2 * GHOSTS, Padded::<N>::STRIDE);
+    let (len, half) = (stride * stride, (N / 2) as isize);
     let spans = |step: i8| match step {
         -1 => (0..1, -2..1),
         0 => (-1..half + 1, -1..half + 1),
         _ => (half - 1..half, half - 1..half + 2),
     };
     let ((known_i, window_i), (known_j, window_j)) = (spans(towards.i), spans(towards.j));
+    let known_rows = &rows[(known_j.start + GHOSTS as isize) as usize..][..known_j.len()];
+    let from = Padded::<N>::index(2 * known_i.start, 2 * known_j.start);
+    let to = index(N / 2, known_i.start, known_j.start);
     for (row, cells) in patch.chunks_exact_mut(len).zip(padded.chunks_exact(Padded::<N>::LEN)) {
-        for j in known_j.clone() {
-            let share = rows[(j + GHOSTS as isize) as usize].lower_share;
-            let from = &cells[Padded::<N>::index(2 * known_i.start, 2 * j)..];
-            let to = index(N / 2, known_i.start, j);
-            project_rows(from, Padded::<N>::STRIDE, share, &mut row[to..to + known_i.len()]);
+        let (row, cells) = (&mut row[to..], &cells[from..]);
+        // Of known width; no iterator over chunks, which would divide to know its length.
+        if towards.i == 0 {
+            let share = known_rows[0].lower_share;
+            project_rows(cells, fine_stride, share, &mut row[..N / 2 + 2]);
+        } else {
+            for (line, radial) in known_rows.iter().enumerate() {
+                let cells = &cells[2 * line * fine_stride..];
+                project_some::<1>(cells, fine_stride, radial.lower_share, &mut row[line * stride..]);
+            }
         }
     }
     let window = [window_i, window_j];
@@ -122,18 +147,33 @@ pub(crate) fn project_for_ghosts<const N: usize>(
         let is_known =
             |range: &Range<isize>, known: &Range<isize>| known.start <= range.start && range.end <= known.end;
         let is_known = is_known(&span[0], &known_i) && is_known(&span[1], &known_j);
-        let components = patch.chunks_exact_mut(len).enumerate();
+        let rows_of = |slot: usize| field.block(slot).chunks_exact(N * N);
+        let components = patch.chunks_exact_mut(len);
         match *neighbour {
-            Neighbour::Coarser(other) => components.for_each(|(component, row)| {
-                copy_coarser::<N>(row, field.component(other, component), offset, &span, id);
-            }),
-            Neighbour::Same(other) if !is_known => components.for_each(|(component, row)| {
-                project_same::<N>(row, field.component(other, component), offset, &span, rows);
-            }),
-            Neighbour::Finer(children) if !is_known => components.for_each(|(component, row)| {
-                let fine = children.map(|child| field.component(child, component));
-                project_twice(row, fine, offset, &span, rows, mesh, id);
-            }),
+            Neighbour::Coarser(other) => {
+                let (from, to) =
+                    (first_of_coarser::<N>(offset, &span, id), index(N / 2, span[0].start, span[1].start));
+                for (row, owner) in components.zip(rows_of(other)) {
+                    let (row, owner, lines) = (&mut row[to..], &owner[from..], span[1].len());
+                    match span[0].len() {
+                        1 => (0..lines).for_each(|line| row[line * stride] = owner[line * N]),
+                        2 => (0..lines).for_each(|line| copy_row::<2>(row, line * stride, owner, line * N)),
+                        n => (0..lines).for_each(|line| {
+                            copy_cells(&mut row[line * stride..][..n], &owner[line * N..][..n]);
+                        }),
+                    }
+                }
+            }
+            Neighbour::Same(other) if !is_known => {
+                for (row, owner) in components.zip(rows_of(other)) {
+                    project_same::<N>(row, owner, offset, &span, rows);
+                }
+            }
+            Neighbour::Finer([a, b]) if !is_known => {
+                for (row, (a, b)) in components.zip(rows_of(a).zip(rows_of(b))) {
+                    project_twice(row, [a, b], offset, &span, rows, mesh, id);
+                }
+            }
             _ => {}
         }
     }
@@ -239,13 +279,17 @@ fn project_same<const N: usize>(
 
 /// Ghosts of a patch from a block of the patch's own level.
 #[inline(always)]
-fn copy_coarser<const N: usize>(
-    row: &mut [f64],
-    owner: &[f64],
-    offset: Offset,
-    [span_i, span_j]: &Window,
-    id: BlockId,
-) {
+fn copy_coarser<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset, span: &Window, id: BlockId) {
+    let first = first_of_coarser::<N>(offset, span, id);
+    let [span_i, span_j] = span;
+    for (line, j) in span_j.clone().enumerate() {
+        let (from, to) = (first + line * N, index(N / 2, span_i.start, j));
+        copy_cells(&mut row[to..to + span_i.len()], &owner[from..from + span_i.len()]);
+    }
+}
+
+/// The cell of a coarser neighbour that the first cell of a window is.
+fn first_of_coarser<const N: usize>(offset: Offset, [span_i, span_j]: &Window, id: BlockId) -> usize {
     let (half, n) = ((N / 2) as i64, N as i64);
     // Both counted from the domain's edge in cells of the coarse level, as if periodic images went on.
     let first = |at: u32, step: i8| {
@@ -253,11 +297,7 @@ fn copy_coarser<const N: usize>(
         (i64::from(at) * half - coarse_block * n) as isize
     };
     let (first_i, first_j) = (first(id.i, offset.i), first(id.j, offset.j));
-    for j in span_j.clone() {
-        let to = index(N / 2, span_i.start, j);
-        let from = ((first_j + j) * N as isize + first_i + span_i.start) as usize;
-        row[to..to + span_i.len()].copy_from_slice(&owner[from..from + span_i.len()]);
-    }
+    ((first_j + span_j.start) * N as isize + first_i + span_i.start) as usize
 }
 
 /// Ghosts of a patch from blocks one level finer than the block itself.

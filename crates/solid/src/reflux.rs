@@ -43,7 +43,8 @@ pub(crate) fn correct<const N: usize>(
             let i = if side == Side::ZMin { 0 } else { N - 1 };
             let scale = outward * ctx.dt / h_z;
             for j in 0..N {
-                let [v_n, v_t, s_nn, s_nt] = [v_n, v_t, s_nn, s_nt].map(|row| scale * row[j]);
+                let (v_n, v_t) = (scale * v_n[j], scale * v_t[j]);
+                let (s_nn, s_nt) = (scale * s_nn[j], scale * s_nt[j]);
                 let changes = [
                     e.inverse_density * s_nn,
                     e.inverse_density * s_nt,
@@ -63,7 +64,7 @@ pub(crate) fn correct<const N: usize>(
             };
             let scale = outward * ctx.dt / h_r;
             for i in 0..N {
-                let [v_n, v_t, s_nn, s_nt] = [v_n, v_t, s_nn, s_nt].map(|row| row[i]);
+                let (v_n, v_t, s_nn, s_nt) = (v_n[i], v_t[i], s_nn[i], s_nt[i]);
                 let (radial, hoop) = (scale * v_n, half * v_n);
                 let changes = [
                     e.inverse_density * (scale * s_nt + half * s_nt),
