@@ -2,6 +2,8 @@
 //!
 //! Rows are those of [`crate::Padded`] and [`crate::Patch`]: n × n cells with two layers of ghosts around.
 
+use std::ops::Range;
+
 use crate::{GHOSTS, Offset, Padded, Side};
 
 /// The flat index of cell (i, j) among n × n cells with ghosts.
@@ -13,13 +15,13 @@ pub(crate) fn index(n: usize, i: isize, j: isize) -> usize {
 
 /// The cells along a side, ghosts at its ends included.
 #[inline(always)]
-pub(crate) fn ghost_range(n: usize) -> std::ops::Range<isize> {
+pub(crate) fn ghost_range(n: usize) -> Range<isize> {
     -(GHOSTS as isize)..(n + GHOSTS) as isize
 }
 
 /// The range of cells that the ghosts in one direction cover.
 #[inline(always)]
-pub(crate) fn ghost_span(n: usize, step: i8) -> std::ops::Range<isize> {
+pub(crate) fn ghost_span(n: usize, step: i8) -> Range<isize> {
     let (n, g) = (n as isize, GHOSTS as isize);
     match step {
         -1 => -g..0,
@@ -88,20 +90,35 @@ fn across(n: usize, side: Side, depth: isize, along: isize) -> usize {
     }
 }
 
-/// Fills the ghosts beyond a side by reflection, times `parity` (±1).
-pub(crate) fn mirror(row: &mut [f64], n: usize, side: Side, parity: f64) {
+/// Fills the ghosts beyond some cells along a side by reflection, times `parity` (±1).
+pub(crate) fn mirror(row: &mut [f64], n: usize, side: Side, along: Range<isize>, parity: f64) {
     for layer in 0..GHOSTS as isize {
-        for along in ghost_range(n) {
+        for along in along.clone() {
             row[across(n, side, -1 - layer, along)] = parity * row[across(n, side, layer, along)];
         }
     }
 }
 
-/// Fills the ghosts beyond a side by the parabola through the three cells next to it. A linear map, unlike
+/// Fills the ghosts beyond some cells along a side in the way that prediction needs: by reflection where the component has
+/// a parity, else by continuing it.
+pub(crate) fn continue_within(
+    row: &mut [f64],
+    n: usize,
+    side: Side,
+    along: Range<isize>,
+    parity: Option<f64>,
+) {
+    match parity {
+        Some(parity) => mirror(row, n, side, along, parity),
+        None => continue_parabola(row, n, side, along),
+    }
+}
+
+/// Fills the ghosts beyond some cells along a side by the parabola through the three cells next to it. A linear map, unlike
 /// [`Padded::extrapolate`]: prediction must be the same one for all fields; and of prediction's own order, so that
 /// the details of smooth fields are no larger here than elsewhere.
-pub(crate) fn continue_parabola(row: &mut [f64], n: usize, side: Side) {
-    for along in ghost_range(n) {
+fn continue_parabola(row: &mut [f64], n: usize, side: Side, along: Range<isize>) {
+    for along in along {
         let [first, second, third] = [0, 1, 2].map(|depth| row[across(n, side, depth, along)]);
         // u(−k) = u₀ + k (u₀ − u₁) + ½k(k + 1) (u₀ − 2u₁ + u₂), exactly u₀ for a constant.
         let (slope, bend) = (first - second, (first - second) - (second - third));

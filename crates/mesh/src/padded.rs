@@ -1,6 +1,6 @@
 //! One block with its ghost layers.
 
-use crate::ghosts::{copy, copy_row, hold, mirror};
+use crate::ghosts::{copy, copy_row, ghost_range, hold, mirror};
 use crate::project::project_finer;
 use crate::{AlignedRow, Field, Mesh, Multiresolution, Neighbour, Offset, Patch, Side};
 
@@ -115,25 +115,20 @@ impl<const N: usize> Padded<N> {
             }
         }
         if neighbours.iter().any(|neighbour| matches!(neighbour, Neighbour::Coarser(_))) {
-            patch.fill_for_ghosts(mesh, field, slot, rule);
-            for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
-                if matches!(neighbour, Neighbour::Coarser(_)) {
-                    patch.predict_ghosts(*offset, rule, self);
-                }
-            }
+            patch.predict_beside_coarser(mesh, field, slot, rule, &mut self.data);
         }
     }
 
     /// Fills the ghosts beyond a side of one component by reflection, times `parity` (±1).
     pub fn reflect(row: &mut [f64], side: Side, parity: f64) {
-        mirror(row, N, side, parity);
+        mirror(row, N, side, ghost_range(N), parity);
     }
 
     /// Fills the ghosts beyond a side of one component by continuing the smaller of the two inner differences
     /// (none where they differ in sign): the boundary cell then has a slope made from its own side only.
     pub fn extrapolate(row: &mut [f64], side: Side) {
         let n = N as isize;
-        for along in crate::ghosts::ghost_range(N) {
+        for along in ghost_range(N) {
             let at = |depth: isize| match side {
                 Side::ZMin => Self::index(depth, along),
                 Side::ZMax => Self::index(n - 1 - depth, along),

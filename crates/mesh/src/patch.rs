@@ -1,11 +1,13 @@
 //! A block and its surroundings, seen on the next coarser level.
 
 use crate::details::{DetailRows, details_of_rows};
-use crate::ghosts::{continue_parabola, ghost_range, index, mirror};
+use crate::ghosts::{continue_within, ghost_range, index};
 use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations};
-use crate::project::{Window, project_rows, project_window};
+use crate::project::{Window, copy_cells, project_rows, project_window};
 use crate::radial::RadialRow;
-use crate::{Field, GHOSTS, Mesh, Neighbour, Offset, Padded, Side};
+use crate::{Field, GHOSTS, Mesh, Padded, Side};
+
+mod beside_coarser;
 
 /// The cells of one block and two layers around it, projected to the level below: N/2 × N/2 cells with ghosts.
 ///
@@ -65,75 +67,16 @@ impl<const N: usize> Patch<N> {
     ) {
         let id = mesh.tree().leaves()[slot];
         self.place(mesh, id.level, i64::from(id.j) * Self::HALF as i64, rule);
-        self.fill_within(mesh, field, slot, window);
+        project_window(&mut self.data, &self.rows, mesh, field, slot, window);
         for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
             continue_beyond(row, Self::HALF, component, rule, |side| mesh.touches(slot, side));
         }
-    }
-
-    /// Fills the patch of the block in `slot` as far as [`Patch::predict_ghosts`] needs it beside coarser blocks.
-    pub(crate) fn fill_for_ghosts(
-        &mut self,
-        mesh: &Mesh<N>,
-        field: &Field,
-        slot: usize,
-        rule: &impl Multiresolution,
-    ) {
-        let neighbours = mesh.tree().neighbours(slot);
-        if neighbours.contains(&Neighbour::Boundary) {
-            // What lies beyond the domain is made from cells farther in.
-            return self.fill(mesh, field, slot, rule);
-        }
-        let id = mesh.tree().leaves()[slot];
-        self.place(mesh, id.level, i64::from(id.j) * Self::HALF as i64, rule);
-        let half = Self::HALF as isize;
-        // A layer of ghosts is predicted, from the cells on both sides of it.
-        let span = |step: i8| match step {
-            -1 => -2..1,
-            0 => -1..half + 1,
-            _ => half - 1..half + 2,
-        };
-        for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
-            if matches!(neighbour, Neighbour::Coarser(_)) {
-                self.fill_within(mesh, field, slot, &[span(offset.i), span(offset.j)]);
-            }
-        }
-    }
-
-    /// Fills the cells in a window, as far as they are within the domain.
-    fn fill_within(&mut self, mesh: &Mesh<N>, field: &Field, slot: usize, window: &Window) {
-        project_window(&mut self.data, &self.rows, mesh, field, slot, window);
     }
 
     /// What differences along r count in a row of the patch, counted from the first ghost row.
     #[inline(always)]
     fn radial(&self, component: usize, row: usize) -> [f64; 2] {
         self.rows[row].weights[usize::from(self.odd[component])]
-    }
-
-    /// Predicts the ghosts of the block in one direction.
-    pub(crate) fn predict_ghosts(&self, offset: Offset, rule: &impl Multiresolution, padded: &mut Padded<N>) {
-        let half = Self::HALF as isize;
-        let span = |step: i8| match step {
-            -1 => -1..0,
-            0 => 0..half,
-            _ => half..half + 1,
-        };
-        let mut cells = [[0.0; MOST_COMPONENTS]; 4];
-        for j in span(offset.j) {
-            for i in span(offset.i) {
-                let k = index(Self::HALF, i, j);
-                let radial = |component: usize| self.radial(component, (j + GHOSTS as isize) as usize);
-                predict(&self.data, Self::LEN, Self::STRIDE, k, radial, rule, &mut cells);
-                for component in 0..self.components {
-                    let row = padded.component_mut(component);
-                    for (child, cell) in cells.iter().enumerate() {
-                        let (di, dj) = (child as isize % 2, child as isize / 2);
-                        row[Padded::<N>::index(2 * i + di, 2 * j + dj)] = cell[component];
-                    }
-                }
-            }
-        }
     }
 
     /// Calls `visit(i, j, significance)` for the cells of the block whose details are larger than `least`.
@@ -196,7 +139,7 @@ impl<const N: usize> Patch<N> {
                 for j in window[1].clone() {
                     let from = index(Self::HALF, window[0].start, j);
                     let at = Padded::<N>::index(first_i + window[0].start, first_j + j);
-                    to[at..at + width].copy_from_slice(&row[from..from + width]);
+                    copy_cells(&mut to[at..at + width], &row[from..from + width]);
                 }
             }
         }
@@ -233,10 +176,7 @@ pub(crate) fn continue_beyond(
     // r first: the z sides then find the ghosts beyond r filled and complete the corners.
     for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
         if is_boundary(side) {
-            match rule.parity(side, component) {
-                Some(parity) => mirror(row, n, side, parity),
-                None => continue_parabola(row, n, side),
-            }
+            continue_within(row, n, side, ghost_range(n), rule.parity(side, component));
         }
     }
 }

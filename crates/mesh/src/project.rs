@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::ghosts::{ghost_span, index, mean};
+use crate::ghosts::{copy_row, ghost_span, index, mean};
 use crate::radial::RadialRow;
 use crate::{BlockId, Field, GHOSTS, Mesh, Neighbour, Offset, Padded};
 
@@ -47,6 +47,23 @@ fn project_some<const L: usize>(cells: &[f64], stride: usize, lower_share: f64, 
     }
 }
 
+/// Copies a few cells: a call that copies two numbers costs more than they do.
+#[inline(always)]
+pub(crate) fn copy_cells(to: &mut [f64], from: &[f64]) {
+    let (n, mut k) = (to.len(), 0);
+    while k + 8 <= n {
+        copy_row::<8>(to, k, from, k);
+        k += 8;
+    }
+    while k + 2 <= n {
+        copy_row::<2>(to, k, from, k);
+        k += 2;
+    }
+    if k < n {
+        to[k] = from[k];
+    }
+}
+
 /// Fills the cells of a patch in a window, as far as they are within the domain.
 ///
 /// - `patch`: components of (N/2 + 4)² cells; `rows`: its rows, two ghost rows first; `slot`: the patch's block.
@@ -78,6 +95,86 @@ pub(crate) fn project_window<const N: usize>(
                 }
                 Neighbour::Boundary => {}
             }
+        }
+    }
+}
+
+/// Fills what prediction of a block's ghosts in one direction, beyond which it is coarser, needs of its patch, as far as it
+/// is within the domain: the layer of cells next to the side, which the padded block knows, and the two layers beyond.
+///
+/// - `patch`, `rows`, `slot`: as for [`project_window`]; `padded`: the block with the ghosts of its level.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn project_for_ghosts<const N: usize>(
+    patch: &mut [f64],
+    rows: &[RadialRow],
+    padded: &[f64],
+    mesh: &Mesh<N>,
+    field: &Field,
+    slot: usize,
+    towards: Offset,
+) {
+    let id = mesh.tree().leaves()[slot];
+    let (stride, fine_stride) = (N / 2 + 2 * GHOSTS, Padded::<N>::STRIDE);
+    let (len, half) = (stride * stride, (N / 2) as isize);
+    let spans = |step: i8| match step {
+        -1 => (0..1, -2..1),
+        0 => (-1..half + 1, -1..half + 1),
+        _ => (half - 1..half, half - 1..half + 2),
+    };
+    let ((known_i, window_i), (known_j, window_j)) = (spans(towards.i), spans(towards.j));
+    let known_rows = &rows[(known_j.start + GHOSTS as isize) as usize..][..known_j.len()];
+    let from = Padded::<N>::index(2 * known_i.start, 2 * known_j.start);
+    let to = index(N / 2, known_i.start, known_j.start);
+    for (row, cells) in patch.chunks_exact_mut(len).zip(padded.chunks_exact(Padded::<N>::LEN)) {
+        let (row, cells) = (&mut row[to..], &cells[from..]);
+        // Of known width; no iterator over chunks, which would divide to know its length.
+        if towards.i == 0 {
+            let share = known_rows[0].lower_share;
+            project_rows(cells, fine_stride, share, &mut row[..N / 2 + 2]);
+        } else {
+            for (line, radial) in known_rows.iter().enumerate() {
+                let cells = &cells[2 * line * fine_stride..];
+                project_some::<1>(cells, fine_stride, radial.lower_share, &mut row[line * stride..]);
+            }
+        }
+    }
+    let window = [window_i, window_j];
+    for (offset, neighbour) in Offset::ALL.into_iter().zip(mesh.tree().neighbours(slot)) {
+        let span = ghosts_within(N / 2, offset, &window);
+        if span.iter().any(|range| range.is_empty()) {
+            continue;
+        }
+        let is_known =
+            |range: &Range<isize>, known: &Range<isize>| known.start <= range.start && range.end <= known.end;
+        let is_known = is_known(&span[0], &known_i) && is_known(&span[1], &known_j);
+        let rows_of = |slot: usize| field.block(slot).chunks_exact(N * N);
+        let components = patch.chunks_exact_mut(len);
+        match *neighbour {
+            Neighbour::Coarser(other) => {
+                let (from, to) =
+                    (first_of_coarser::<N>(offset, &span, id), index(N / 2, span[0].start, span[1].start));
+                for (row, owner) in components.zip(rows_of(other)) {
+                    let (row, owner, lines) = (&mut row[to..], &owner[from..], span[1].len());
+                    match span[0].len() {
+                        1 => (0..lines).for_each(|line| row[line * stride] = owner[line * N]),
+                        2 => (0..lines).for_each(|line| copy_row::<2>(row, line * stride, owner, line * N)),
+                        n => (0..lines).for_each(|line| {
+                            copy_cells(&mut row[line * stride..][..n], &owner[line * N..][..n]);
+                        }),
+                    }
+                }
+            }
+            Neighbour::Same(other) if !is_known => {
+                for (row, owner) in components.zip(rows_of(other)) {
+                    project_same::<N>(row, owner, offset, &span, rows);
+                }
+            }
+            Neighbour::Finer([a, b]) if !is_known => {
+                for (row, (a, b)) in components.zip(rows_of(a).zip(rows_of(b))) {
+                    project_twice(row, [a, b], offset, &span, rows, mesh, id);
+                }
+            }
+            _ => {}
         }
     }
 }
@@ -123,6 +220,7 @@ fn local(range: &Range<isize>, step: i8, n: usize) -> Range<usize> {
 /// Projects the ghosts of a padded block in one direction from blocks one level finer, all components.
 ///
 /// - `children`: their slots, see [`Neighbour::Finer`].
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn project_finer<const N: usize>(
     padded: &mut [f64],
     field: &Field,
@@ -132,15 +230,28 @@ pub(crate) fn project_finer<const N: usize>(
     id: BlockId,
 ) {
     let (span_i, span_j) = (ghost_span(N, offset.i), ghost_span(N, offset.j));
-    let rows = mesh.radial(id.level + 1, i64::from(id.j) * N as i64 + span_j.start as i64);
-    let from = local(&span_i, offset.i, N);
+    let rows = &mesh.radial(id.level + 1, i64::from(id.j) * N as i64 + span_j.start as i64)[..span_j.len()];
+    // The first cells of a child that touch the block, along z and along r.
+    let first = |step: i8| if step < 0 { N - 2 * GHOSTS } else { 0 };
+    let from = first(offset.j) * N + first(offset.i);
+    let to = Padded::<N>::index(span_i.start, span_j.start);
+    let (half, stride) = (N / 2, Padded::<N>::STRIDE);
     for (component, row) in padded.chunks_exact_mut(Padded::<N>::LEN).enumerate() {
-        let fine = children.map(|child| field.component(child, component));
-        for (j, radial) in span_j.clone().zip(rows) {
-            let to = Padded::<N>::index(span_i.start, j);
-            let local_j = (j - isize::from(offset.j) * N as isize) as usize;
-            let means = &mut row[to..to + from.len()];
-            project_children::<N>(fine, offset, from.clone(), local_j, radial.lower_share, means);
+        let [a, b] = children.map(|child| &field.component(child, component)[from..]);
+        let row = &mut row[to..];
+        if offset.i == 0 {
+            for (j, radial) in rows.iter().enumerate() {
+                let (first, second) = row[j * stride..][..N].split_at_mut(half);
+                project_rows(&a[2 * j * N..], N, radial.lower_share, first);
+                project_rows(&b[2 * j * N..], N, radial.lower_share, second);
+            }
+        } else {
+            // Beyond a corner there is one child only.
+            for (j, radial) in rows.iter().enumerate() {
+                let fine = if j < half { a } else { b };
+                let cells = &fine[2 * (j % half) * N..];
+                project_some::<GHOSTS>(cells, N, radial.lower_share, &mut row[j * stride..]);
+            }
         }
     }
 }
@@ -168,13 +279,17 @@ fn project_same<const N: usize>(
 
 /// Ghosts of a patch from a block of the patch's own level.
 #[inline(always)]
-fn copy_coarser<const N: usize>(
-    row: &mut [f64],
-    owner: &[f64],
-    offset: Offset,
-    [span_i, span_j]: &Window,
-    id: BlockId,
-) {
+fn copy_coarser<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset, span: &Window, id: BlockId) {
+    let first = first_of_coarser::<N>(offset, span, id);
+    let [span_i, span_j] = span;
+    for (line, j) in span_j.clone().enumerate() {
+        let (from, to) = (first + line * N, index(N / 2, span_i.start, j));
+        copy_cells(&mut row[to..to + span_i.len()], &owner[from..from + span_i.len()]);
+    }
+}
+
+/// The cell of a coarser neighbour that the first cell of a window is.
+fn first_of_coarser<const N: usize>(offset: Offset, [span_i, span_j]: &Window, id: BlockId) -> usize {
     let (half, n) = ((N / 2) as i64, N as i64);
     // Both counted from the domain's edge in cells of the coarse level, as if periodic images went on.
     let first = |at: u32, step: i8| {
@@ -182,11 +297,7 @@ fn copy_coarser<const N: usize>(
         (i64::from(at) * half - coarse_block * n) as isize
     };
     let (first_i, first_j) = (first(id.i, offset.i), first(id.j, offset.j));
-    for j in span_j.clone() {
-        let to = index(N / 2, span_i.start, j);
-        let from = ((first_j + j) * N as isize + first_i + span_i.start) as usize;
-        row[to..to + span_i.len()].copy_from_slice(&owner[from..from + span_i.len()]);
-    }
+    ((first_j + span_j.start) * N as isize + first_i + span_i.start) as usize
 }
 
 /// Ghosts of a patch from blocks one level finer than the block itself.

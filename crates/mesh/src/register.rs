@@ -4,7 +4,7 @@ use crate::{Field, Mesh, Neighbour, Padded, Side};
 
 /// Values of K quantities on the outer faces of the blocks, kept where a block meets another level.
 ///
-/// A coarse block first steps with its own face values; then [`FluxRegister::difference`] gives, face by face, the
+/// A coarse block first steps with its own face values; then [`FluxRegister::for_corrected_faces`] gives, face by face, the
 /// mean of the finer side's values minus its own, and the solver corrects the cell behind the face. What leaves
 /// one side then enters the other, to round-off.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub struct CorrectedFace<const K: usize> {
     pub outward: f64,
     /// The cell (i, j) behind the face.
     pub cell: [usize; 2],
-    /// See [`FluxRegister::difference`].
+    /// The mean of the finer side's values minus the block's own; the mean is weighted with the areas of the fine faces.
     pub difference: [f64; K],
 }
 
@@ -77,8 +77,7 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
         slot: usize,
         mut correct: impl FnMut(CorrectedFace<K>),
     ) {
-        for side in Side::ALL.into_iter().filter(|side| Self::is_corrected(mesh, slot, *side)) {
-            let outward = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
+        self.for_corrected_sides(mesh, slot, |side, outward, differences| {
             for along in 0..N {
                 let cell = match side {
                     Side::ZMin => [0, along],
@@ -86,8 +85,24 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
                     Side::RMin => [along, 0],
                     Side::RMax => [along, N - 1],
                 };
-                let difference = self.difference(mesh, slot, side, along);
+                let difference = differences.map(|row| row[along]);
                 correct(CorrectedFace { side, outward, cell, difference });
+            }
+        });
+    }
+
+    /// Calls `correct(side, outward, differences)` for every side of a block that has finer neighbours beyond it, with
+    /// what [`CorrectedFace`] holds: quantity by quantity, along the side.
+    pub fn for_corrected_sides(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        mut correct: impl FnMut(Side, f64, &[[f64; N]; K]),
+    ) {
+        for side in Side::ALL {
+            if let Neighbour::Finer(children) = mesh.tree().neighbours(slot)[side as usize] {
+                let outward = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
+                correct(side, outward, &self.differences(mesh, slot, side, children));
             }
         }
     }
@@ -108,33 +123,40 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
         matches!(mesh.tree().neighbours(slot)[side as usize], Neighbour::Finer(_))
     }
 
-    fn value(&self, slot: usize, side: Side, quantity: usize, along: usize) -> f64 {
-        self.values.component(slot, side as usize * K + quantity)[along]
-    }
-
-    /// The mean of the finer side's values on one face of a coarse block minus the block's own, quantity by
-    /// quantity. The mean is weighted with the areas of the fine faces.
+    /// The mean of the finer side's values minus the block's own on the faces of a coarse block, quantity by quantity. The
+    /// mean is weighted with the areas of the fine faces.
     ///
-    /// - `slot`, `side`: one for which [`FluxRegister::is_corrected`] holds, else the difference is zero.
-    pub fn difference(&self, mesh: &Mesh<N>, slot: usize, side: Side, along: usize) -> [f64; K] {
-        let Neighbour::Finer(children) = mesh.tree().neighbours(slot)[side as usize] else { return [0.0; K] };
-        let (child, first) = (children[along / (N / 2)], 2 * (along % (N / 2)));
-        let (opposite, lower_share) = match side {
-            Side::ZMin => (Side::ZMax, true),
-            Side::ZMax => (Side::ZMin, true),
-            Side::RMin => (Side::RMax, false),
-            Side::RMax => (Side::RMin, false),
+    /// - `children`: the finer blocks beyond the side, see [`Neighbour::Finer`].
+    fn differences(&self, mesh: &Mesh<N>, slot: usize, side: Side, children: [usize; 2]) -> [[f64; N]; K] {
+        let opposite = match side {
+            Side::ZMin => Side::ZMax,
+            Side::ZMax => Side::ZMin,
+            Side::RMin => Side::RMax,
+            Side::RMax => Side::RMin,
         };
         // Faces across z lie along r and have areas like the halves of the cell behind them.
-        let lower_share = if lower_share {
+        let mut lower_shares = [0.5; N];
+        if matches!(side, Side::ZMin | Side::ZMax) {
             let id = mesh.tree().leaves()[slot];
-            mesh.radial(id.level + 1, i64::from(id.j) * N as i64 + along as i64)[0].lower_share
-        } else {
-            0.5
+            let rows = mesh.radial(id.level + 1, i64::from(id.j) * N as i64);
+            for (share, row) in lower_shares.iter_mut().zip(rows) {
+                *share = row.lower_share;
+            }
+        }
+        let row = |slot: usize, side: Side, quantity: usize| {
+            let row: &[f64; N] = (self.values.component(slot, side as usize * K + quantity))
+                .first_chunk()
+                .expect("a row has as many faces as a block has cells along a side");
+            row
         };
         std::array::from_fn(|quantity| {
-            let [low, high] = [0, 1].map(|k| self.value(child, opposite, quantity, first + k));
-            high + lower_share * (low - high) - self.value(slot, side, quantity, along)
+            let own = row(slot, side, quantity);
+            let fine = children.map(|child| row(child, opposite, quantity));
+            std::array::from_fn(|along| {
+                let (child, first) = (fine[along / (N / 2)], 2 * (along % (N / 2)));
+                let (low, high) = (child[first], child[first + 1]);
+                high + lower_shares[along] * (low - high) - own[along]
+            })
         })
     }
 }

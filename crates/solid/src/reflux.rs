@@ -1,6 +1,6 @@
 //! Flux correction at level jumps: the finer side's star states pass for both.
 
-use mesh::{CorrectedFace, FluxRegister, Geometry, Mesh, Side};
+use mesh::{FluxRegister, Geometry, Mesh, Side};
 
 use crate::block::{BlockReport, StepContext, report_stresses};
 use crate::rows::FaceRows;
@@ -38,38 +38,52 @@ pub(crate) fn correct<const N: usize>(
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let e = ctx.elasticity;
-    register.for_corrected_faces(ctx.mesh, slot, |face| {
-        let CorrectedFace { side, outward, cell: [i, j], difference: [v_n, v_t, s_nn, s_nt] } = face;
-        let changes: [f64; COUNT] = if matches!(side, Side::ZMin | Side::ZMax) {
-            let [v_n, v_t, s_nn, s_nt] = [v_n, v_t, s_nn, s_nt].map(|d| outward * ctx.dt / h_z * d);
-            [
-                e.inverse_density * s_nn,
-                e.inverse_density * s_nt,
-                e.p_modulus * v_n,
-                e.mu * v_t,
-                e.lambda * v_n,
-                e.lambda * v_n,
-            ]
+    register.for_corrected_sides(ctx.mesh, slot, |side, outward, [v_n, v_t, s_nn, s_nt]| {
+        if matches!(side, Side::ZMin | Side::ZMax) {
+            let i = if side == Side::ZMin { 0 } else { N - 1 };
+            let scale = outward * ctx.dt / h_z;
+            for j in 0..N {
+                let (v_n, v_t) = (scale * v_n[j], scale * v_t[j]);
+                let (s_nn, s_nt) = (scale * s_nn[j], scale * s_nt[j]);
+                let changes = [
+                    e.inverse_density * s_nn,
+                    e.inverse_density * s_nt,
+                    e.p_modulus * v_n,
+                    e.mu * v_t,
+                    e.lambda * v_n,
+                    e.lambda * v_n,
+                ];
+                add(new, j * N + i, N * N, changes);
+            }
         } else {
+            let j = if side == Side::RMin { 0 } else { N - 1 };
             // Half of the geometric terms stems from either face; planar geometry has none.
             let half = match ctx.mesh.domain().geometry {
                 Geometry::Axisymmetric => 0.5 * ctx.dt / ctx.mesh.centre(id, 0, j)[1],
                 Geometry::Planar => 0.0,
             };
-            let difference = |d: f64| outward * ctx.dt / h_r * d;
-            let (radial, hoop) = (difference(v_n), half * v_n);
-            [
-                e.inverse_density * (difference(s_nt) + half * s_nt),
-                e.inverse_density * (difference(s_nn) + half * s_nn),
-                e.lambda * (radial + hoop),
-                e.mu * difference(v_t),
-                e.p_modulus * radial + e.lambda * hoop,
-                e.p_modulus * hoop + e.lambda * radial,
-            ]
-        };
-        for (c, change) in changes.into_iter().enumerate() {
-            new[(c * N + j) * N + i] += change;
+            let scale = outward * ctx.dt / h_r;
+            for i in 0..N {
+                let (v_n, v_t, s_nn, s_nt) = (v_n[i], v_t[i], s_nn[i], s_nt[i]);
+                let (radial, hoop) = (scale * v_n, half * v_n);
+                let changes = [
+                    e.inverse_density * (scale * s_nt + half * s_nt),
+                    e.inverse_density * (scale * s_nn + half * s_nn),
+                    e.lambda * (radial + hoop),
+                    e.mu * (scale * v_t),
+                    e.p_modulus * radial + e.lambda * hoop,
+                    e.p_modulus * hoop + e.lambda * radial,
+                ];
+                add(new, j * N + i, N * N, changes);
+            }
         }
     });
     report_stresses(ctx, slot, new, report);
+}
+
+/// Adds to the cell `k` of a block, whose components are `len` numbers.
+fn add(block: &mut [f64], k: usize, len: usize, changes: [f64; COUNT]) {
+    for (cells, change) in block.chunks_exact_mut(len).zip(changes) {
+        cells[k] += change;
+    }
 }

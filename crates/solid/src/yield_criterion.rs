@@ -13,8 +13,14 @@
 #[inline]
 #[must_use]
 pub fn von_mises(sigma_zz: f64, sigma_zr: f64, sigma_rr: f64, sigma_phiphi: f64) -> f64 {
+    von_mises_squared(sigma_zz, sigma_zr, sigma_rr, sigma_phiphi).sqrt()
+}
+
+/// Its square, Pa².
+#[inline(always)]
+pub(crate) fn von_mises_squared(sigma_zz: f64, sigma_zr: f64, sigma_rr: f64, sigma_phiphi: f64) -> f64 {
     let (zz_rr, zz_pp, rr_pp) = (sigma_zz - sigma_rr, sigma_zz - sigma_phiphi, sigma_rr - sigma_phiphi);
-    (0.5 * (zz_rr * zz_rr + zz_pp * zz_pp + rr_pp * rr_pp) + 3.0 * sigma_zr * sigma_zr).sqrt()
+    0.5 * (zz_rr * zz_rr + zz_pp * zz_pp + rr_pp * rr_pp) + 3.0 * sigma_zr * sigma_zr
 }
 
 /// The yield function Φ = σ_vM − Y₀ without hardening.
