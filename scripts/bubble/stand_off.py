@@ -8,7 +8,7 @@ RADIUS = 1e-3
 STAND_OFFS = [1.1, 1.3, 1.5, 2.0, 2.5, 3.0]
 FREE = 1e9
 # Ambient pressure, gas pressure, start.
-SERIES = [(1e5, 2118.0, "rayleigh"), (5e7, 2118.0, "uniform")]
+SERIES = [(5e7, 2118.0, "uniform"), (1e5, 2118.0, "rayleigh")]
 
 
 def table(options):
