@@ -10,14 +10,13 @@ PRESSURES = [(1e8, 1e5), (1e8, 100.0), (1e7, 1e5), (1e7, 2118.0), (1e6, 1e5), (1
              (1e5, 100.0)]
 STAND_OFFS = [1.05, 1.5, 2.0, 4.0]
 WALLS = ["rigid", "structural-steel"]
-CELLS = [20, 40, 80]
-COARSE_RUNS, FINE_RUNS = 36, 6
+FINE_RUNS = 6
 
 
 def plan():
     """All pressures and stand-offs at 20 cells, walls in turn; a few of them at 40 and 80."""
     cases = list(itertools.product(PRESSURES, STAND_OFFS))
-    runs = [(p, d, WALLS[k % 2], 20) for k, (p, d) in enumerate(cases)][:COARSE_RUNS]
+    runs = [(p, d, WALLS[k % 2], 20) for k, (p, d) in enumerate(cases)]
     every = len(cases) // FINE_RUNS
     runs += [(p, d, WALLS[(k + 1) % 2], 40) for k, (p, d) in enumerate(cases[::every])]
     return runs + [((1e7, 2118.0), 1.5, "rigid", 80), ((1e8, 1e5), 1.05, "structural-steel", 80)]

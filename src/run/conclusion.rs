@@ -97,7 +97,8 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
     if let (Some(radius), Some(time)) = (number("min_equivalent_radius"), number("collapse_time")) {
         words.push(format!("smallest equivalent radius {:.4e} m at {:.4e} s", radius, time));
     }
-    words.extend(warnings(whole).into_iter().map(|warning| format!("warning: {warning}")));
+    let warnings = whole.get("warnings").and_then(Value::as_array).into_iter().flatten();
+    words.extend(warnings.filter_map(Value::as_str).map(|warning| format!("warning: {warning}")));
     words.push(format!("see {}", directory.display()));
     words.join("\n")
 }

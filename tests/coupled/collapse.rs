@@ -96,7 +96,7 @@ scheme = "riemann"
             gas_at_the_wall = gas_at_the_wall.max(fluid.cell(face, 0, 0).phi);
         }
         wall.push(fluid.time(), fluid.wall_pressures().axis);
-        let mass = fluid.totals().gas_mass;
+        let mass = fluid.bubble().gas_mass;
         gas = [if gas[0].is_nan() { mass } else { gas[0] }, mass];
         assert!(fluid.largest_speeds().iter().all(|speed| speed.is_finite()));
     });

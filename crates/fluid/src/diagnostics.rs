@@ -3,7 +3,7 @@
 use mesh::{GHOSTS, Padded, limited_differences};
 
 use crate::block::{BlockScratch, StepContext, reconstruct};
-use crate::state::conserved::{COUNT, ENERGY, GAS, MOMENTUM_Z, PHI, RHO};
+use crate::state::conserved::{COUNT, ENERGY, MOMENTUM_Z, PHI, RHO};
 use crate::{FluidSolver, Primitive};
 
 /// The gas as a whole, or of one of several bubbles.
@@ -51,8 +51,6 @@ pub struct Totals {
     pub momentum_z: f64,
     /// Energy, J.
     pub energy: f64,
-    /// Mass of the gas, kg; 0 with the paper's mixture, whose phases have no masses of their own.
-    pub gas_mass: f64,
 }
 
 /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
@@ -125,12 +123,10 @@ impl<const N: usize> FluidSolver<N> {
     pub fn totals(&self) -> Totals {
         let mut totals = Totals::default();
         for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
-            let mut block = [0.0; 4];
-            let components = [RHO, MOMENTUM_Z, ENERGY, GAS];
-            let kinds = if self.has_gas[slot] { 4 } else { 3 };
+            let mut block = [0.0; 3];
             for j in 0..N {
                 let volume = self.mesh.volume(*id, j);
-                for (sum, component) in block.iter_mut().zip(components).take(kinds) {
+                for (sum, component) in block.iter_mut().zip([RHO, MOMENTUM_Z, ENERGY]) {
                     let row = &self.state.component(slot, component)[j * N..(j + 1) * N];
                     *sum += volume * row.iter().sum::<f64>();
                 }
@@ -138,7 +134,6 @@ impl<const N: usize> FluidSolver<N> {
             totals.mass += block[0];
             totals.momentum_z += block[1];
             totals.energy += block[2];
-            totals.gas_mass += block[3];
         }
         totals
     }

@@ -5,13 +5,11 @@ use mesh::{Field, Geometry, Mesh, for_some_blocks};
 use crate::state::Contents;
 use crate::{
     InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, RayleighField, Region, Shape,
+    TRACE_GAS,
 };
 
 /// Points per direction at which a cell that a region's edge may cut is sampled.
 const SAMPLES: usize = 32;
-
-/// A gas fraction above which a cell counts as mixed and takes the gas's pressure.
-const MIXED: f64 = 1e-6;
 
 /// The initial condition's average over a cell.
 ///
@@ -178,7 +176,8 @@ impl Sums {
 
     fn average(&self) -> Contents {
         let phi = self.gas / self.weight;
-        let pressure = if phi > MIXED { self.gas_pressure / self.gas } else { self.pressure / self.weight };
+        let pressure =
+            if phi > TRACE_GAS { self.gas_pressure / self.gas } else { self.pressure / self.weight };
         let state = Primitive {
             density: self.mass / self.weight,
             v_z: self.momentum[0] / self.mass,
@@ -311,7 +310,7 @@ mod tests {
             for k in 0..64 {
                 let u = std::array::from_fn(|c| field.component(slot, c)[k]);
                 let w = Primitive::from_conserved(u, &mixture);
-                let expected = if w.phi > MIXED { 2118.0 } else { 5e7 };
+                let expected = if w.phi > TRACE_GAS { 2118.0 } else { 5e7 };
                 assert!((w.pressure - expected).abs() < 1e-6 * 5e7, "{w:?}");
                 let density = w.phi * 0.0266 + (1.0 - w.phi) * 1000.0;
                 assert!((w.density - density).abs() < 1e-9 * 1000.0);

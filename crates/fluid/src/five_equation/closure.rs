@@ -3,7 +3,7 @@
 use crate::Mixture;
 
 /// Gas fractions within this distance of 0 and 1 count as pure: they are advected and make no closure of their own.
-pub(crate) const PURE: f64 = 1e-6;
+pub(crate) const PURE: f64 = crate::TRACE_GAS;
 
 /// Volume change of a cell per step below which its volumes are relaxed by the linear rule.
 const LINEAR_BELOW: f64 = 1e-3;

@@ -87,8 +87,8 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         }
         self.impose_outer_shares(&mut gas.shares);
         gas.mixed.clear();
-        let is_marked = self.ctx.marks.is_empty().then_some(false);
-        if is_marked.is_none() {
+        let has_marks = !self.ctx.marks.is_empty();
+        if has_marks {
             super::marks::padded_marks(self.ctx.mesh, self.slot, self.ctx.marks, &mut gas.is_marked);
         }
         let marks = &gas.is_marked;
@@ -96,7 +96,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             &Cells { rows, stride: Padded::<N>::STRIDE },
             &self.stencil(inverse_r),
             Side::ALL.map(|side| self.outer(side)),
-            |k| is_marked.unwrap_or_else(|| marks[k]),
+            |k| has_marks && marks[k],
         );
         // What the kernels made of these cells counts for nothing. What the wall to the solid asks for is on the lower
         // face along z.

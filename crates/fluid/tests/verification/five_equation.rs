@@ -66,7 +66,7 @@ fn carried(
         0.3,
     );
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
-    let gas = fluid.totals().gas_mass;
+    let gas = fluid.bubble().gas_mass;
     (0..steps).for_each(|_| advance(&mut fluid));
     let mut worst = [0.0_f64; 2];
     each_cell(&fluid, |_, _, w| {
@@ -74,7 +74,7 @@ fn carried(
         worst[1] = worst[1].max((w.v_z - 200.0).hypot(w.v_r) / 200.0);
         assert!(w.phi > -2e-6 && w.phi < 1.0 + 2e-6, "{w:?}");
     });
-    let lost = (fluid.totals().gas_mass / gas - 1.0).abs();
+    let lost = (fluid.bubble().gas_mass / gas - 1.0).abs();
     eprintln!(
         "{geometry:?} {model:?} {sharpening:?} {riemann:?} gas {density} adaptive {is_adaptive} {steps} steps: \
          dp/p, du/u {:.1e} {:.1e}, gas mass {lost:.1e}, {:?}",
@@ -156,11 +156,11 @@ fn collapsed<const N: usize>(
     let initial =
         bubble_in(state(Phase::Liquid, 1000.0, 5e7, 0.0), state(Phase::Gas, 1.25, 1e5, 0.0), centre, 0.2);
     let mut fluid = FluidSolver::<N>::new(&setup, &initial).unwrap();
-    let gas = fluid.totals().gas_mass;
+    let gas = fluid.bubble().gas_mass;
     for _ in 0..300 {
         fluid.step(2e-6).unwrap();
     }
-    let lost = fluid.totals().gas_mass / gas - 1.0;
+    let lost = fluid.bubble().gas_mass / gas - 1.0;
     eprintln!("{geometry:?} {centre:?}: gas mass {lost:.1e}, radius {:.3}", fluid.bubble().equivalent_radius);
     assert!(lost.abs() < 1e-12);
     global(&fluid)
@@ -231,7 +231,7 @@ fn collapse(pressure: f64, gas: [f64; 2], cells_per_radius: usize, shift: f64) -
         radius,
     );
     let mut fluid = FluidSolver::<16>::new(&setup, &initial).unwrap();
-    let mass = fluid.totals().gas_mass;
+    let mass = fluid.bubble().gas_mass;
     let start = fluid.bubble().volume;
     let mut samples = vec![[0.0, start]];
     let mut lowest = start;
@@ -249,7 +249,7 @@ fn collapse(pressure: f64, gas: [f64; 2], cells_per_radius: usize, shift: f64) -
     let [a, b, c] = [samples[k - 1], samples[k], samples[k + 1]];
     let (left, right) = ((b[1] - a[1]) / (b[0] - a[0]), (c[1] - b[1]) / (c[0] - b[0]));
     let time = 0.5 * (a[0] + b[0]) - left * 0.5 * (c[0] - a[0]) / (right - left);
-    let lost = (fluid.totals().gas_mass / mass - 1.0).abs();
+    let lost = (fluid.bubble().gas_mass / mass - 1.0).abs();
     // Times and radii scale with the radius, and the reference is for 1 mm.
     let result = [time / scale, (b[1] / start).cbrt(), lost];
     eprintln!("{pressure:e} {cells_per_radius} cells, shift {shift}: {result:.5?}, {:?}", fluid.fixups());
