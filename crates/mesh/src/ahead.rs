@@ -1,7 +1,5 @@
 //! Fetching what will be needed, while there is something to compute.
 
-use std::hint::black_box;
-
 use crate::{Field, Mesh, Neighbour, Offset, Side};
 
 /// Numbers in a cache line.
@@ -38,10 +36,15 @@ impl<const N: usize> Mesh<N> {
     }
 }
 
-/// Loads a number from each line of a part.
+/// Asks for the lines of a part, without waiting for any.
+#[cfg(target_arch = "x86_64")]
 fn fetch(block: &[f64], part: usize, parts: usize) {
     let len = block.len() / parts;
     for number in block[part * len..(part + 1) * len].iter().step_by(LINE) {
-        black_box(*number);
+        safe_arch::prefetch_t0(number);
     }
 }
+
+/// Other machines are left to look ahead for themselves.
+#[cfg(not(target_arch = "x86_64"))]
+fn fetch(_: &[f64], _: usize, _: usize) {}
