@@ -38,7 +38,6 @@ pub(crate) struct BlockScratch<const N: usize> {
     pub inverse_r: Vec<f64>,
     z_faces: FaceRows,
     r_faces: FaceRows,
-    mises: Vec<f64>,
 }
 
 impl<const N: usize> BlockScratch<N> {
@@ -53,7 +52,6 @@ impl<const N: usize> BlockScratch<N> {
             inverse_r: vec![0.0; len],
             z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
             r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
-            mises: vec![0.0; N * N],
         }
     }
 }
@@ -163,11 +161,10 @@ pub(crate) fn step_block<const N: usize>(
         &metric,
         ctx.elasticity,
         split_block::<N>(new),
-        &mut scratch.mises,
     );
     BlockReport {
         mises_squared: largest,
-        yielded: if largest > ctx.yield_squared { yielded_volume(ctx, slot, &scratch.mises) } else { 0.0 },
+        yielded: if largest > ctx.yield_squared { yielded_volume(ctx, slot, new) } else { 0.0 },
         inflow: boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces),
     }
 }
@@ -179,24 +176,9 @@ pub(crate) fn report_stresses<const N: usize>(
     block: &[f64],
     report: &mut BlockReport,
 ) {
-    let id = ctx.mesh.tree().leaves()[slot];
-    let squared = |squared: f64| {
-        let mises = squared.sqrt();
-        if mises < f64::MAX { mises * mises } else { f64::INFINITY }
-    };
-    // Roots grow with what they are taken of: one of the largest is enough.
-    report.mises_squared = squared(largest_mises::<N>(block));
-    report.yielded = 0.0;
-    if report.mises_squared > ctx.yield_squared {
-        for j in 0..N {
-            let volume = ctx.mesh.volume(id, j);
-            for row in mises_of_row::<N>(block, j) {
-                if squared(row) > ctx.yield_squared {
-                    report.yielded += volume;
-                }
-            }
-        }
-    }
+    report.mises_squared = largest_mises::<N>(block);
+    report.yielded =
+        if report.mises_squared > ctx.yield_squared { yielded_volume(ctx, slot, block) } else { 0.0 };
 }
 
 /// The largest squared von Mises stress of a block, infinite if one is not a number.
@@ -230,14 +212,12 @@ pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COU
     std::array::from_fn(|_| rows.next().expect("a block has that many components"))
 }
 
-fn yielded_volume<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, mises: &[f64]) -> f64 {
+/// The volume in which the yield strength is exceeded (per radian).
+fn yielded_volume<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, block: &[f64]) -> f64 {
     let id = ctx.mesh.tree().leaves()[slot];
-    (mises.chunks_exact(N).enumerate())
-        .map(|(j, row)| {
-            let cells = row.iter().filter(|squared| **squared > ctx.yield_squared).count();
-            cells as f64 * ctx.mesh.volume(id, j)
-        })
-        .sum()
+    let cells_of_row =
+        |j| mises_of_row::<N>(block, j).into_iter().filter(|mises| *mises > ctx.yield_squared).count();
+    (0..N).map(|j| cells_of_row(j) as f64 * ctx.mesh.volume(id, j)).sum()
 }
 
 /// Axial momentum and energy that a block took in through the sides of the domain.

@@ -3,6 +3,7 @@
 use mesh::maximum;
 
 use crate::rows::{Elasticity, FaceRows, Rows};
+use crate::yield_criterion::von_mises_squared;
 
 /// What the update needs to know of a block's geometry.
 pub(crate) struct Metric<'a> {
@@ -23,7 +24,6 @@ pub(crate) struct Metric<'a> {
 /// the predicted one at mid-step.
 ///
 /// - `old`, `new`: state `[component][j][i]` without ghosts; `hoop`: padded σ_φφ at mid-step.
-/// - `mises`: N² numbers, the squared von Mises stress of the new state.
 /// - returns: the largest squared von Mises stress, infinite if one is not finite.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update<const N: usize>(
@@ -35,9 +35,9 @@ pub(crate) fn update<const N: usize>(
     metric: &Metric<'_>,
     elasticity: &Elasticity,
     new: [&mut [f64]; 6],
-    mises: &mut [f64],
 ) -> f64 {
     let [v_z, v_r, s_zz, s_zr, s_rr, s_pp] = new;
+    let mut largest = [0.0; N];
     for j in 0..N {
         let at = j * N;
         let k = metric.origin + j * metric.stride;
@@ -63,10 +63,10 @@ pub(crate) fn update<const N: usize>(
             row_mut(s_zr, at),
             row_mut(s_rr, at),
             row_mut(s_pp, at),
-            row_mut(mises, at),
+            &mut largest,
         );
     }
-    maximum(mises)
+    maximum(&largest)
 }
 
 /// N numbers from `at` on, so that the compiler knows how many.
@@ -117,7 +117,7 @@ fn update_row<const N: usize>(
     s_zr: &mut [f64; N],
     s_rr: &mut [f64; N],
     s_pp: &mut [f64; N],
-    mises: &mut [f64; N],
+    largest: &mut [f64; N],
 ) {
     for k in 0..N {
         let mean = |high: f64, low: f64| 0.5 * dt_over_r * (high + low);
@@ -142,8 +142,9 @@ fn update_row<const N: usize>(
         s_zr[k] = zr;
         s_rr[k] = rr;
         s_pp[k] = pp;
-        let squared =
-            0.5 * ((zz - rr) * (zz - rr) + (zz - pp) * (zz - pp) + (rr - pp) * (rr - pp)) + 3.0 * (zr * zr);
-        mises[k] = if squared < f64::MAX { squared } else { f64::INFINITY };
+        let squared = von_mises_squared(zz, zr, rr, pp);
+        // A NaN counts as infinite.
+        let squared = if squared < f64::MAX { squared } else { f64::INFINITY };
+        largest[k] = if squared > largest[k] { squared } else { largest[k] };
     }
 }
