@@ -5,12 +5,16 @@
 //! that has keeps its numbers, so that they do not depend on the company it is solved in. Faces for which more is
 //! needed (a vacuum or nearly one, the inside of a fan, no convergence) are left to the scalar solver.
 
+mod listed;
+
 use mesh::whole_lines;
 
 use crate::Mixture;
 use crate::elementary::{exp_and_less_one, ln_of};
 use crate::godunov::flux_exact;
 use crate::rows::{FaceRows, Reconstruction};
+
+pub(crate) use listed::exact_fluxes;
 
 /// Faces solved together: few, as all of them wait for the slowest one.
 const LANES: usize = 16;
@@ -113,7 +117,7 @@ pub(crate) fn exact_faces(
     let mixture = *mixture;
     let range = whole_lines(range, stride..cells.keep.len() - step);
     let mut chunk = Chunk::zeros();
-    let mut solved = [0.0; LANES];
+    let (mut compression, mut solved) = ([0.0; LANES], [0.0; LANES]);
     let mut first = range.start;
     while first < range.end {
         let n = LANES.min(range.end - first);
@@ -129,6 +133,7 @@ pub(crate) fn exact_faces(
             &mut faces.shear[first..][..n],
             &mut faces.energy[first..][..n],
             &mut faces.phi[first..][..n],
+            &mut compression,
             &mut solved,
         );
         if count(&solved, n) < n {
@@ -316,6 +321,7 @@ fn fluxes(
     shear: &mut [f64],
     energy: &mut [f64],
     phi: &mut [f64],
+    compression: &mut Lane,
     solved: &mut Lane,
 ) {
     let Chunk { left, right, p, shifted, f_left, f_right, done, .. } = chunk;
@@ -347,7 +353,8 @@ fn fluxes(
         let over = if shock { squeezed } else { ratio_side * (escape * escape) };
         let under = if shock { 1.0 + m * x } else { behind * behind };
         let unchanged = undisturbed | (x == 0.0);
-        let rho = if unchanged { rho_side } else { rho_side * (over / under) };
+        compression[k] = if unchanged { 1.0 } else { over / under };
+        let rho = rho_side * compression[k];
         let u = if undisturbed { pick(&left.u, &right.u) } else { u_star };
         let p = if undisturbed { p_side } else { p_star };
         let v = pick(&left.v, &right.v);

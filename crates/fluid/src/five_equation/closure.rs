@@ -1,6 +1,7 @@
 //! What the phases of a mixed cell do under compression: the K term.
 
 use crate::Mixture;
+use crate::elementary::{exp_and_less_one, ln_of};
 
 /// Gas fractions within this distance of 0 and 1 count as pure: they are advected and make no closure of their own.
 pub(crate) const PURE: f64 = crate::TRACE_GAS;
@@ -100,39 +101,46 @@ pub(crate) fn relaxed_fraction(
     isentropic_fraction(gas_left, liquid_left, p, mixture)
 }
 
-/// Newton's iteration on ln(sum of the volumes) against ln(p' + π_g), which is monotone and nearly straight.
+/// Newton's iteration on ln(sum of the volumes) against x = ln((p' + π_g)/(p + π_g)), which is monotone and nearly straight.
 fn isentropic_fraction(gas: f64, liquid: f64, p: f64, mixture: &Mixture) -> f64 {
     const STEPS: usize = 30;
+    /// The next step would be of the order of its square.
+    const LAST_STEP: f64 = 1e-8;
     let (g, l) = (mixture.gas, mixture.liquid);
     let (over_g, over_l) = (1.0 / g.gamma, 1.0 / l.gamma);
     let (base_g, base_l) = ((p + g.pi).max(LOWEST), (p + l.pi).max(LOWEST));
-    let offset = base_l - base_g;
-    let start = base_g.ln();
-    let mut y = start;
-    let (mut low, mut high) = (LOWEST.ln(), 1e16_f64.ln());
-    let mut share = gas / (gas + liquid);
+    let softness = base_g / base_l;
+    let (mut low, mut high) = (LOWEST_RATIO, HIGHEST_RATIO);
+    let (mut x, mut gas_volume, mut liquid_volume) = (0.0, gas, liquid);
+    // (p' + π_g)/(p + π_g), and the same of the liquid.
+    let (mut gas_ratio, mut liquid_ratio) = (1.0, 1.0);
     for _ in 0..STEPS {
-        let above = y.exp();
-        let gas_volume = gas * ((start - y) * over_g).exp();
-        let liquid_volume = liquid * (base_l / (above + offset)).powf(over_l);
         let sum = gas_volume + liquid_volume;
-        share = gas_volume / sum;
-        let excess = sum.ln();
+        let excess = ln_of(sum, sum - 1.0);
         if excess > 0.0 {
-            low = y;
+            low = x;
         } else {
-            high = y;
+            high = x;
         }
-        let slope = -(gas_volume * over_g + liquid_volume * over_l * above / (above + offset)) / sum;
-        let next = y - excess / slope;
-        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        if (next - y).abs() <= 1e-14 * y.abs().max(1.0) {
-            break;
+        let slope = -(gas_volume * over_g + liquid_volume * over_l * softness * gas_ratio / liquid_ratio) / sum;
+        let step = -excess / slope;
+        if step.abs() <= LAST_STEP {
+            return (gas_volume * (1.0 - step * over_g)).clamp(0.0, 1.0);
         }
-        y = next;
+        let next = x + step;
+        x = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let (ratio, increment) = exp_and_less_one(x);
+        let increment = softness * increment;
+        (gas_ratio, liquid_ratio) = (ratio, 1.0 + increment);
+        gas_volume = gas * exp_and_less_one(-x * over_g).0;
+        liquid_volume = liquid * exp_and_less_one(-over_l * ln_of(liquid_ratio, increment)).0;
     }
-    share.clamp(0.0, 1.0)
+    (gas_volume / (gas_volume + liquid_volume)).clamp(0.0, 1.0)
 }
+
+/// Bounds of ln((p' + π_g)/(p + π_g)): twenty orders of magnitude either way.
+const LOWEST_RATIO: f64 = -46.0;
+const HIGHEST_RATIO: f64 = 46.0;
 
 #[cfg(test)]
 mod tests {

@@ -9,7 +9,8 @@ use super::closure::{Compression, is_mixed};
 use super::reconstruction::{Cells, FaceState, Stencil, face_states};
 use crate::block::used_face;
 use crate::boundary::beside;
-use crate::godunov::flux_exact;
+use crate::exact_rows::exact_fluxes;
+use crate::hllc::Face;
 use crate::rows::{FaceRows, Reconstruction};
 
 /// No mixed cell.
@@ -24,6 +25,35 @@ pub(crate) struct MixedCells {
     states: Vec<[FaceState; 4]>,
     /// Faces along z and r whose fluid comes from a mixed cell, with the gas's part of its mass.
     shares: [Vec<(usize, f64)>; 2],
+    problems: Problems,
+}
+
+/// Riemann problems at listed faces.
+#[derive(Clone, Debug, Default)]
+struct Problems {
+    faces: Vec<usize>,
+    /// The states on both sides.
+    lower: Vec<[f64; 5]>,
+    upper: Vec<[f64; 5]>,
+    /// m_g/ρ on both sides; NaN beside a cell that is not listed.
+    gas_shares: Vec<[f64; 2]>,
+    fluxes: Vec<Face>,
+}
+
+impl Problems {
+    fn clear(&mut self) {
+        self.faces.clear();
+        self.lower.clear();
+        self.upper.clear();
+        self.gas_shares.clear();
+    }
+
+    fn put(&mut self, face: usize, lower: FaceState, upper: FaceState) {
+        self.faces.push(face);
+        self.lower.push(lower.w);
+        self.upper.push(upper.w);
+        self.gas_shares.push([lower.gas_share, upper.gas_share]);
+    }
 }
 
 impl MixedCells {
@@ -33,6 +63,7 @@ impl MixedCells {
             cells: Vec::with_capacity(len),
             states: Vec::with_capacity(len),
             shares: [Vec::with_capacity(len), Vec::with_capacity(len)],
+            problems: Problems::default(),
         }
     }
 
@@ -116,6 +147,10 @@ impl MixedCells {
     }
 
     /// Solves the faces of the listed cells along one axis (0: z, 1: r); `cells` are the block's others.
+    ///
+    /// By the frozen mixtures' exact flux whatever solver serves the other faces: HLLC takes the liquid's rarefaction for
+    /// one jump, and at 5e7 Pa against a thin gas leaves it 4 MPa behind the wave. In the soft mixed cells that stays, as
+    /// heat of the gas. The gas fraction follows the density behind the wave.
     pub fn solve_faces<const N: usize>(
         &mut self,
         axis: usize,
@@ -124,24 +159,38 @@ impl MixedCells {
         faces: &mut FaceRows,
     ) {
         let step = if axis == 0 { 1 } else { Padded::<N>::STRIDE };
-        let mut shares = std::mem::take(&mut self.shares[axis]);
+        let mut problems = std::mem::take(&mut self.problems);
+        problems.clear();
+        let pure = |k: usize, sign: f64| FaceState { w: cells.face_state(k, sign), gas_share: f64::NAN };
         for (k, states) in self.cells.iter().zip(&self.states) {
             // The face below is the upper one of a listed neighbour.
             if self.of(k - step).is_none() && used_face::<N>(k - step, step) {
-                let lower = FaceState { w: cells.face_state(k - step, 1.0), gas_share: f64::NAN };
-                let upper = turned(states[2 * axis], axis);
-                solve(k - step, lower, upper, stencil, faces, &mut shares);
+                problems.put(k - step, pure(k - step, 1.0), turned(states[2 * axis], axis));
             }
             if used_face::<N>(*k, step) {
-                let lower = turned(states[2 * axis + 1], axis);
                 let upper = match self.of(k + step) {
                     Some(states) => turned(states[2 * axis], axis),
-                    None => FaceState { w: cells.face_state(k + step, -1.0), gas_share: f64::NAN },
+                    None => pure(k + step, -1.0),
                 };
-                solve(*k, lower, upper, stencil, faces, &mut shares);
+                problems.put(*k, turned(states[2 * axis + 1], axis), upper);
             }
         }
-        self.shares[axis] = shares;
+        let Problems { faces: at, lower, upper, gas_shares, fluxes } = &mut problems;
+        exact_fluxes(lower, upper, stencil.mixture, fluxes);
+        for (index, face) in fluxes.iter_mut().enumerate() {
+            let is_upper = usize::from(face.velocity < 0.0);
+            let [_, _, _, p, phi] = [&*lower, &*upper][is_upper][index];
+            if is_mixed(phi) {
+                let compression = Compression::at(p, phi, stencil.mixture, stencil.options.has_closure);
+                face.phi = compression.star_fraction(phi, face.compression);
+            }
+            faces.set(at[index], *face);
+            let gas_share = gas_shares[index][is_upper];
+            if !gas_share.is_nan() {
+                self.shares[axis].push((at[index], gas_share));
+            }
+        }
+        self.problems = problems;
     }
 
     /// Puts the mixed cells' part into the gas's mass fluxes along one axis.
@@ -177,32 +226,6 @@ fn mirrored(states: [FaceState; 4], side: Side) -> [FaceState; 4] {
     });
     images.swap(2 * axis, 2 * axis + 1);
     images
-}
-
-/// One Riemann problem: the frozen mixtures' exact flux, with the gas fraction that follows the density behind the wave.
-///
-/// Exact whatever solver serves the other faces: HLLC takes the liquid's rarefaction for one jump, and at 5e7 Pa against
-/// a thin gas leaves it 4 MPa behind the wave. In the soft mixed cells that stays, as heat of the gas.
-fn solve(
-    k: usize,
-    lower: FaceState,
-    upper: FaceState,
-    stencil: &Stencil<'_>,
-    faces: &mut FaceRows,
-    shares: &mut Vec<(usize, f64)>,
-) {
-    let mixture = stencil.mixture;
-    let mut face = flux_exact(lower.w, upper.w, mixture);
-    let upwind = if face.velocity >= 0.0 { &lower } else { &upper };
-    let [_, _, _, p, phi] = upwind.w;
-    if is_mixed(phi) {
-        let compression = Compression::at(p, phi, mixture, stencil.options.has_closure);
-        face.phi = compression.star_fraction(phi, face.compression);
-    }
-    faces.set(k, face);
-    if !upwind.gas_share.is_nan() {
-        shares.push((k, upwind.gas_share));
-    }
 }
 
 #[cfg(test)]
