@@ -4,7 +4,7 @@ use coupler::{TraceRow, WallRegister};
 use mesh::Padded;
 
 use crate::block::{BlockScratch, reconstruct};
-use crate::five_equation::{Cells, Stencil, face_states};
+use crate::five_equation::{Cells, FaceState, Stencil, face_states};
 use crate::rows::{half_step, rates};
 use crate::{FluidSolver, Mixture, WallState};
 
@@ -120,7 +120,11 @@ impl<const N: usize> FluidSolver<N> {
         let cells = Cells { rows: cells.split::<6>(), stride: Padded::<N>::STRIDE };
         let mixture = &self.mixture;
         let stencil = Stencil { limiter: self.limiter, inverse_h, inverse_r, dt, mixture, options };
-        cells.is_at_interface(k).then(|| face_states(&cells, k, &stencil)[0].w)
+        cells.is_at_interface(k).then(|| {
+            let mut states = [[FaceState::default(); 4]];
+            face_states(&cells, &[k], &stencil, &mut states);
+            states[0][0].w
+        })
     }
 
     /// Sets the wall's state for the next step from what the other side returned.

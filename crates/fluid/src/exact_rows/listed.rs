@@ -10,12 +10,7 @@ use crate::hllc::Face;
 /// - `faces`: written, as many as there are states. What a face gets does not depend on the others in the list.
 /// - tested by: [`flux_exact`] over random states.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn exact_fluxes(
-    lower: &[[f64; 5]],
-    upper: &[[f64; 5]],
-    mixture: &Mixture,
-    faces: &mut Vec<Face>,
-) {
+pub(crate) fn exact_fluxes(lower: &[[f64; 5]], upper: &[[f64; 5]], mixture: &Mixture, faces: &mut Vec<Face>) {
     let mixture = *mixture;
     let mut chunk = Chunk::zeros();
     let mut rows = [[0.0; LANES]; 8];

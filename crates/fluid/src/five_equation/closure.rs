@@ -122,7 +122,8 @@ fn isentropic_fraction(gas: f64, liquid: f64, p: f64, mixture: &Mixture) -> f64 
         } else {
             high = x;
         }
-        let slope = -(gas_volume * over_g + liquid_volume * over_l * softness * gas_ratio / liquid_ratio) / sum;
+        let slope =
+            -(gas_volume * over_g + liquid_volume * over_l * softness * gas_ratio / liquid_ratio) / sum;
         let step = -excess / slope;
         if step.abs() <= LAST_STEP {
             return (gas_volume * (1.0 - step * over_g)).clamp(0.0, 1.0);

@@ -90,10 +90,9 @@ impl MixedCells {
         self.cells.iter().copied().zip(&self.states)
     }
 
-    fn put(&mut self, k: usize, states: [FaceState; 4]) {
+    fn list(&mut self, k: usize) {
         self.index[k] = self.cells.len() as u32;
         self.cells.push(k);
-        self.states.push(states);
     }
 
     fn of(&self, k: usize) -> Option<&[FaceState; 4]> {
@@ -112,35 +111,36 @@ impl MixedCells {
         is_marked: impl Fn(usize) -> bool,
     ) {
         let n = N as isize;
-        let states = |k: usize| {
-            if is_marked(k) {
-                return Some([cells.mean(k); 4]);
-            }
-            cells.is_at_interface(k).then(|| face_states(cells, k, stencil))
-        };
+        let is_listed = |k: usize| is_marked(k) || cells.is_at_interface(k);
         for j in 0..n {
             for i in 0..n {
                 let k = Padded::<N>::index(i, j);
-                if let Some(states) = states(k) {
-                    self.put(k, states);
+                if is_listed(k) {
+                    self.list(k);
                 }
             }
         }
-        for side in Side::ALL {
+        for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Block) {
+            for along in 0..N {
+                let [_, ghost] = beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
+                if is_listed(ghost) {
+                    self.list(ghost);
+                }
+            }
+        }
+        self.states.resize(self.cells.len(), [FaceState::default(); 4]);
+        face_states(cells, &self.cells, stencil, &mut self.states);
+        for (k, states) in self.cells.iter().zip(&mut self.states) {
+            if is_marked(*k) {
+                *states = [cells.mean(*k); 4];
+            }
+        }
+        for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Mirror) {
             for along in 0..N {
                 let [inner, ghost] = beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
-                match outer[side as usize] {
-                    Outer::Block => {
-                        if let Some(states) = states(ghost) {
-                            self.put(ghost, states);
-                        }
-                    }
-                    Outer::Mirror => {
-                        if let Some(states) = self.of(inner).copied() {
-                            self.put(ghost, mirrored(states, side));
-                        }
-                    }
-                    Outer::Given => {}
+                if let Some(states) = self.of(inner).copied() {
+                    self.list(ghost);
+                    self.states.push(mirrored(states, side));
                 }
             }
         }

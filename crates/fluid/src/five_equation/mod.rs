@@ -16,4 +16,4 @@ mod update;
 pub(crate) use closure::{Compression, is_mixed};
 pub(crate) use gas_block::{GasBlock, GasScratch};
 pub(crate) use marks::marked_blocks;
-pub(crate) use reconstruction::{Cells, Stencil, face_states};
+pub(crate) use reconstruction::{Cells, FaceState, Stencil, face_states};

@@ -3,17 +3,26 @@
 use mesh::Limiter;
 
 use super::closure::{Compression, PURE, is_mixed};
-use super::thinc::Step;
+use super::thinc;
 use crate::Mixture;
 use crate::options::TwoPhaseOptions;
 
-/// ρ_g, ρ_l, v_z, v_r, p, φ.
-type Phases = [f64; 6];
+/// Cells reconstructed together.
+const LANES: usize = 8;
 
+type Lane = [f64; LANES];
+
+/// ρ_g, ρ_l, v_z, v_r, p, φ of the cells.
+type Phases = [Lane; 6];
+
+const RHO_G: usize = 0;
+const RHO_L: usize = 1;
 const V_Z: usize = 2;
 const V_R: usize = 3;
 const PRESSURE: usize = 4;
 const PHI: usize = 5;
+
+const ZERO: Phases = [[0.0; LANES]; 6];
 
 /// A state on a face: ρ, v_z, v_r, p, φ and the gas's part of the mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,13 +54,21 @@ impl Cells<'_> {
         is_mixed(phi[k]) || [k - 1, k + 1, k - self.stride, k + self.stride].into_iter().any(is_other)
     }
 
-    /// The cell by phases; one that is as good as absent has the density `else_densities`.
-    fn phases(&self, k: usize, else_densities: [f64; 2]) -> Phases {
-        let [rho, v_z, v_r, p, phi, gas] = self.rows.map(|row| row[k]);
-        // A phase's mass may lie below zero by what prediction may take the gas fraction below.
-        let rho_g = if phi > PURE { gas.max(0.0) / phi } else { else_densities[0] };
-        let rho_l = if 1.0 - phi > PURE { (rho - gas).max(0.0) / (1.0 - phi) } else { else_densities[1] };
-        [rho_g, rho_l, v_z, v_r, p, phi]
+    /// Some cells by phases; a phase that is as good as absent has the density `else_densities`.
+    #[inline(always)]
+    fn phases(&self, at: [usize; LANES], else_densities: [&Lane; 2]) -> Phases {
+        let [rho, v_z, v_r, p, phi, gas] = self.rows.map(|row| at.map(|k| row[k]));
+        let mut phases = [[0.0; LANES], [0.0; LANES], v_z, v_r, p, phi];
+        for k in 0..LANES {
+            // A phase's mass may lie below zero by what prediction may take the gas fraction below.
+            let above_zero = |mass: f64| if mass > 0.0 { mass } else { 0.0 };
+            let (gas_volume, liquid_volume) = (phi[k], 1.0 - phi[k]);
+            let (rho_g, rho_l) =
+                (above_zero(gas[k]) / gas_volume, above_zero(rho[k] - gas[k]) / liquid_volume);
+            phases[RHO_G][k] = if gas_volume > PURE { rho_g } else { else_densities[0][k] };
+            phases[RHO_L][k] = if liquid_volume > PURE { rho_l } else { else_densities[1][k] };
+        }
+        phases
     }
 }
 
@@ -66,7 +83,7 @@ pub(crate) struct Stencil<'a> {
     pub options: TwoPhaseOptions,
 }
 
-/// States on the four faces of mixed cell `k`, in the order of [`mesh::Side::ALL`]: z−, z+, r−, r+.
+/// States on the four faces of mixed cells, in the order of [`mesh::Side::ALL`]: z−, z+, r−, r+.
 ///
 /// MUSCL-Hancock on phase densities, velocities, pressure and gas fraction, with the predictor
 ///
@@ -74,57 +91,189 @@ pub(crate) struct Stencil<'a> {
 ///
 /// and the momentum's of [`crate::rows::rates`]. Phase densities are flat across an interface where partial ones are not. Where
 /// THINC finds a step, the gas fraction is its mean over what crosses the face and the phase densities are the cell's.
-pub(crate) fn face_states(cells: &Cells<'_>, k: usize, stencil: &Stencil<'_>) -> [FaceState; 4] {
-    let w = cells.phases(k, [0.0; 2]);
-    let neighbour = |at: usize| cells.phases(at, [w[0], w[1]]);
-    let around = [[k - 1, k + 1], [k - cells.stride, k + cells.stride]].map(|pair| pair.map(neighbour));
-    let limited = |[below, above]: [Phases; 2]| -> Phases {
-        std::array::from_fn(|c| stencil.limiter.difference(w[c] - below[c], above[c] - w[c]))
-    };
-    let mut differences = around.map(limited);
-    let mut half = half_step(w, differences, stencil.inverse_r[k], stencil);
-    let share = kept_share(cells, k, stencil);
-    if share < 1.0 {
-        differences = differences.map(|axis| axis.map(|d| share * d));
-        half = std::array::from_fn(|c| w[c] + share * (half[c] - w[c]));
+///
+/// - `at`: the cells; `states`: theirs in the same order, written. They do not depend on each other.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn face_states(
+    cells: &Cells<'_>,
+    at: &[usize],
+    stencil: &Stencil<'_>,
+    states: &mut [[FaceState; 4]],
+) {
+    match stencil.limiter {
+        Limiter::Mc => states_of(|a, b| Limiter::Mc.difference(a, b), cells, at, stencil, states),
+        Limiter::Minmod => states_of(|a, b| Limiter::Minmod.difference(a, b), cells, at, stencil, states),
+        Limiter::Eno => states_of(|a, b| Limiter::Eno.difference(a, b), cells, at, stencil, states),
+        Limiter::None => states_of(|a, b| Limiter::None.difference(a, b), cells, at, stencil, states),
     }
-    let normal = normal(around, stencil.inverse_h);
-    let mut states = [FaceState::default(); 4];
-    for axis in 0..2 {
-        let step = if stencil.options.is_sharp {
-            let [below, above] = around[axis];
-            Step::through(below[PHI], w[PHI], above[PHI], normal[axis])
-        } else {
-            None
-        };
-        let courant = w[V_Z + axis] * stencil.dt * stencil.inverse_h[axis];
-        for (end, sign) in [-0.5, 0.5].into_iter().enumerate() {
-            let mut face: Phases = std::array::from_fn(|c| half[c] + sign * differences[axis][c]);
-            if let Some(step) = step {
-                face[PHI] = if end == 0 { step.lower(courant) } else { step.upper(courant) };
-                [face[0], face[1]] = [w[0], w[1]];
-            }
-            states[2 * axis + end] = admissible(face, &w);
-        }
-    }
-    states
 }
 
-fn half_step(w: Phases, differences: [Phases; 2], inverse_r: f64, stencil: &Stencil<'_>) -> Phases {
-    let [d_z, d_r] = [0, 1].map(|axis: usize| differences[axis].map(|d| d * stencil.inverse_h[axis]));
-    let phi = w[PHI];
-    let compression = Compression::at(w[PRESSURE], phi, stencil.mixture, stencil.options.has_closure);
-    let rho = phi * w[0] + (1.0 - phi) * w[1];
-    let divergence = d_z[V_Z] + d_r[V_R] + w[V_R] * inverse_r;
-    let source = [
-        -w[0] * compression.gas * divergence,
-        -w[1] * compression.liquid * divergence,
-        -d_z[PRESSURE] / rho,
-        -d_r[PRESSURE] / rho,
-        -compression.modulus * divergence,
-        compression.expansion(phi) * divergence,
+#[inline(always)]
+fn states_of(
+    limit: impl Fn(f64, f64) -> f64 + Copy,
+    cells: &Cells<'_>,
+    at: &[usize],
+    stencil: &Stencil<'_>,
+    states: &mut [[FaceState; 4]],
+) {
+    let mut faces = [[[0.0; LANES]; 6]; 4];
+    for (chunk, states) in at.chunks(LANES).zip(states.chunks_mut(LANES)) {
+        // All lanes are walked; those left over repeat a cell.
+        let mut lanes = [chunk[0]; LANES];
+        lanes[..chunk.len()].copy_from_slice(chunk);
+        chunk_states(limit, cells, lanes, stencil, &mut faces);
+        for (lane, states) in states.iter_mut().enumerate() {
+            *states = faces.each_ref().map(|face| {
+                let [rho, v_z, v_r, p, phi, gas_share] = face.map(|row| row[lane]);
+                FaceState { w: [rho, v_z, v_r, p, phi], gas_share }
+            });
+        }
+    }
+}
+
+#[inline(always)]
+fn chunk_states(
+    limit: impl Fn(f64, f64) -> f64 + Copy,
+    cells: &Cells<'_>,
+    at: [usize; LANES],
+    stencil: &Stencil<'_>,
+    faces: &mut [[Lane; 6]; 4],
+) {
+    let w = cells.phases(at, [&[0.0; LANES]; 2]);
+    let own = [&w[RHO_G], &w[RHO_L]];
+    let around = [
+        [cells.phases(at.map(|k| k - 1), own), cells.phases(at.map(|k| k + 1), own)],
+        [cells.phases(at.map(|k| k - cells.stride), own), cells.phases(at.map(|k| k + cells.stride), own)],
     ];
-    std::array::from_fn(|c| w[c] + 0.5 * stencil.dt * (source[c] - (w[V_Z] * d_z[c] + w[V_R] * d_r[c])))
+    let mut differences = [ZERO; 2];
+    for (differences, [below, above]) in differences.iter_mut().zip(&around) {
+        for c in 0..6 {
+            for k in 0..LANES {
+                differences[c][k] = limit(w[c][k] - below[c][k], above[c][k] - w[c][k]);
+            }
+        }
+    }
+    let inverse_r = at.map(|k| stencil.inverse_r[k]);
+    let mut half = half_step(&w, &differences, &inverse_r, stencil);
+    if !stencil.options.has_closure {
+        let shares = at.map(|k| kept_share(cells, k, stencil));
+        for c in 0..6 {
+            for k in 0..LANES {
+                differences[0][c][k] *= shares[k];
+                differences[1][c][k] *= shares[k];
+                half[c][k] = w[c][k] + shares[k] * (half[c][k] - w[c][k]);
+            }
+        }
+    }
+    let normals = normals(&around, stencil.inverse_h);
+    for axis in 0..2 {
+        let mut ends = [ZERO; 2];
+        for c in 0..6 {
+            for k in 0..LANES {
+                ends[0][c][k] = half[c][k] - 0.5 * differences[axis][c][k];
+                ends[1][c][k] = half[c][k] + 0.5 * differences[axis][c][k];
+            }
+        }
+        if stencil.options.is_sharp {
+            let per_cell = stencil.dt * stencil.inverse_h[axis];
+            let [below, above] = &around[axis];
+            sharpen(&w, &below[PHI], &above[PHI], &normals[axis], axis, per_cell, &mut ends);
+        }
+        for (end, phases) in ends.iter().enumerate() {
+            admissible(phases, &w, &mut faces[2 * axis + end]);
+        }
+    }
+}
+
+#[inline(always)]
+fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, stencil: &Stencil<'_>) -> Phases {
+    let [inverse_hz, inverse_hr] = stencil.inverse_h;
+    let half_dt = 0.5 * stencil.dt;
+    let mut half = ZERO;
+    for k in 0..LANES {
+        let cell = w.map(|row| row[k]);
+        let (d_z, d_r) = (s_z.map(|row| row[k] * inverse_hz), s_r.map(|row| row[k] * inverse_hr));
+        let phi = cell[PHI];
+        let c = Compression::at(cell[PRESSURE], phi, stencil.mixture, stencil.options.has_closure);
+        let per_rho = 1.0 / (phi * cell[RHO_G] + (1.0 - phi) * cell[RHO_L]);
+        let divergence = d_z[V_Z] + d_r[V_R] + cell[V_R] * inverse_r[k];
+        let source = [
+            -cell[RHO_G] * c.gas * divergence,
+            -cell[RHO_L] * c.liquid * divergence,
+            -d_z[PRESSURE] * per_rho,
+            -d_r[PRESSURE] * per_rho,
+            -c.modulus * divergence,
+            c.expansion(phi) * divergence,
+        ];
+        for c in 0..6 {
+            half[c][k] = cell[c] + half_dt * (source[c] - (cell[V_Z] * d_z[c] + cell[V_R] * d_r[c]));
+        }
+    }
+    half
+}
+
+/// Puts THINC's step in the place of the linear gas fraction, and the cells' own phase densities, where there is one.
+///
+/// - `per_cell`: Δt/h; `ends`: the states on the lower and the upper face.
+#[inline(always)]
+fn sharpen(
+    w: &Phases,
+    below: &Lane,
+    above: &Lane,
+    normal: &Lane,
+    axis: usize,
+    per_cell: f64,
+    [lower, upper]: &mut [Phases; 2],
+) {
+    for k in 0..LANES {
+        let step = thinc::faces(below[k], w[PHI][k], above[k], normal[k], w[V_Z + axis][k] * per_cell);
+        let pick = |sharp: f64, smooth: f64| if step.is_step { sharp } else { smooth };
+        lower[PHI][k] = pick(step.lower, lower[PHI][k]);
+        upper[PHI][k] = pick(step.upper, upper[PHI][k]);
+        for c in [RHO_G, RHO_L] {
+            lower[c][k] = pick(w[c][k], lower[c][k]);
+            upper[c][k] = pick(w[c][k], upper[c][k]);
+        }
+    }
+}
+
+/// The unit normals ∇φ/|∇φ| from central differences; NaN where φ is uniform.
+#[inline(always)]
+fn normals([[west, east], [south, north]]: &[[Phases; 2]; 2], inverse_h: [f64; 2]) -> [Lane; 2] {
+    let mut normals = [[0.0; LANES]; 2];
+    for k in 0..LANES {
+        let along_z = (east[PHI][k] - west[PHI][k]) * inverse_h[0];
+        let along_r = (north[PHI][k] - south[PHI][k]) * inverse_h[1];
+        let per_size = 1.0 / (along_z * along_z + along_r * along_r).sqrt();
+        normals[0][k] = along_z * per_size;
+        normals[1][k] = along_r * per_size;
+    }
+    normals
+}
+
+/// Bounds of what a face may have relative to its cell: phase densities within a factor of five, a tenth of the pressure.
+const DENSITIES: [f64; 2] = [0.2, 5.0];
+const LEAST_PRESSURE: f64 = 0.1;
+
+/// From phases to ρ, v_z, v_r, p, φ and the gas's part of the mass, within the bounds.
+#[inline(always)]
+fn admissible(phases: &Phases, w: &Phases, face: &mut [Lane; 6]) {
+    let lower = |a: f64, b: f64| if a < b { a } else { b };
+    let upper = |a: f64, b: f64| if a > b { a } else { b };
+    for k in 0..LANES {
+        let within = |rho: f64, own: f64| lower(upper(rho, DENSITIES[0] * own), DENSITIES[1] * own);
+        let phi = lower(upper(phases[PHI][k], 0.0), 1.0);
+        let (p, own) = (phases[PRESSURE][k], w[PRESSURE][k]);
+        let p = if own > 0.0 { upper(p, LEAST_PRESSURE * own) } else { p };
+        let gas = phi * within(phases[RHO_G][k], w[RHO_G][k]);
+        let rho = gas + (1.0 - phi) * within(phases[RHO_L][k], w[RHO_L][k]);
+        face[0][k] = rho;
+        face[1][k] = phases[V_Z][k];
+        face[2][k] = phases[V_R][k];
+        face[3][k] = p;
+        face[4][k] = phi;
+        face[5][k] = gas / rho;
+    }
 }
 
 /// The share of its slopes that a cell keeps. Without the closure a mixed cell is nearly as stiff as liquid, and face
@@ -152,26 +301,6 @@ fn kept_share(cells: &Cells<'_>, k: usize, stencil: &Stencil<'_>) -> f64 {
     share
 }
 
-/// The unit normal ∇φ/|∇φ| from central differences; NaN where φ is uniform.
-fn normal([[west, east], [south, north]]: [[Phases; 2]; 2], inverse_h: [f64; 2]) -> [f64; 2] {
-    let gradient = [(east[PHI] - west[PHI]) * inverse_h[0], (north[PHI] - south[PHI]) * inverse_h[1]];
-    let size = gradient[0].hypot(gradient[1]);
-    gradient.map(|d| d / size)
-}
-
-/// Bounds of what a face may have relative to its cell: phase densities within a factor of five, a tenth of the pressure.
-const DENSITIES: [f64; 2] = [0.2, 5.0];
-const LEAST_PRESSURE: f64 = 0.1;
-
-fn admissible([rho_g, rho_l, v_z, v_r, p, phi]: Phases, w: &Phases) -> FaceState {
-    let within = |rho: f64, own: f64| rho.max(DENSITIES[0] * own).min(DENSITIES[1] * own);
-    let phi = phi.clamp(0.0, 1.0);
-    let p = if w[PRESSURE] > 0.0 { p.max(LEAST_PRESSURE * w[PRESSURE]) } else { p };
-    let gas = phi * within(rho_g, w[0]);
-    let rho = gas + (1.0 - phi) * within(rho_l, w[1]);
-    FaceState { w: [rho, v_z, v_r, p, phi], gas_share: gas / rho }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,7 +326,9 @@ mod tests {
             mixture: &mixture,
             options,
         };
-        face_states(&cells, 2 * STRIDE + 2, &stencil)
+        let mut states = [[FaceState::default(); 4]];
+        face_states(&cells, &[2 * STRIDE + 2], &stencil, &mut states);
+        states[0]
     }
 
     /// Gas on the left of water at one pressure and velocity, with a mixed cell in between.
