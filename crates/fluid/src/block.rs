@@ -343,7 +343,9 @@ fn count_fallbacks<const N: usize>(keep: &[f64]) -> u32 {
     let mut dropped = 0;
     for j in 0..N {
         let at = Padded::<N>::index(0, j as isize);
-        dropped += keep[at..at + N].iter().filter(|share| **share == 0.0).count() as u32;
+        // Mixed cells of the five-equation model hold −0: they have face states of their own.
+        let is_dropped = |share: &&f64| **share == 0.0 && share.is_sign_positive();
+        dropped += keep[at..at + N].iter().filter(is_dropped).count() as u32;
     }
     dropped
 }
