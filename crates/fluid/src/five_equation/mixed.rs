@@ -110,13 +110,12 @@ impl MixedCells {
         outer: [Outer; 4],
         is_marked: impl Fn(usize) -> bool,
     ) {
-        let n = N as isize;
         let is_listed = |k: usize| is_marked(k) || cells.is_at_interface(k);
-        for j in 0..n {
-            for i in 0..n {
-                let k = Padded::<N>::index(i, j);
-                if is_listed(k) {
-                    self.list(k);
+        for j in 0..N as isize {
+            let first = Padded::<N>::index(0, j);
+            for (i, is_at_interface) in cells.are_at_interface::<N>(first).into_iter().enumerate() {
+                if is_at_interface || is_marked(first + i) {
+                    self.list(first + i);
                 }
             }
         }

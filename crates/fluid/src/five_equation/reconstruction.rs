@@ -47,6 +47,23 @@ impl Cells<'_> {
         FaceState { w, gas_share: self.rows[5][k] / w[0] }
     }
 
+    /// Whether the cells of a row of N from `first` on are mixed, or pure beside one of the other phase.
+    pub fn are_at_interface<const N: usize>(&self, first: usize) -> [bool; N] {
+        let row = |at: usize| -> &[f64; N] { self.rows[4][at..].first_chunk().expect("rows have ghosts") };
+        let (phi, west, east) = (row(first), row(first - 1), row(first + 1));
+        let (south, north) = (row(first - self.stride), row(first + self.stride));
+        let mut flags = [false; N];
+        for i in 0..N {
+            let is_other = |other: f64| (other - phi[i]).abs() > 0.5;
+            flags[i] = ((phi[i] > PURE) & (phi[i] < 1.0 - PURE))
+                | is_other(west[i])
+                | is_other(east[i])
+                | is_other(south[i])
+                | is_other(north[i]);
+        }
+        flags
+    }
+
     /// Whether a cell is mixed, or pure beside one of the other phase.
     pub fn is_at_interface(&self, k: usize) -> bool {
         let phi = self.rows[4];
@@ -54,11 +71,19 @@ impl Cells<'_> {
         is_mixed(phi[k]) || [k - 1, k + 1, k - self.stride, k + self.stride].into_iter().any(is_other)
     }
 
-    /// Some cells by phases; a phase that is as good as absent has the density `else_densities`.
+    /// The cells `by` after some by phases; a phase that is as good as absent has the density `else_densities`.
     #[inline(always)]
-    fn phases(&self, at: [usize; LANES], else_densities: [&Lane; 2]) -> Phases {
-        let [rho, v_z, v_r, p, phi, gas] = self.rows.map(|row| at.map(|k| row[k]));
-        let mut phases = [[0.0; LANES], [0.0; LANES], v_z, v_r, p, phi];
+    fn phases(&self, at: [usize; LANES], by: isize, else_densities: [&Lane; 2]) -> Phases {
+        let [rho_row, v_z, v_r, p, phi, gas_row] = self.rows;
+        let mut phases = ZERO;
+        let (mut rho, mut gas) = ([0.0; LANES], [0.0; LANES]);
+        for (lane, &k) in at.iter().enumerate() {
+            let k = k.wrapping_add_signed(by);
+            (rho[lane], gas[lane]) = (rho_row[k], gas_row[k]);
+            (phases[V_Z][lane], phases[V_R][lane]) = (v_z[k], v_r[k]);
+            (phases[PRESSURE][lane], phases[PHI][lane]) = (p[k], phi[k]);
+        }
+        let phi = phases[PHI];
         for k in 0..LANES {
             // A phase's mass may lie below zero by what prediction may take the gas fraction below.
             let above_zero = |mass: f64| if mass > 0.0 { mass } else { 0.0 };
@@ -123,10 +148,10 @@ fn states_of(
         lanes[..chunk.len()].copy_from_slice(chunk);
         chunk_states(limit, cells, lanes, stencil, &mut faces);
         for (lane, states) in states.iter_mut().enumerate() {
-            *states = faces.each_ref().map(|face| {
-                let [rho, v_z, v_r, p, phi, gas_share] = face.map(|row| row[lane]);
-                FaceState { w: [rho, v_z, v_r, p, phi], gas_share }
-            });
+            for (state, face) in states.iter_mut().zip(&faces) {
+                let w = [face[0][lane], face[1][lane], face[2][lane], face[3][lane], face[4][lane]];
+                *state = FaceState { w, gas_share: face[5][lane] };
+            }
         }
     }
 }
@@ -139,11 +164,12 @@ fn chunk_states(
     stencil: &Stencil<'_>,
     faces: &mut [[Lane; 6]; 4],
 ) {
-    let w = cells.phases(at, [&[0.0; LANES]; 2]);
+    let w = cells.phases(at, 0, [&[0.0; LANES]; 2]);
     let own = [&w[RHO_G], &w[RHO_L]];
+    let along_r = cells.stride as isize;
     let around = [
-        [cells.phases(at.map(|k| k - 1), own), cells.phases(at.map(|k| k + 1), own)],
-        [cells.phases(at.map(|k| k - cells.stride), own), cells.phases(at.map(|k| k + cells.stride), own)],
+        [cells.phases(at, -1, own), cells.phases(at, 1, own)],
+        [cells.phases(at, -along_r, own), cells.phases(at, along_r, own)],
     ];
     let mut differences = [ZERO; 2];
     for (differences, [below, above]) in differences.iter_mut().zip(&around) {
@@ -153,7 +179,10 @@ fn chunk_states(
             }
         }
     }
-    let inverse_r = at.map(|k| stencil.inverse_r[k]);
+    let mut inverse_r = [0.0; LANES];
+    for (inverse, &k) in inverse_r.iter_mut().zip(&at) {
+        *inverse = stencil.inverse_r[k];
+    }
     let mut half = half_step(&w, &differences, &inverse_r, stencil);
     if !stencil.options.has_closure {
         let shares = at.map(|k| kept_share(cells, k, stencil));
@@ -191,8 +220,12 @@ fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, stencil: &S
     let half_dt = 0.5 * stencil.dt;
     let mut half = ZERO;
     for k in 0..LANES {
-        let cell = w.map(|row| row[k]);
-        let (d_z, d_r) = (s_z.map(|row| row[k] * inverse_hz), s_r.map(|row| row[k] * inverse_hr));
+        let of = |rows: &Phases| [rows[0][k], rows[1][k], rows[2][k], rows[3][k], rows[4][k], rows[5][k]];
+        let per_width = |[a, b, c, d, e, f]: [f64; 6], inverse_h: f64| {
+            [a * inverse_h, b * inverse_h, c * inverse_h, d * inverse_h, e * inverse_h, f * inverse_h]
+        };
+        let cell = of(w);
+        let (d_z, d_r) = (per_width(of(s_z), inverse_hz), per_width(of(s_r), inverse_hr));
         let phi = cell[PHI];
         let c = Compression::at(cell[PRESSURE], phi, stencil.mixture, stencil.options.has_closure);
         let per_rho = 1.0 / (phi * cell[RHO_G] + (1.0 - phi) * cell[RHO_L]);
