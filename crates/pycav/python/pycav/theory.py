@@ -17,7 +17,7 @@ RAYLEIGH_FACTOR = float(beta(5 / 6, 1 / 2) / np.sqrt(6))
 
 @dataclass(frozen=True)
 class Bubble:
-    """A spherical gas bubble at rest in liquid at rest, SI."""
+    """A spherical gas bubble in liquid, SI."""
 
     radius: float
     gas_pressure: float
@@ -25,6 +25,8 @@ class Bubble:
     pressure: float
     density: float
     sound_speed: float
+    begins_at_rest: bool
+    """Whether the liquid begins in the pressure field of Rayleigh's problem instead of a uniform pressure."""
 
     @classmethod
     def of(cls, result: Result) -> Bubble | None:
@@ -38,7 +40,8 @@ class Bubble:
             return None
         liquid, gas, bubble = fluid["liquid"], fluid["gas"], spheres[0]
         c = np.sqrt(liquid["gamma"] * (ambient["pressure"] + liquid["pi"]) / ambient["density"])
-        return cls(bubble["radius"], bubble["pressure"], gas["gamma"], ambient["pressure"], ambient["density"], float(c))
+        return cls(bubble["radius"], bubble["pressure"], gas["gamma"], ambient["pressure"], ambient["density"], float(c),
+                   fluid.get("initial_pressure") == "rayleigh")
 
     @property
     def collapse_time(self) -> float:
@@ -54,17 +57,23 @@ class Bubble:
         return self.collapse_time * (1.0 - betainc(5 / 6, 1 / 2, x**3)), self.radius * x
 
     def keller_miksis(self, end: float, points: int = 2000) -> tuple[Floats, Floats]:
-        """Times in s and radii in m up to `end` by the equation of Keller and Miksis (1980), gas p R^(3γ) = const."""
+        """Times in s and radii in m up to `end` by the equation of Keller and Miksis (1980), gas p R^(3γ) = const.
+
+        Where the liquid begins at a uniform pressure, the pressure on the bubble's wall falls to the gas's at once; the
+        term R ṗ/(ρc) of the equation then starts the wall with (p_gas − p∞)/(ρc).
+        """
         rho, c, p_inf, k = self.density, self.sound_speed, self.pressure, 3 * self.gas_exponent
+        start = 0.0 if self.begins_at_rest else (self.gas_pressure - p_inf) / (rho * c)
 
         def rate(_: float, y: Floats) -> list[float]:
-            radius, speed = y
-            p = self.gas_pressure * (self.radius / radius) ** k
+            # By the logarithm of R/R₀, which no step makes negative.
+            radius, speed = self.radius * np.exp(y[0]), y[1]
+            p = self.gas_pressure * np.exp(-k * y[0])
             mach = speed / c
             change = -k * p * speed / radius  # of the gas's pressure in time
             pull = (1 + mach) * (p - p_inf) / rho + radius * change / (rho * c) - 1.5 * (1 - mach / 3) * speed**2
-            return [speed, pull / ((1 - mach) * radius)]
+            return [speed / radius, pull / ((1 - mach) * radius)]
 
-        found = solve_ivp(rate, (0.0, end), [self.radius, 0.0], "DOP853", np.linspace(0, end, points), rtol=1e-9,
-                          atol=[1e-9 * self.radius, 1e-9 * c])
-        return np.asarray(found.t), np.asarray(found.y[0])
+        found = solve_ivp(rate, (0.0, end), [0.0, start], "DOP853", np.linspace(0, end, points), rtol=1e-9,
+                          atol=[1e-9, 1e-9 * c])
+        return np.asarray(found.t), np.asarray(self.radius * np.exp(found.y[0]))

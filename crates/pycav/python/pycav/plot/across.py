@@ -8,11 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, SymLogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 from ..mesh import Floats
 from ..result import Snapshot
 from .section import Run, Section, Window, bar
-from .style import BLUE, INK, ORANGE, number, prefix, styled
+from .style import BLUE, INK, ORANGE, legend, number, prefix, styled
 
 MEGA = 1e-6
 
@@ -23,12 +24,12 @@ def interface_continuity(
 ) -> Figure:
     """v_z in both media, and |σ_zz| beside |p|, each on one scale: nothing may jump at the interface.
 
-    Insets show the same along the axis.
+    Below, the same along the axis.
     """
     section = Section.of(run, time, window)
     if len(section.snapshots) < 2 or section.wall is None:
         raise ValueError("the run has no interface between two media")
-    figure, (left, right) = section.canvas(2)
+    figure, (left, right) = section.canvas(2, foot=2.75)
     rasters = {medium: section.raster(medium) for medium in ("solid", "fluid")}
     shown = {medium: raster for medium, raster in rasters.items() if raster is not None}
 
@@ -39,11 +40,11 @@ def interface_continuity(
     drawn: Any = None
     for medium, raster in shown.items():
         drawn = section.show(left, raster, velocity[medium], cmap="RdBu_r", norm=signed)
-    ticks = sorted([s * 10.0**k for s in (-1, 1) for k in range(-1, 4) if 10.0**k < top] + [0.0])
-    bar(figure, left, drawn, "$v_z$ / (m s$^{-1}$)", extend="both", ticks=ticks)
+    ticks = sorted([s * 10.0**k for s in (-1, 1) for k in (-1, 1, 3) if 10.0**k < top] + [0.0])
+    bar(figure, left, drawn, "$v_z$ / (m s$^{-1}$)", extend="both", up=2.2, ticks=ticks)
     section.bubble(left)
     section.names(left, "Normal velocity")
-    _inset(section, left, {"solid": ("velocity", 1.0), "fluid": ("velocity", 1.0)}, "$v_z$ / (m s$^{-1}$)")
+    _below(figure, section, left, {"solid": ("velocity", 1.0), "fluid": ("velocity", 1.0)}, "$v_z$ / (m s$^{-1}$)")
 
     pressure = {medium: MEGA * np.abs(raster.paint(section.snapshots[medium][name]))
                 for (medium, raster), name in zip(shown.items(), ("stress_zz", "pressure"))}
@@ -51,9 +52,9 @@ def interface_continuity(
     scale = LogNorm(highest / 30, highest, clip=True)
     for medium, raster in shown.items():
         drawn = section.show(right, raster, pressure[medium], cmap="cividis", norm=scale)
-    bar(figure, right, drawn, r"$|\sigma_{zz}|$ and $|p|$ / MPa", extend="min")
+    bar(figure, right, drawn, r"$|\sigma_{zz}|$ and $|p|$ / MPa", extend="min", up=2.2)
     section.names(right, "Normal stress")
-    _inset(section, right, {"solid": ("stress_zz", -MEGA), "fluid": ("pressure", MEGA)}, r"$-\sigma_{zz}$, $p$ / MPa")
+    _below(figure, section, right, {"solid": ("stress_zz", -MEGA), "fluid": ("pressure", MEGA)}, r"$-\sigma_{zz}$, $p$ / MPa")
     if levels:
         section.levels(left)
         section.levels(right)
@@ -69,11 +70,12 @@ def along(snapshot: Snapshot, values: Floats, r: float) -> tuple[Floats, Floats]
     return z, mesh.sample(values, np.column_stack([z, np.full_like(z, r)]))
 
 
-def _inset(section: Section, axes: Axes, fields: dict[str, tuple[str, float]], label: str) -> None:
-    """A small panel: the quantity along the axis through the interface."""
+def _below(figure: Figure, section: Section, axes: Axes, fields: dict[str, tuple[str, float]], label: str) -> None:
+    """A small panel below another one: the quantity along the axis through the interface."""
     wall = section.wall or 0.0
-    inset = axes.inset_axes((0.13, 0.1, 0.36, 0.2))
-    reach = 0.1 * (section.box[1] - section.box[0])
+    place, inch = axes.get_position(), 1 / figure.get_figheight()
+    below = figure.add_axes((place.x0, 0.42 * inch, place.width, 1.1 * inch))
+    reach = 0.2 * (section.box[1] - section.box[0])
     scale, letter = prefix(reach)
     for (medium, (name, factor)), colour in zip(fields.items(), (BLUE, ORANGE)):
         snapshot = section.snapshots[medium]
@@ -81,9 +83,11 @@ def _inset(section: Section, axes: Axes, fields: dict[str, tuple[str, float]], l
         r = 0.25 * float(snapshot.mesh.finest[1])
         z, found = along(snapshot, values[:, 0] if values.ndim == 2 else values, r)
         near = np.abs(z - wall) < reach
-        inset.plot((z[near] - wall) * scale, factor * found[near], color=colour, linewidth=1)
-    inset.axvline(0, color=INK, linewidth=0.6)
-    inset.tick_params(labelsize=6, length=2, pad=1)
-    inset.xaxis.set_major_formatter(lambda z, _: number(z))
-    inset.set_title(f"{label} on the axis, by {letter}m off the wall", fontsize=6, pad=2)
-    inset.margins(x=0)
+        below.plot((z[near] - wall) * scale, factor * found[near], color=colour, label=medium)
+    below.axvline(0, color=INK, linewidth=0.6)
+    below.xaxis.set_major_formatter(FuncFormatter(lambda z, _: number(z)))
+    below.set_xlabel(f"$z$ off the wall, on the axis / {letter}m", labelpad=1)
+    below.set_title(label, fontsize=8, pad=3, loc="left")
+    below.tick_params(labelsize=8)
+    below.set_xlim(-reach * scale, reach * scale)
+    legend(below, fontsize=7)

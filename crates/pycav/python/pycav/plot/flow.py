@@ -101,7 +101,7 @@ def pathlines(
     *,
     until: float | None = None,
     spacing: float | None = None,
-    substeps: int = 16,
+    substeps: int = 8,
 ) -> Figure:
     """Where particles of a regular grid have gone from t = 0 on, advected through the snapshots by Heun's method.
 

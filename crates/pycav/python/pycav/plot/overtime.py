@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
+from ..mesh import Floats
 from ..result import Result, open_run
 from ..theory import Bubble
 from .across import along
@@ -79,7 +80,7 @@ def _loads(result: Result, axes: Axes, yield_strength: Sequence[float]) -> None:
         largest = max(largest, float(np.nanmax(values)))
     for strength in yield_strength:
         axes.axhline(strength, color=GREY, linewidth=0.6, dashes=(4, 3))
-        axes.annotate(f"$Y_0$ = {strength * 1e-6:.0f} MPa", (0.01, strength), ("axes fraction", "data"), fontsize=7,
+        axes.annotate(f"$Y_0$ = {strength * 1e-6:.0f} MPa", (0.01, strength), xycoords=("axes fraction", "data"), fontsize=7,
                       color="0.35", va="bottom")
         largest = max(largest, strength)
     ticks(axes.yaxis, largest, "stress", "Pa")
@@ -116,7 +117,7 @@ def _wall(result: Result, reach: float | None) -> Figure:
     shown = r <= far
     pressure = data["interface/pressure"].to_numpy()[:, shown]
     figure, axes = _panel()
-    letter = _image(figure, axes, r[shown], time, pressure, "$p^*$")
+    _image(figure, axes, r[shown], time, pressure, "$p^*$", 99.9)
     ticks(axes.xaxis, far, "$r$", "m")
     ticks(axes.yaxis, float(time[-1]), "$t$", "s")
     row, column = np.unravel_index(int(np.argmax(pressure)), pressure.shape)
@@ -148,7 +149,7 @@ def _axis(result: Result, reach: float | None) -> Figure:
             inside = (z > snapshot.mesh.low[0]) & (z < snapshot.mesh.high[0])
             rows[step, inside] = np.interp(z[inside], place, values)
     figure, axes = _panel()
-    _image(figure, axes, z, times, rows, r"$p$, $-\sigma_{zz}$")
+    _image(figure, axes, z, times, rows, r"$p$, $-\sigma_{zz}$", 99.0)
     axes.axvline(wall, color=INK, linewidth=0.8)
     ticks(axes.xaxis, max(abs(low), abs(high)), "$z$", "m")
     ticks(axes.yaxis, float(times[-1]), "$t$", "s")
@@ -156,9 +157,9 @@ def _axis(result: Result, reach: float | None) -> Figure:
     return figure
 
 
-def _image(figure: Figure, axes: Axes, x: np.ndarray, time: np.ndarray, values: np.ndarray, symbol: str) -> str:
-    """A field over place and time on one scale; the largest few values may leave it. Returns the unit's prefix."""
-    top = float(np.nanpercentile(values, 99.9))
+def _image(figure: Figure, axes: Axes, x: Floats, time: Floats, values: Floats, symbol: str, share: float) -> None:
+    """A field over place and time on one scale that `share` per cent of the values are within."""
+    top = float(np.nanpercentile(values, share))
     least = float(np.nanpercentile(values, 0.1))
     scale, letter = prefix(max(abs(top), abs(least)))
     tension = least < -0.02 * top
@@ -166,4 +167,3 @@ def _image(figure: Figure, axes: Axes, x: np.ndarray, time: np.ndarray, values: 
     drawn = axes.pcolormesh(x, time, values * scale, cmap="RdBu_r" if tension else "cividis", norm=norm,
                             shading="nearest", rasterized=True)
     figure.colorbar(drawn, ax=axes, label=f"{symbol} / {letter}Pa", extend="both", pad=0.02, aspect=30)
-    return letter

@@ -156,13 +156,13 @@ class Section:
 
 def bar(
     figure: Figure, axes: Axes, drawn: Any, label: str, part: tuple[float, float] = (0.0, 1.0), extend: str = "neither",
-    **more: Any,
+    up: float = 0.40, **more: Any,
 ) -> Any:
-    """A slim bar below a part of a panel; labels are in the units of the image."""
+    """A slim bar below a part of a panel, `up` inches from the foot; labels are in the units of the image."""
     place = axes.get_position()
     inch = 1 / figure.get_figheight()
     x, width = place.x0 + part[0] * place.width, (part[1] - part[0]) * place.width
-    into = figure.add_axes((x + 0.02 * width, 0.40 * inch, 0.96 * width, 0.09 * inch))
+    into = figure.add_axes((x + 0.02 * width, up * inch, 0.96 * width, 0.09 * inch))
     more.setdefault("format", FuncFormatter(lambda value, _: number(value)))
     colours = figure.colorbar(drawn, cax=into, orientation="horizontal", extend=extend, extendfrac=0.03, **more)
     if isinstance(drawn.norm, LogNorm):

@@ -21,10 +21,11 @@ ORANGE, BLUE, GREEN, PINK = "#d55e00", "#0072b2", "#009e73", "#cc79a7"
 WIDTH = 6.0  # inches: two columns of a journal
 
 RC = {
-    "font.family": "serif", "font.serif": ["STIX Two Text", "STIXGeneral", "DejaVu Serif"],
+    # By name: a generic family would be looked up again, with other settings, when the picture is saved.
+    "font.family": ["STIXGeneral", "DejaVu Serif"],
     "mathtext.fontset": "stix", "font.size": 9, "axes.linewidth": 0.6, "axes.edgecolor": INK,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.major.size": 3, "ytick.major.size": 3,
-    "savefig.facecolor": "white", "savefig.dpi": 200, "figure.dpi": 120, "legend.frameon": False, "legend.fontsize": 8,
+    "figure.facecolor": "white", "figure.dpi": 200, "legend.frameon": False, "legend.fontsize": 8,
     "lines.linewidth": 1.0,
 }
 

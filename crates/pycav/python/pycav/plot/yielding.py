@@ -9,7 +9,7 @@ from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from .section import Run, Section, Window, bar
-from .style import INK, WHITE, number, styled
+from .style import INK, WHITE, number, prefix, styled
 
 MEGA = 1e-6
 
@@ -57,10 +57,10 @@ def yield_function(
         excess = number(round((stress.max() - strength) * MEGA))
         axes.text(0.03, 0.02, rf"largest $\Phi$: {excess} MPa", transform=axes.transAxes, fontsize=8, color=INK,
                   bbox={"boxstyle": "square,pad=0.2", "facecolor": WHITE, "edgecolor": "none", "alpha": 0.85})
-    last = panels[len(panels) - 1]
-    last.set_title(f"$t$ = {section.time * 1e6:.1f} µs", loc="right", fontsize=9, pad=4)
     wide = panels[:1] if len(panels) == 1 else panels
     first, end = wide[0].get_position(), wide[-1].get_position()
     part = (0.0, (end.x1 - first.x0) / first.width)
-    bar(figure, wide[0], drawn, r"$\Phi = \sigma_\mathrm{vM} - Y_0$ / MPa", part, "max")
+    scale, letter = prefix(section.time)
+    label = rf"$\Phi = \sigma_\mathrm{{vM}} - Y_0$ / MPa at $t$ = {section.time * scale:.1f} {letter}s"
+    bar(figure, wide[0], drawn, label, part, "max")
     return figure
