@@ -113,6 +113,9 @@ pub struct FluidSolver {
 fn wall_traces(solver: &fluid::FluidSolver<BLOCK>, dt: f64) -> Vec<FluidTrace> {
     let nothing = FluidTrace { pressure: 0.0, velocity: 0.0, density: 0.0, gamma: 0.0, pi: 0.0 };
     let mut traces = vec![nothing; solver.wall_faces()];
+    if traces.is_empty() {
+        return traces;
+    }
     let half = 0.5 * dt;
     solver.write_trace(dt, |row, face, value| {
         let trace = &mut traces[face];

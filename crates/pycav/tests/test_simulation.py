@@ -254,7 +254,7 @@ def test_an_initial_state_from_functions(small):
 
 
 def test_a_functions_state_is_the_cases_where_they_agree(root):
-    """The shock tube's initial state by a function: the same run to the last bit."""
+    """The shock tube's initial state cell by cell: the same run, but for the round-off of the way there and back."""
     case = pycav.Case(root / "cases/shock-tube.toml")
     plain = pycav.Simulation(case)
     start = plain.fields("fluid")

@@ -18,16 +18,16 @@ from ._pycav import CaseError, CouplingError, InternalError, NumericalError, Out
 
 if TYPE_CHECKING:
     from . import plot, theory
-    from .animate import animate
+    from ._animate import animate
     from .case import Case, Material, materials
     from .cells import Cells
-    from .report import report
+    from ._report import report
     from .result import Result, Snapshot
     from .result import open_run as open
-    from .run import run
+    from ._run import run
     from .simulation import Simulation
     from .solvers import FluidSolver, SolidSolver
-    from .sweep import stand_off_map, sweep
+    from ._sweep import stand_off_map, sweep
 
 __all__ = [
     "Case", "CaseError", "Cells", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
@@ -38,8 +38,8 @@ __all__ = [
 # Where names live. They are fetched when they are first used: the processes of a run need none of them.
 _PLACES = {
     "Case": "case", "Cells": "cells", "FluidSolver": "solvers", "Material": "case", "Result": "result",
-    "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "animate",
-    "materials": "case", "open": "result", "report": "report", "run": "run", "stand_off_map": "sweep", "sweep": "sweep",
+    "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
+    "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
 }
 
 
@@ -49,7 +49,6 @@ def __getattr__(name: str) -> Any:
     if name not in _PLACES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     found = getattr(import_module(f".{_PLACES[name]}", __name__), "open_run" if name == "open" else name)
-    # Importing a module has put it here by its own name, which may be that of the function in it.
     globals()[name] = found
     return found
 

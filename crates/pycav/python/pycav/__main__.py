@@ -25,7 +25,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _report(given: list[str]) -> int:
-    from .report import report
+    from ._report import report
 
     parser = argparse.ArgumentParser(prog="pycav report", description="Write one self-contained page on a run.")
     parser.add_argument("run", metavar="RUN_DIR", help="directory of a run")

@@ -7,6 +7,11 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "Case", "CaseError", "CouplingError", "FluidSolver", "InternalError", "NumericalError", "OutputError", "RunError",
+    "Simulation", "SolidSolver", "main", "materials", "run_in_processes",
+]
+
 _Array = NDArray[np.float64]
 _Initial = Callable[[_Array, _Array], Mapping[str, ArrayLike]]
 _Path = str | PathLike[str]

@@ -20,7 +20,7 @@ ORANGE, BLUE, GREEN, PINK = "#d55e00", "#0072b2", "#009e73", "#cc79a7"
 
 WIDTH = 6.0  # inches: two columns of a journal
 
-RC = {
+RC: dict[Any, Any] = {
     # By name: a generic family would be looked up again, with other settings, when the picture is saved.
     "font.family": ["STIXGeneral", "DejaVu Serif"],
     "mathtext.fontset": "stix", "font.size": 9, "axes.linewidth": 0.6, "axes.edgecolor": INK,

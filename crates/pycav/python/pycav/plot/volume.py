@@ -36,13 +36,14 @@ def volume(run: Run, time: float | None = None, *, angle: float = 270.0, cells: 
         points = np.stack(np.meshgrid(z, r, indexing="ij"), -1).reshape(-1, 2)
         values = mesh.sample(snapshot[name], np.clip(points, mesh.low + edge, mesh.high - edge))
         # A point (z, r) of the section becomes (r, 0, z): turning is about the third axis.
-        grid = pyvista.StructuredGrid(*(a.reshape(cells + 1, cells + 1, 1) for a in (
-            points[:, 1], np.zeros(len(points)), points[:, 0])))
-        grid.point_data[name] = values.reshape(cells + 1, cells + 1).ravel(order="F")
+        low = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+        quads = np.column_stack([np.full(cells * cells, 4), low, low + 1, low + cells + 2, low + cells + 1])
+        grid = pyvista.PolyData(np.column_stack([points[:, 1], np.zeros(len(points)), points[:, 0]]), quads.ravel())
+        grid.point_data[name] = values
         if medium == "fluid":
             line = grid.contour([0.5], scalars=name)
             if line.n_points:
                 parts["bubble"] = line.extrude_rotate(resolution=90, capping=False)
         else:
-            parts["solid"] = grid.extract_surface().extrude_rotate(resolution=90, angle=angle, capping=True)
+            parts["solid"] = grid.extrude_rotate(resolution=90, angle=angle, capping=True)
     return parts

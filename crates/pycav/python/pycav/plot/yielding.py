@@ -36,8 +36,8 @@ def yield_function(
         raise ValueError("the run has no solid")
     snapshot = section.snapshots["solid"]
     mesh = snapshot.mesh
-    section.box = (*(float(x) for x in mesh.high[:1] - (mesh.high - mesh.low)[:1]), float(mesh.high[0]),
-                   float(mesh.low[1]), float(mesh.high[1])) if window is None else (window[0], window[1], 0.0, window[2])
+    (z_low, r_low), (z_high, r_high) = mesh.low.tolist(), mesh.high.tolist()
+    section.box = (z_low, z_high, r_low, r_high) if window is None else (window[0], window[1], r_low, window[2])
     section.snapshots = {"solid": snapshot}
     raster = section.raster("solid")
     if raster is None:

@@ -17,7 +17,7 @@ import xarray
 from . import _toml
 from .case import Case
 from .result import Result
-from .run import run
+from ._run import run
 
 STAND_OFF = "stand_off"
 ERROR = "error.json"

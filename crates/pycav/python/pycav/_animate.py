@@ -57,7 +57,7 @@ def _strongest(result: Result) -> dict[str, float]:
 
 def _pixels(figure: Figure, dpi: int) -> Image8:
     figure.set_dpi(dpi)
-    canvas = FigureCanvasAgg(figure)
+    canvas: Any = FigureCanvasAgg(figure)
     canvas.draw()
     pixels: Image8 = np.asarray(canvas.buffer_rgba())[..., :3]
     # Codecs want even numbers of pixels.
