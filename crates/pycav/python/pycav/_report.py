@@ -109,18 +109,33 @@ def _resolution(result: Result) -> str:
 
 def _pictures(result: Result) -> Iterable[str]:
     time = default_time(result)
+    near, deep = _windows(result)
     drawings: list[tuple[str, Callable[[], Figure]]] = [("Histories", lambda: plot.histories(result))]
-    drawings.append(("Numerical schlieren", lambda: plot.schlieren(result, time)))
+    drawings.append(("Numerical schlieren", lambda: plot.schlieren(result, time, near)))
     if len(result.media) == 2:
-        drawings.append(("Normal velocity and normal stress", lambda: plot.interface_continuity(result, time)))
+        drawings.append(("Normal velocity and normal stress", lambda: plot.interface_continuity(result, time, near)))
     if "solid" in result.media:
         strength = result.summary.get("yield_strength")
         strengths = [float(strength)] if strength else [95e6, 250e6, 502e6]
-        drawings.append(("Yield function", lambda: plot.yield_function(result, strengths, time)))
+        drawings.append(("Yield function", lambda: plot.yield_function(result, strengths, time, deep)))
     if "interface/pressure" in result.histories:
         drawings.append(("Pressure on the wall over time", lambda: plot.space_time(result, "wall")))
     for name, draw in drawings:
         yield picture(draw(), name)
+
+
+def _windows(result: Result) -> tuple[plot.Window | None, plot.Window | None]:
+    """What is near the bubble and the wall, in both media and in the solid; all if there is no bubble."""
+    radius = result.radius
+    if radius is None:
+        return None, None
+    reach = {medium: result.snapshots(medium)[0].mesh for medium in result.media}
+    low, high = (float(pick(mesh.low[0] if pick is min else mesh.high[0] for mesh in reach.values())) for pick in (min, max))
+    far = min(float(mesh.high[1]) for mesh in reach.values())
+    wall = float(reach["fluid"].low[0])
+    across = min(4.5 * radius, far)
+    near = (max(low, wall - 4.5 * radius), min(high, wall + 4.5 * radius), across)
+    return near, (max(low, wall - 3.0 * radius), wall, min(3.0 * radius, far))
 
 
 def picture(figure: Figure, name: str) -> str:

@@ -216,15 +216,20 @@ class Result:
         return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "unit", "time"])
 
     @property
-    def cells_per_radius(self) -> float | None:
-        """Finest fluid cells along the radius of the first gas sphere, without which no peak means much."""
-        fluid = self.parameters.get("fluid", {})
-        spheres = [region["radius"] for region in fluid.get("region", [])
+    def radius(self) -> float | None:
+        """Radius of the case's first gas sphere, m; `None` if it has none."""
+        spheres = [region["radius"] for region in self.parameters.get("fluid", {}).get("region", [])
                    if region.get("shape") == "sphere" and region.get("phase") == "gas"]
-        if not spheres:
+        return float(spheres[0]) if spheres else None
+
+    @property
+    def cells_per_radius(self) -> float | None:
+        """Finest fluid cells along that radius, without which no peak means much."""
+        if self.radius is None:
             return None
+        fluid = self.parameters["fluid"]
         low, high = fluid["r"]
-        return float(spheres[0] * fluid["cells"][1] * 2 ** fluid.get("levels", 0) / (high - low))
+        return float(self.radius * fluid["cells"][1] * 2 ** fluid.get("levels", 0) / (high - low))
 
     def __repr__(self) -> str:
         state = "completed" if self.summary.get("completed") else "not completed"

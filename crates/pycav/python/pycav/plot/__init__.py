@@ -10,12 +10,12 @@ from .across import interface_continuity
 from .flow import pathlines, streamlines
 from .maps import stand_off_map
 from .overtime import histories, space_time
-from .section import default_time
+from .section import Window, default_time
 from .volume import volume
 from .waves import schlieren
 from .yielding import yield_function
 
 __all__ = [
-    "default_time", "histories", "interface_continuity", "pathlines", "schlieren", "space_time", "stand_off_map",
+    "Window", "default_time", "histories", "interface_continuity", "pathlines", "schlieren", "space_time", "stand_off_map",
     "streamlines", "volume", "yield_function",
 ]
