@@ -29,8 +29,8 @@ def cav() -> Callable[..., subprocess.CompletedProcess[str]]:
     binary = os.environ.get("CAV_BINARY")
     assert binary and Path(binary).is_file(), "set CAV_BINARY to the program cav: target/release/cav"
 
-    def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-        return subprocess.run([binary, *map(str, arguments)], cwd=ROOT, text=True, capture_output=True, check=False)
+    def run(*arguments: object, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([binary, *map(str, arguments)], cwd=cwd, text=True, capture_output=True, check=False)
 
     return run
 

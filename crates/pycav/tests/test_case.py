@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import pickle
+import re
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +14,34 @@ import pycav
 from pycav import _toml
 
 COARSE = "cases/dickopp2012-coarse.toml"
+
+ROOT = Path(__file__).parents[3]
+
+
+def table():
+    """The program's own table of bad cases: what is done to a good case, as text and `--set`."""
+    source = (ROOT / "tests/case_errors.rs").read_text()
+    good = re.search(r'const GOOD: &str = r#"(.*?)"#;', source, re.S)[1]
+    rows = []
+    for kind, arguments in re.findall(r"^    \((Whole|Replace|Append|Sets)\((.*?)\), &\[", source, re.M):
+        given = ast.literal_eval(f"({arguments.replace('&[', '[')},)")
+        text = {"Whole": lambda: given[0], "Replace": lambda: good.replace(*given, 1),
+                "Append": lambda: f"{good}\n{given[0]}", "Sets": lambda: good}[kind]()
+        rows.append((text, given[0] if kind == "Sets" else []))
+    return rows
+
+
+def test_the_whole_table_of_bad_cases_is_refused_in_the_same_words(cav, tmp_path):
+    rows = table()
+    assert len(rows) > 100 and any(sets for _, sets in rows)
+    for text, sets in rows:
+        (tmp_path / "bad.toml").write_text(text)
+        told = cav("check", "bad.toml", *(word for change in sets for word in ("--set", change)), cwd=tmp_path)
+        assert told.returncode == 2, (text, sets)
+        with pytest.raises(pycav.CaseError) as refused:
+            pycav.Case.from_toml(text, "bad")._native.with_sets(sets)
+        assert str(refused.value) == told.stderr.rstrip()
+
 
 BAD = [
     ["time.cfl=2"], ["time.end=-1"], ["fluid.raduis=3"], ["fluid.region.0.radius=0"], ["fluid.region.1.radius=1"],

@@ -21,13 +21,19 @@ def run(*arguments, **options):
     return done.stdout
 
 
-def test_types_are_strict(tmp_path):
-    told = run("-m", "mypy", "--config-file", CONFIGURATION, "--cache-dir", tmp_path, PACKAGE)
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory):
+    """Both checks of types share what they find."""
+    return {**os.environ, "MYPY_CACHE_DIR": str(tmp_path_factory.mktemp("mypy"))}
+
+
+def test_types_are_strict(environment):
+    source = CONFIGURATION.parent / "python" / "pycav"
+    told = run("-m", "mypy", "--config-file", CONFIGURATION, source, env=environment)
     assert "no issues" in told
 
 
-def test_the_stub_is_what_was_compiled(tmp_path):
-    environment = {**os.environ, "MYPY_CACHE_DIR": str(tmp_path)}
+def test_the_stub_is_what_was_compiled(environment):
     told = run("-m", "mypy.stubtest", "pycav._pycav", "--mypy-config-file", CONFIGURATION, env=environment)
     assert "no issues" in told
 

@@ -7,7 +7,7 @@ import json
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import h5py
 import numpy as np
@@ -86,7 +86,13 @@ class Snapshots(Sequence[Snapshot]):
     def __len__(self) -> int:
         return len(self.times)
 
-    def __getitem__(self, step: Any) -> Any:
+    @overload
+    def __getitem__(self, step: int) -> Snapshot: ...
+
+    @overload
+    def __getitem__(self, step: slice) -> list[Snapshot]: ...
+
+    def __getitem__(self, step: int | slice) -> Snapshot | list[Snapshot]:
         if isinstance(step, slice):
             return [self[k] for k in range(*step.indices(len(self)))]
         if not -len(self) <= step < len(self):
