@@ -2,13 +2,13 @@
 //!
 //! | module | is |
 //! |---|---|
-//! | [`case`] | a case file, read and changed |
-//! | [`simulation`] | a run in this process, step by step |
-//! | [`alone`] | the fluid's and the solid's solver, each with its surface driven from Python |
-//! | [`fields`] | cells and samples of a solver as arrays |
-//! | [`initial`] | initial states that Python functions give |
-//! | [`launch`] | a run in two processes, and the command line |
-//! | [`error`] | errors and panics as exceptions |
+//! | `case` | a case file, read and changed |
+//! | `simulation` | a run in this process, step by step |
+//! | `alone` | the fluid's and the solid's solver, each with its surface driven from Python |
+//! | `fields` | cells and samples of a solver as arrays |
+//! | `initial` | initial states that Python functions give |
+//! | `launch` | a run in two processes, and the command line |
+//! | `error` | errors and panics as exceptions |
 //!
 //! The lock of the interpreter is released while anything computes. Everything that is handed out is a copy.
 
