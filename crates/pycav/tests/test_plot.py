@@ -71,6 +71,41 @@ def _rigid(result):
     return pycav.run(case, result.directory.with_name("rigid"), force=True)
 
 
+def test_a_consistent_run_stands_beside(result):
+    """Aluminium's own run has other stresses than its yield strength on steel's, and its own strength."""
+    case = result.case.with_({"solid.material": "aluminium"})
+    own = pycav.run(case, result.directory.with_name("aluminium"), force=True)
+    figure = pycav.plot.yield_function(result, [95e6], 50e-6, names=["on steel"], beside=[own])
+    steel, aluminium = images(figure)
+    strength = own.summary["yield_strength"]
+    stress = own.solid.at(50e-6)["von_mises"]
+    assert 1e6 * np.nanmax(aluminium.get_array()) == pytest.approx(stress.max() - strength)
+    assert np.nanmax(np.abs(aluminium.get_array() + strength * 1e-6 - steel.get_array() - 95.0)) > 1.0
+    assert f"aluminium, own run, $Y_0$ = {strength * 1e-6:g} MPa" in texts(figure)
+    plain = pycav.run(case.with_({"solid.material": {"density": 2700.0, "c1": 6300.0, "c2": 3100.0}, "time.end": 1e-6,
+                                  "time.snapshots": []}), result.directory.with_name("plain"), force=True)
+    with pytest.raises(ValueError, match="no yield strength"):
+        pycav.plot.yield_function(result, 95e6, beside=[plain])
+
+
+def test_a_tube_and_a_solid_alone_can_be_drawn(root, tmp_path):
+    tube = pycav.run(pycav.Case(root / "cases/shock-tube.toml").with_(
+        {"time.snapshots": [], "time.end": 2e-5}), tmp_path / "tube")
+    assert len(pycav.plot.histories(tube).axes) == 1, "no jet in a plane, no wall"
+    save(pycav.plot.streamlines(tube), tmp_path / "a.png")
+    assert "Key numbers" in pycav.report(tube).read_text()
+    solid = pycav.run(pycav.Case.from_dict({
+        "time": {"end": 1e-6, "snapshot_every": 2.5e-7}, "coupling": {"scheme": "none"},
+        "solid": {"z": [-0.01, 0.0], "r": [0.0, 0.01], "cells": [4, 4], "levels": 3, "material": "copper",
+                  "pulse": [{"centre": [-5e-3, 0.0], "width": 2e-3, "amplitude": 1e-9}]}}), tmp_path / "solid")
+    for kind in ("schlieren", "streamlines", "yield_function"):
+        save(getattr(pycav.plot, kind)(solid, time=5e-7), tmp_path / "a.png")
+    save(pycav.plot.space_time(solid, "axis"), tmp_path / "a.png")
+    for draw in (pycav.plot.interface_continuity, pycav.plot.space_time):
+        with pytest.raises(ValueError, match="no (interface|wall)"):
+            draw(solid)
+
+
 def test_particles_move_with_the_flow(result):
     start = np.array([[0.035, 0.001], [0.02, 0.02]])
     track = flow.advect(result.fluid, start, 36e-6, 4)
@@ -83,7 +118,7 @@ def test_particles_move_with_the_flow(result):
 def test_pathlines_tell_what_they_enlarge(result, tmp_path):
     figure = pycav.plot.pathlines(result, WINDOW, spacing=8e-3, substeps=2)
     save(figure, tmp_path / "a.png")
-    assert "times enlarged" in texts(figure) and "Pathlines up to $t$ = 56.0 µs" in texts(figure)
+    assert "times enlarged" in texts(figure) and "Pathlines up to $t$ = 56 µs" in texts(figure)
 
 
 def test_histories_stand_beside_theory(result, tmp_path):

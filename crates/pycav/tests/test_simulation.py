@@ -124,6 +124,14 @@ def test_a_callback_sees_every_step_and_may_stop(small):
     assert simulation.steps == 8
 
 
+def test_progress_is_shown_when_it_is_asked_for(small, tmp_path, capfd):
+    short = small.with_({"time.end": 5e-6, "time.snapshots": []})
+    pycav.run(short, tmp_path / "quiet")
+    assert capfd.readouterr() == ("", "")
+    pycav.run(short, tmp_path / "told", progress=True)
+    assert "done: " in capfd.readouterr().err
+
+
 def test_the_interpreter_is_free_while_steps_are_made(small):
     count, stop = [0], threading.Event()
 

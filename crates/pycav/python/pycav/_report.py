@@ -110,14 +110,16 @@ def _resolution(result: Result) -> str:
 def _pictures(result: Result) -> Iterable[str]:
     time = default_time(result)
     near, deep = _windows(result)
-    drawings: list[tuple[str, Callable[[], Figure]]] = [("Histories", lambda: plot.histories(result))]
+    drawings: list[tuple[str, Callable[[], Figure]]] = []
+    data = result.histories
+    if "interface/pressure" in data or "solid/von_mises_max" in data or result.radius is not None:
+        drawings.append(("Histories", lambda: plot.histories(result)))
     drawings.append(("Numerical schlieren", lambda: plot.schlieren(result, time, near)))
     if len(result.media) == 2:
         drawings.append(("Normal velocity and normal stress", lambda: plot.interface_continuity(result, time, near)))
-    if "solid" in result.media:
-        strength = result.summary.get("yield_strength")
-        strengths = [float(strength)] if strength else [95e6, 250e6, 502e6]
-        drawings.append(("Yield function", lambda: plot.yield_function(result, strengths, time, deep)))
+    strength = result.summary.get("yield_strength")
+    if strength is not None:
+        drawings.append(("Yield function", lambda: plot.yield_function(result, float(strength), time, deep)))
     if "interface/pressure" in result.histories:
         drawings.append(("Pressure on the wall over time", lambda: plot.space_time(result, "wall")))
     for name, draw in drawings:

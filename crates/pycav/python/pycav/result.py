@@ -217,8 +217,9 @@ class Result:
     @property
     def key_numbers(self) -> pandas.DataFrame:
         """The peaks of the summary with their times: columns `value`, `unit`, `time` (s)."""
-        rows = {name: (self.summary[name], unit, self.summary.get(time))
-                for name, unit, time in KEY_NUMBERS if self.summary.get(name) is not None}
+        known = [row for row in KEY_NUMBERS if self.summary.get(row[0]) is not None
+                 and not (row[0] == "yielded_volume_peak" and self.summary.get("yield_strength") is None)]
+        rows = {name: (self.summary[name], unit, self.summary.get(time)) for name, unit, time in known}
         return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "unit", "time"])
 
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -28,13 +28,20 @@ def histories(run: Run, *, theory: bool = True, yield_strength: Sequence[float] 
     result = open_run(run)
     data = result.histories
     has_bubble = "bubble/equivalent_radius" in data and float(data["bubble/equivalent_radius"][0]) > 0
-    parts = [(_radius, 1.4), (_jet, 1.0)] if has_bubble else []
-    figure = Figure(figsize=(WIDTH, 1.1 + 1.25 * sum(h for _, h in parts) + 2.2), layout="constrained")
-    all_axes = np.atleast_1d(figure.subplots(
-        len(parts) + 1, 1, sharex=True, gridspec_kw={"height_ratios": [*(h for _, h in parts), 1.8]}))
+    parts: list[tuple[Callable[[Axes], None], float]] = []
+    if has_bubble:
+        parts.append((lambda axes: _radius(result, axes, theory), 1.4))
+    if has_bubble and result.parameters.get("geometry") != "planar":
+        parts.append((lambda axes: _jet(result, axes), 1.0))
+    if "interface/pressure" in data or "solid/von_mises_max" in data:
+        parts.append((lambda axes: _loads(result, axes, yield_strength), 1.8))
+    if not parts:
+        raise ValueError("the run has no bubble, no wall and no solid: its histories are in `histories`")
+    heights = [height for _, height in parts]
+    figure = Figure(figsize=(WIDTH, 1.1 + 1.25 * sum(heights)), layout="constrained")
+    all_axes = np.atleast_1d(figure.subplots(len(parts), 1, sharex=True, gridspec_kw={"height_ratios": heights}))
     for (draw, _), axes in zip(parts, all_axes):
-        draw(result, axes, theory)
-    _loads(result, all_axes[-1], yield_strength)
+        draw(axes)
     end = float(data["time"][-1])
     all_axes[-1].set_xlim(0, end)
     ticks(all_axes[-1].xaxis, end, "$t$", "s")
@@ -56,7 +63,7 @@ def _radius(result: Result, axes: Axes, theory: bool) -> None:
     legend(axes, loc="lower left" if radius[-1] > 0.5 * radius[0] else "best")
 
 
-def _jet(result: Result, axes: Axes, _: bool) -> None:
+def _jet(result: Result, axes: Axes) -> None:
     data = result.histories
     time, jet = data["time"].to_numpy(), data["bubble/jet_velocity"].to_numpy()
     axes.plot(time, jet, color=GREEN)
@@ -84,8 +91,7 @@ def _loads(result: Result, axes: Axes, yield_strength: Sequence[float]) -> None:
                       color="0.35", va="bottom")
         largest = max(largest, strength)
     ticks(axes.yaxis, largest, "stress", "Pa")
-    if axes.get_legend_handles_labels()[0]:
-        legend(axes, loc="upper left")
+    legend(axes, loc="upper left")
 
 
 @styled

@@ -64,6 +64,11 @@ class Section:
     def length_scale(self) -> tuple[float, str]:
         return prefix(max(abs(self.box[0]), abs(self.box[1]), self.box[3]))
 
+    @property
+    def time_shown(self) -> str:
+        scale, letter = prefix(self.time)
+        return f"{number(float(f'{self.time * scale:.4g}'))} {letter}s"
+
     def raster(self, medium: str, most: int = MOST) -> Raster | None:
         """The window as far as a medium has it; `None` if it has nothing of it."""
         mesh = self.snapshots[medium].mesh
@@ -150,8 +155,7 @@ class Section:
                       transform=axes.transAxes)
         if self.wall is not None:
             axes.axvline(self.wall, color=INK, linewidth=1.1)
-        scale, letter = prefix(self.time)
-        axes.set_title(f"{what}, $t$ = {self.time * scale:.1f} {letter}s", loc="left", fontsize=9, pad=4)
+        axes.set_title(f"{what}, $t$ = {self.time_shown}", loc="left", fontsize=9, pad=4)
 
 
 def bar(
