@@ -149,11 +149,10 @@ impl FluidSolver {
         let alone = py.detach(|| {
             guarded(|| {
                 let pool = thread_pool(threads)?;
-                let own = initial.as_ref().map(|f| pool.install(|| fluid_from(case, f))).transpose()?;
-                let solver = match own.flatten() {
-                    Some(solver) => solver,
-                    None => pool.install(|| fluid_solver(case, fluid))?,
-                };
+                let solver = pool.install(|| match &initial {
+                    Some(function) => fluid_from(case, function),
+                    None => Ok(fluid_solver(case, fluid)?),
+                })?;
                 Ok(Alone { solver, pool, cfl: case.time.cfl })
             })
         })?;
@@ -291,11 +290,10 @@ impl SolidSolver {
         let alone = py.detach(|| {
             guarded(|| {
                 let pool = thread_pool(threads)?;
-                let own = initial.as_ref().map(|f| pool.install(|| solid_from(case, f))).transpose()?;
-                let solver = match own.flatten() {
-                    Some(solver) => solver,
-                    None => pool.install(|| solid_solver(case, solid))?,
-                };
+                let solver = pool.install(|| match &initial {
+                    Some(function) => solid_from(case, function),
+                    None => Ok(solid_solver(case, solid)?),
+                })?;
                 Ok(Alone { solver, pool, cfl: case.time.cfl })
             })
         })?;

@@ -129,7 +129,7 @@ impl<'a, const COUNT: usize> GridFunction<'a, COUNT> {
 }
 
 /// A case's fluid, filled by a Python function of z and r.
-pub fn fluid_from(case: &Case, function: &Py<PyAny>) -> Result<Option<FluidSolver<BLOCK>>, Failure> {
+pub fn fluid_from(case: &Case, function: &Py<PyAny>) -> Result<FluidSolver<BLOCK>, Failure> {
     let Some(fluid) = &case.fluid else {
         return Err(Failure::Python(PyValueError::new_err("the case has no fluid to fill")));
     };
@@ -143,11 +143,11 @@ pub fn fluid_from(case: &Case, function: &Py<PyAny>) -> Result<Option<FluidSolve
     let values = GridFunction::new(function, keys, &fluid.grid);
     let solver =
         FluidSolver::from_fn(&fluid_setup(case, fluid), |point| Primitive::from_array(values.at(point)));
-    values.verdict(solver).map(Some)
+    values.verdict(solver)
 }
 
 /// A case's solid, filled by a Python function of z and r.
-pub fn solid_from(case: &Case, function: &Py<PyAny>) -> Result<Option<SolidSolver<BLOCK>>, Failure> {
+pub fn solid_from(case: &Case, function: &Py<PyAny>) -> Result<SolidSolver<BLOCK>, Failure> {
     let Some(solid) = &case.solid else {
         return Err(Failure::Python(PyValueError::new_err("the case has no solid to fill")));
     };
@@ -155,5 +155,5 @@ pub fn solid_from(case: &Case, function: &Py<PyAny>) -> Result<Option<SolidSolve
     let values = GridFunction::new(function, names.map(|name| (name, Some(0.0))), &solid.grid);
     let solver =
         SolidSolver::new(solid_setup(case, solid), |point| ElasticState::from_array(values.at(point)));
-    values.verdict(solver).map(Some)
+    values.verdict(solver)
 }

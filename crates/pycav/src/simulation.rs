@@ -56,25 +56,27 @@ impl Run {
         if self.over.is_some() {
             return Ok(false);
         }
-        let Self { session, pool, stop, .. } = self;
-        let result = guarded(|| pool.install(|| session.step(stop)).map_err(Failure::Run));
-        match result {
-            Ok(Turn::Continues) if !self.session.schedule_mut().is_over() => Ok(true),
-            Ok(Turn::Continues) => {
-                // Nothing is left: the media tell each other.
-                let Self { session, pool, stop, .. } = self;
-                let turn = guarded(|| pool.install(|| session.step(stop)).map_err(Failure::Run))?;
-                self.end(Ok(turn), Over::Completed)?;
-                Ok(true)
-            }
-            Ok(turn) => self.end(Ok(turn), Over::Completed).map(|()| false),
-            Err(Failure::Run(error)) => self.end(Err(error), Over::Failed).map(|()| false),
-            Err(failure) => {
+        let mut turn = self.turn();
+        let made = matches!(turn, Ok(Turn::Continues));
+        if made && self.session.schedule_mut().is_over() {
+            // Nothing is left, of which the media tell each other.
+            turn = self.turn();
+        }
+        match turn {
+            Ok(Turn::Continues) => Ok(true),
+            Ok(over) => self.end(Ok(over), Over::Completed).map(|()| made),
+            Err(Failure::Run(error)) => self.end(Err(error), Over::Failed).map(|()| made),
+            Err(panic) => {
                 // After a panic nothing of the state can be relied on.
                 self.over = Some(Over::Failed);
-                Err(failure)
+                Err(panic)
             }
         }
+    }
+
+    fn turn(&mut self) -> Result<Turn, Failure> {
+        let Self { session, pool, stop, .. } = self;
+        guarded(|| pool.install(|| session.step(stop)).map_err(Failure::Run))
     }
 
     fn end(&mut self, result: Result<Turn, cav::run::RunError>, over: Over) -> Result<(), Failure> {
@@ -171,16 +173,12 @@ impl Simulation {
             guarded(|| {
                 let pool = thread_pool(threads)?;
                 let options = Options { out: out.clone(), force, ..Options::default() };
-                let session = |directory: Option<&RunDirectory>| {
-                    pool.install(|| -> Result<Session, Failure> {
-                        let fluid = fluid_initial.as_ref().map(|f| fluid_from(case, f)).transpose()?;
-                        let solid = solid_initial.as_ref().map(|f| solid_from(case, f)).transpose()?;
-                        let solvers = Solvers { fluid: fluid.flatten(), solid: solid.flatten() };
-                        Ok(Session::new(case, directory, solvers)?)
-                    })
-                };
                 let directory = out.is_some().then(|| prepare(case, &options)).transpose()?;
-                let session = session(directory.as_ref())?;
+                let session = pool.install(|| -> Result<Session, Failure> {
+                    let fluid = fluid_initial.as_ref().map(|f| fluid_from(case, f)).transpose()?;
+                    let solid = solid_initial.as_ref().map(|f| solid_from(case, f)).transpose()?;
+                    Ok(Session::new(case, directory.as_ref(), Solvers { fluid, solid })?)
+                })?;
                 let (stop, case) = (Stop::default(), case.clone());
                 Ok(Run { case, session, directory, pool, stop, over: None })
             })
