@@ -3,5 +3,6 @@
 #![deny(unsafe_code)]
 
 pub mod case;
+pub mod command_line;
 pub mod output;
 pub mod run;

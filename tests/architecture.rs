@@ -21,8 +21,14 @@ const EDGES: [(&str, &[&str]); 6] = [
 ];
 
 /// External packages that only one of ours may name.
-const RESERVED: [(&str, &str); 5] =
-    [("iceoryx2", "coupler"), ("hdf5-metno", "cav"), ("hdf5", "cav"), ("clap", "cav"), ("pyo3", "pycav")];
+const RESERVED: [(&str, &str); 6] = [
+    ("iceoryx2", "coupler"),
+    ("hdf5-metno", "cav"),
+    ("hdf5", "cav"),
+    ("clap", "cav"),
+    ("pyo3", "pycav"),
+    ("numpy", "pycav"),
+];
 
 /// The only files of the solvers that know of the coupler.
 const MEET_COUPLER: [&str; 2] = ["participant.rs", "boundary.rs"];
@@ -97,6 +103,9 @@ fn a_wrong_dependency_would_be_seen() {
         ("solid", "hdf5-metno"),
         ("coupler", "clap"),
         ("cav", "pyo3"),
+        ("fluid", "numpy"),
+        ("cav", "pycav"),
+        ("pycav", "iceoryx2"),
         ("stranger", "mesh"),
     ] {
         assert_eq!(wrong_edges(&package(name, needs)).len(), 1, "{name} -> {needs}");

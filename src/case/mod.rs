@@ -295,7 +295,11 @@ impl Case {
         Self::read(text, name, &format!("{name}.toml"), sets)
     }
 
-    fn read(text: &str, name: &str, shown: &str, sets: &[String]) -> Result<Self, CaseErrors> {
+    /// Reads a case from text; `name` becomes the case's name, and `shown` is what errors call the text.
+    ///
+    /// # Errors
+    /// As [`Case::load`].
+    pub fn read(text: &str, name: &str, shown: &str, sets: &[String]) -> Result<Self, CaseErrors> {
         let syntax = |text: &str, errors: Vec<toml::de::Error>| {
             let fault = |error: toml::de::Error| CaseError {
                 path: String::new(),

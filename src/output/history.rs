@@ -33,6 +33,21 @@ pub struct Column<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SeriesId(usize);
 
+/// A column with what of it is in memory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BufferedColumn<'a> {
+    /// Path of the dataset.
+    pub path: &'a str,
+    /// SI unit.
+    pub unit: &'a str,
+    /// What it is.
+    pub description: &'a str,
+    /// Values per row.
+    pub width: usize,
+    /// The values, row after row.
+    pub values: Vec<f64>,
+}
+
 /// A file of named series in time and of arrays that do not change.
 ///
 /// Rows are buffered until [`flush`](Self::flush) or [`flush_if_due`](Self::flush_if_due) writes them. A batch goes
@@ -40,6 +55,8 @@ pub struct SeriesId(usize);
 /// batch together. Datasets are not compressed: compressed chunks would move with every batch and leave holes.
 #[derive(Debug)]
 pub struct HistoryFile {
+    /// Whether it stays in memory; the buffers are then all there is, and the path is empty.
+    in_memory: bool,
     path: PathBuf,
     series: Vec<Series>,
     arrays: Vec<StaticArray>,
@@ -99,8 +116,32 @@ impl HistoryFile {
         Ok(Self::at(path))
     }
 
+    /// Series that stay in memory: nothing is written, [`columns`](Self::columns) has everything.
+    pub fn in_memory() -> Self {
+        Self { in_memory: true, ..Self::at(Path::new("")) }
+    }
+
+    /// Where the file is; `None` for one in memory.
+    pub fn path(&self) -> Option<&Path> {
+        (!self.in_memory).then_some(self.path.as_path())
+    }
+
+    /// All columns that are in memory, and the arrays that do not change: of a file in memory everything, of another
+    /// one what the last batch has left.
+    pub fn columns(&self) -> impl Iterator<Item = BufferedColumn<'_>> {
+        let arrays = self.arrays.iter().map(|array| BufferedColumn {
+            path: &array.path,
+            unit: &array.unit,
+            description: &array.description,
+            width: 1,
+            values: array.values.clone(),
+        });
+        arrays.chain(self.series.iter().flat_map(Series::buffered_columns))
+    }
+
     fn at(path: &Path) -> Self {
         Self {
+            in_memory: false,
             path: path.to_path_buf(),
             series: Vec::new(),
             arrays: Vec::new(),
@@ -123,7 +164,7 @@ impl HistoryFile {
                 width: column.width,
             })
             .collect();
-        let written = self.rows_on_file(&columns)?;
+        let written = if self.in_memory { None } else { self.rows_on_file(&columns)? };
         self.pending = true;
         self.series.push(Series {
             group: absolute(group, ""),
@@ -187,7 +228,7 @@ impl HistoryFile {
 
     /// Writes a batch if one is due; says whether it did.
     pub fn flush_if_due(&mut self) -> Result<bool, OutputError> {
-        let due = self.is_flush_due();
+        let due = !self.in_memory && self.is_flush_due();
         if due {
             self.flush()?;
         }
@@ -196,7 +237,7 @@ impl HistoryFile {
 
     /// Writes everything that is buffered. After an error the buffer is as before, and the file too.
     pub fn flush(&mut self) -> Result<(), OutputError> {
-        if !self.pending {
+        if !self.pending || self.in_memory {
             return Ok(());
         }
         let start = Instant::now();
@@ -265,6 +306,23 @@ impl HistoryFile {
 impl Series {
     fn buffered_rows(&self) -> usize {
         self.buffer.len() / self.width.max(1)
+    }
+
+    /// Every column with its buffered rows.
+    fn buffered_columns(&self) -> impl Iterator<Item = BufferedColumn<'_>> {
+        let mut offset = 0;
+        self.columns.iter().map(move |column| {
+            let place = offset..offset + column.width;
+            offset += column.width;
+            let rows = self.buffer.chunks_exact(self.width);
+            BufferedColumn {
+                path: &column.path,
+                unit: &column.unit,
+                description: &column.description,
+                width: column.width,
+                values: rows.flat_map(|row| row[place.clone()].iter().copied()).collect(),
+            }
+        })
     }
 
     /// Writes the buffered rows into the datasets, which are made where they do not exist.

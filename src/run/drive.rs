@@ -1,4 +1,4 @@
-//! The step loop: of one medium alone, of both in one process, of one of two processes.
+//! The step loop: of all media in one process, of one of two processes.
 //!
 //! However a run ends, what was computed is written: histories are flushed, after a numerical failure the last
 //! good state becomes a snapshot, and the side's part of the summary says whether the run was completed.
@@ -7,11 +7,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use coupler::{Endpoint, Link, LinkCounters, Participant, ProcessLink, direct_pair};
+use coupler::{Endpoint, Link, LinkCounters, Participant, ProcessLink};
 use serde_json::{Map, Value, json};
 
 use super::RunError;
 use super::fluid_side::{Clock, FluidSide, Turn};
+use super::session::{Session, Solvers};
 use super::solid_side::SolidSide;
 use super::stop::Stop;
 use crate::case::Case;
@@ -45,79 +46,25 @@ pub trait Side {
 }
 
 /// A side's progress since `begin`.
-fn line(side: &impl Side, begin: Instant) -> ProgressLine {
+pub(super) fn line(side: &impl Side, begin: Instant) -> ProgressLine {
     ProgressLine { wall: begin.elapsed().as_secs_f64(), ..side.line() }
 }
 
-/// One medium, or a fluid over a rigid wall.
-pub fn alone(
-    case: &Case,
-    directory: &RunDirectory,
-    stop: &Stop,
-    on_step: &mut OnStep<'_>,
-) -> Result<(), RunError> {
-    match (&case.fluid, &case.solid) {
-        (Some(fluid), _) => {
-            step_alone(FluidSide::new(case, fluid, Some(directory))?, directory, stop, on_step)
-        }
-        (None, Some(solid)) => {
-            step_alone(SolidSide::new(case, solid, Some(directory))?, directory, stop, on_step)
-        }
-        (None, None) => unreachable!("a case has at least one medium"),
-    }
-}
-
-fn step_alone(
-    mut side: impl Side,
-    directory: &RunDirectory,
-    stop: &Stop,
-    on_step: &mut OnStep<'_>,
-) -> Result<(), RunError> {
-    let begin = Instant::now();
-    let result = loop {
-        match side.step_alone() {
-            Err(error) => break Err(error),
-            Ok(false) => break Ok(Turn::Over(0)),
-            Ok(true) if stop.flags() != 0 => break Ok(Turn::Over(stop.flags())),
-            Ok(true) => on_step(&line(&side, begin)),
-        }
-    };
-    end(&mut side, directory, result, LinkCounters::default(), begin)
-}
-
-/// Both media in this process, turn by turn through the same frames.
+/// All media of a case in this process, turn by turn through the same frames.
 pub fn in_process(
     case: &Case,
     directory: &RunDirectory,
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {
-    let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) else {
-        return alone(case, directory, stop, on_step);
-    };
-    let mut fluid = FluidSide::new(case, fluid, Some(directory))?;
-    let mut solid = SolidSide::new(case, solid, Some(directory))?;
-    let begin = Instant::now();
-    let (mut to_solid, mut to_fluid) = direct_pair(case.hash());
-    let mut rounds = || -> Result<Turn, RunError> {
-        solid.open(&mut to_fluid, stop)?;
-        loop {
-            if let over @ Turn::Over(_) = fluid.turn(&mut to_solid, stop)? {
-                solid.turn(&mut to_fluid, stop)?;
-                return Ok(over);
-            }
-            on_step(&line(&fluid, begin));
-            solid.turn(&mut to_fluid, stop)?;
+    let mut session = Session::new(case, Some(directory), Solvers::default())?;
+    let result = loop {
+        match session.step(stop) {
+            Ok(Turn::Continues) => on_step(&session.line()),
+            other => break other,
         }
     };
-    let result = rounds();
-    let error_of_solid = match &result {
-        Ok(turn) => Ok(*turn),
-        Err(_) => Ok(Turn::Over(coupler::FrameHeader::STOP_TERMINATE)),
-    };
-    let fluid_end = end(&mut fluid, directory, result, to_solid.counters(), begin);
-    let solid_end = end(&mut solid, directory, error_of_solid, to_fluid.counters(), begin);
-    fluid_end.and(solid_end)
+    session.end(Some(directory), result)
 }
 
 /// How a side of a two-process run is called and who it is.
@@ -166,7 +113,7 @@ pub fn joined(
                 }
             };
             let result = tell(result, &mut link, side.solver().steps());
-            end(&mut side, &directory, result, link.counters(), begin)
+            end(&mut side, Some(&directory), result, link.counters(), begin)
         }
         Participant::Solid => {
             let mut side = told(SolidSide::new(case, solid, Some(&directory)), &mut link)?;
@@ -181,7 +128,7 @@ pub fn joined(
             };
             let result = rounds();
             let result = tell(result, &mut link, side.solver().steps());
-            end(&mut side, &directory, result, link.counters(), begin)
+            end(&mut side, Some(&directory), result, link.counters(), begin)
         }
     }
 }
@@ -203,19 +150,31 @@ fn tell<T>(result: Result<T, RunError>, link: &mut ProcessLink, step: u64) -> Re
 }
 
 /// Writes what is left to write of a side, and its part of the summary.
-fn end<S: Side>(
+pub(super) fn end<S: Side>(
     side: &mut S,
-    directory: &RunDirectory,
+    directory: Option<&RunDirectory>,
     result: Result<Turn, RunError>,
     counters: LinkCounters,
     begin: Instant,
 ) -> Result<(), RunError> {
     let failed = matches!(&result, Err(error) if error.exit_code() == 3);
     side.close(failed)?;
-    let mut part = side.summary();
-    part.extend(progress_part(side, &result, begin, counters));
-    summary::write(directory, S::SUMMARY, &part)?;
+    if let Some(directory) = directory {
+        summary::write(directory, S::SUMMARY, &part(side, &result, begin, counters))?;
+    }
     concluded(result)
+}
+
+/// A side's part of the summary.
+pub(super) fn part<S: Side>(
+    side: &S,
+    result: &Result<Turn, RunError>,
+    begin: Instant,
+    counters: LinkCounters,
+) -> Map<String, Value> {
+    let mut part = side.summary();
+    part.extend(progress_part(side, result, begin, counters));
+    part
 }
 
 fn concluded(result: Result<Turn, RunError>) -> Result<(), RunError> {

@@ -46,10 +46,11 @@ struct Peaks {
 }
 
 impl FluidRecord {
-    /// Makes the files of the fluid's side and writes the state at t = 0.
+    /// Makes the files of the fluid's side and writes the state at t = 0. Without a directory histories stay in memory
+    /// and there are no snapshots.
     pub fn create(
         case: &Case,
-        directory: &RunDirectory,
+        directory: Option<&RunDirectory>,
         solver: &FluidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
@@ -108,6 +109,16 @@ impl FluidRecord {
         record.snapshot(solver)?;
         record.files.history.flush()?;
         Ok(record)
+    }
+
+    /// The histories.
+    pub fn history(&self) -> &HistoryFile {
+        &self.files.history
+    }
+
+    /// Writes a batch of the histories.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.files.history.flush()
     }
 
     /// Takes notice of a finished step.

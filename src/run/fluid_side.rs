@@ -56,8 +56,8 @@ pub struct FluidSide {
     edges: Vec<f64>,
     /// The step that waits for the solid's answer.
     pending: Option<Plan>,
-    /// Cells of the solid, as its last frame says.
-    other_cells: u64,
+    /// The solid's last word: how long a step it allows, how many cells it has, what it was asked to do.
+    answer: FrameHeader,
     /// The solid's velocities for the weak scheme.
     received: Vec<f64>,
     /// The fluid's own pressure and velocity on the wall at mid-step, for the weak scheme.
@@ -75,8 +75,13 @@ impl FluidSide {
     /// The fluid of a case; with a directory it writes what happens.
     pub fn new(case: &Case, fluid: &FluidCase, directory: Option<&RunDirectory>) -> Result<Self, RunError> {
         let solver = fluid_solver(case, fluid)?;
-        let record = directory.map(|d| FluidRecord::create(case, d, &solver)).transpose()?;
-        Ok(Self {
+        let record = directory.map(|d| FluidRecord::create(case, Some(d), &solver)).transpose()?;
+        Ok(Self::with(case, solver, record))
+    }
+
+    /// A fluid that has been made already, in its initial state.
+    pub fn with(case: &Case, solver: FluidSolver<BLOCK>, record: Option<FluidRecord>) -> Self {
+        Self {
             edges: solver.wall_edges(),
             received: vec![0.0; solver.wall_faces()],
             own: vec![[0.0; 2]; solver.wall_faces()],
@@ -88,17 +93,97 @@ impl FluidSide {
             kappa: case.coupling.kappa,
             factor: KappaFactor::default(),
             pending: None,
-            other_cells: 0,
+            answer: FrameHeader::new(FrameKind::Register),
             limited_by: "fluid",
             smallest_step: SMALLEST_SHARE * case.time.end,
             last_dt: 0.0,
             clock: Clock::default(),
-        })
+        }
     }
 
     /// The solver.
     pub fn solver(&self) -> &FluidSolver<BLOCK> {
         &self.solver
+    }
+
+    /// What is recorded.
+    pub fn record(&self) -> Option<&FluidRecord> {
+        self.record.as_ref()
+    }
+
+    /// Writes the rows of the histories that are still in memory.
+    pub fn flush(&mut self) -> Result<(), RunError> {
+        self.record.as_mut().map_or(Ok(()), |record| record.flush()).map_err(RunError::Output)
+    }
+
+    /// When the next steps have to land, besides the times of snapshots.
+    pub fn schedule_mut(&mut self) -> &mut Schedule {
+        &mut self.schedule
+    }
+
+    /// The length of the last step, s.
+    pub fn last_step(&self) -> f64 {
+        self.last_dt
+    }
+
+    /// Ends the step under way with the solid's answer; before the first step, its first word.
+    pub fn complete(&mut self, link: &mut impl Link) -> Result<(), RunError> {
+        self.answer = self.take_answer(link)?;
+        if let Some(plan) = self.pending.take() {
+            let start = Instant::now();
+            self.solver.step(plan.dt)?;
+            self.clock.computing += start.elapsed();
+            self.recorded(plan)?;
+        }
+        Ok(())
+    }
+
+    /// Begins a step: plans it and sends the trace on the wall. In the weak scheme it makes the step first.
+    pub fn begin(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
+        let stopped =
+            self.answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
+        if stopped != 0 || self.schedule.is_over() {
+            let header =
+                FrameHeader { flags: stopped | FrameHeader::LAST, ..self.header(FrameKind::Trace, 0, 0.0) };
+            link.send(header, |_| {})?;
+            return Ok(Turn::Over(stopped));
+        }
+        if self.solver.steps() > 0 {
+            self.adapt_if_due();
+        }
+        let start = Instant::now();
+        let Some(plan) = self.plan(self.answer.dt_max)? else { return Ok(Turn::Over(0)) };
+        let faces = self.solver.wall_faces();
+        let mut header = self.header(FrameKind::Trace, faces, plan.dt);
+        if plan.snapshot {
+            header.flags |= FrameHeader::SNAPSHOT;
+        }
+        header.fields = TraceRow::COUNT as u64;
+        if self.scheme == Scheme::Weak {
+            self.step_weakly(plan)?;
+        }
+        let (solver, edges, weak) = (&self.solver, &self.edges, self.scheme == Scheme::Weak);
+        let mut filled = Duration::ZERO;
+        link.send(header, |payload| {
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
+            if weak {
+                solver.wall_cells(|face, pressure, velocity| {
+                    payload[TraceRow::Pressure as usize * faces + face] = pressure;
+                    payload[TraceRow::NormalVelocity as usize * faces + face] = velocity;
+                });
+            } else {
+                solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
+            }
+            filled = start.elapsed();
+        })?;
+        // What comes after the frame is filled is the exchange.
+        self.clock.computing += filled;
+        if weak {
+            self.recorded(plan)?;
+        } else {
+            self.pending = Some(plan);
+        }
+        Ok(Turn::Continues)
     }
 
     /// Reads the solid's register frame in place.
@@ -226,58 +311,8 @@ impl Side for FluidSide {
     }
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
-        let answer = self.take_answer(link)?;
-        self.other_cells = answer.cells;
-        if let Some(plan) = self.pending.take() {
-            let start = Instant::now();
-            self.solver.step(plan.dt)?;
-            self.clock.computing += start.elapsed();
-            self.recorded(plan)?;
-        }
-        let stopped =
-            answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
-        if stopped != 0 || self.schedule.is_over() {
-            let header =
-                FrameHeader { flags: stopped | FrameHeader::LAST, ..self.header(FrameKind::Trace, 0, 0.0) };
-            link.send(header, |_| {})?;
-            return Ok(Turn::Over(stopped));
-        }
-        if self.solver.steps() > 0 {
-            self.adapt_if_due();
-        }
-        let start = Instant::now();
-        let Some(plan) = self.plan(answer.dt_max)? else { return Ok(Turn::Over(0)) };
-        let faces = self.solver.wall_faces();
-        let mut header = self.header(FrameKind::Trace, faces, plan.dt);
-        if plan.snapshot {
-            header.flags |= FrameHeader::SNAPSHOT;
-        }
-        header.fields = TraceRow::COUNT as u64;
-        if self.scheme == Scheme::Weak {
-            self.step_weakly(plan)?;
-        }
-        let (solver, edges, weak) = (&self.solver, &self.edges, self.scheme == Scheme::Weak);
-        let mut filled = Duration::ZERO;
-        link.send(header, |payload| {
-            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
-            if weak {
-                solver.wall_cells(|face, pressure, velocity| {
-                    payload[TraceRow::Pressure as usize * faces + face] = pressure;
-                    payload[TraceRow::NormalVelocity as usize * faces + face] = velocity;
-                });
-            } else {
-                solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
-            }
-            filled = start.elapsed();
-        })?;
-        // What comes after the frame is filled is the exchange.
-        self.clock.computing += filled;
-        if weak {
-            self.recorded(plan)?;
-        } else {
-            self.pending = Some(plan);
-        }
-        Ok(Turn::Continues)
+        self.complete(link)?;
+        self.begin(link, stop)
     }
 
     fn close(&mut self, failed: bool) -> Result<(), RunError> {
@@ -305,7 +340,7 @@ impl Side for FluidSide {
             step: self.solver.steps(),
             dt: self.last_dt,
             limited_by: self.limited_by.to_owned(),
-            cells: self.solver.mesh().cells() as u64 + self.other_cells,
+            cells: self.solver.mesh().cells() as u64 + self.answer.cells,
             wall: 0.0,
         }
     }

@@ -1,5 +1,6 @@
 //! `cav run`: one process, or two children of its own executable that are started and watched.
 
+use std::ffi::OsString;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -10,7 +11,7 @@ use coupler::{Participant, clean_up_dead};
 use rustix::process::{Pid, Signal, kill_process};
 
 use super::conclusion::{closing_words, conclude};
-use super::drive::{alone, in_process};
+use super::drive::in_process;
 use super::stop::Stop;
 use super::{RunError, drive};
 use crate::case::Case;
@@ -32,6 +33,8 @@ pub struct Options {
     pub in_process: bool,
     /// `--threads`, per process.
     pub threads: Option<usize>,
+    /// The command that is this program, for the children; this process's own executable if empty.
+    pub program: Vec<OsString>,
     /// `-q`.
     pub quiet: bool,
     /// `-v`, counted.
@@ -74,10 +77,7 @@ pub fn run(
     } else {
         let threads = thread_pool(options.threads)?;
         let mut on_step = |line: &ProgressLine| progress.update(line);
-        threads.install(|| match coupled {
-            true => in_process(case, &directory, stop, &mut on_step),
-            false => alone(case, &directory, stop, &mut on_step),
-        })
+        threads.install(|| in_process(case, &directory, stop, &mut on_step))
     };
     let whole = conclude(&directory)?;
     match &result {
@@ -195,7 +195,14 @@ fn start(
     lines: mpsc::Sender<ProgressLine>,
 ) -> Result<Side, RunError> {
     let fail = |source| RunError::Start { what: format!("the {name}'s process"), source };
-    let mut command = Command::new(std::env::current_exe().map_err(fail)?);
+    let mut command = match options.program.split_first() {
+        Some((program, arguments)) => {
+            let mut command = Command::new(program);
+            command.args(arguments);
+            command
+        }
+        None => Command::new(std::env::current_exe().map_err(fail)?),
+    };
     command
         .arg(name)
         .arg(&options.case_path)

@@ -8,7 +8,8 @@
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
 //! | [`side_files`] | into which files |
 //! | [`interface_history`] | of the interface on a fixed grid |
-//! | [`drive`] | the step loop of a side alone, of both in one process, of one of two processes |
+//! | [`session`] | a run in one process, step by step |
+//! | [`drive`] | the step loop of a run in one process, of one of two processes |
 //! | [`launch`] | `cav run`: two processes started and watched |
 //! | [`conclusion`] | one history and one summary of both sides' parts |
 //! | [`stop`] | signals, and a launcher that is gone |
@@ -24,6 +25,7 @@ pub mod interface_history;
 pub mod launch;
 pub mod record;
 pub mod schedule;
+pub mod session;
 pub mod setup;
 pub mod side_files;
 pub mod solid_record;

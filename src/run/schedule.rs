@@ -14,12 +14,14 @@ pub struct Plan {
 pub struct Schedule {
     times: Vec<f64>,
     next: usize,
+    /// A time at which a step has to end besides, without a snapshot.
+    landing: Option<f64>,
 }
 
 impl Schedule {
     /// From ascending times, the last of which is the end of the run. Times at or before 0 are taken as done.
     pub fn new(times: &[f64]) -> Self {
-        Self { times: times.to_vec(), next: times.partition_point(|t| *t <= 0.0) }
+        Self { times: times.to_vec(), next: times.partition_point(|t| *t <= 0.0), landing: None }
     }
 
     /// Whether the end has been reached.
@@ -27,14 +29,28 @@ impl Schedule {
         self.next == self.times.len()
     }
 
+    /// Makes a step end at `time`, too, once; a time that is past is forgotten.
+    pub fn land_at(&mut self, time: f64) {
+        self.landing = Some(time);
+    }
+
+    /// The time that [`Schedule::land_at`] has set, until a step to it is planned.
+    pub fn landing(&self) -> Option<f64> {
+        self.landing
+    }
+
     /// The next step from `time` if none may be longer than `limit`. A step that would end shortly before a due
     /// time is halved rather than leaving a splinter. `None` when the run is over.
     pub fn plan(&mut self, time: f64, limit: f64) -> Option<Plan> {
-        let due = *self.times.get(self.next)?;
+        let snapshot_due = *self.times.get(self.next)?;
+        self.landing = self.landing.filter(|landing| *landing > time);
+        let due = self.landing.map_or(snapshot_due, |landing| landing.min(snapshot_due));
         let left = due - time;
         if left <= limit * (1.0 + 1e-10) {
-            self.next += 1;
-            Some(Plan { dt: left, snapshot: true })
+            let snapshot = due == snapshot_due;
+            self.next += usize::from(snapshot);
+            self.landing = self.landing.filter(|landing| *landing > due);
+            Some(Plan { dt: left, snapshot })
         } else if left < 2.0 * limit {
             Some(Plan { dt: 0.5 * left, snapshot: false })
         } else {
@@ -65,5 +81,23 @@ mod tests {
             assert!((got - want).abs() < 1e-15);
         }
         assert!(shortest > 0.04, "{shortest}");
+    }
+
+    #[test]
+    fn a_step_lands_where_it_is_asked_to_and_makes_no_snapshot_there() {
+        let mut schedule = Schedule::new(&[0.0, 1.0]);
+        schedule.land_at(0.5);
+        let mut time = 0.0;
+        while schedule.landing().is_some() {
+            let plan = schedule.plan(time, 0.2).expect("not over");
+            assert!(!plan.snapshot);
+            time += plan.dt;
+        }
+        assert!((time - 0.5).abs() < 1e-15, "{time}");
+        assert_eq!(schedule.plan(time, 0.2), Some(Plan { dt: 0.2, snapshot: false }));
+        // On a snapshot's own time it is the snapshot that counts; what is past is forgotten.
+        schedule.land_at(1.0);
+        assert_eq!(schedule.plan(0.9, 0.2), Some(Plan { dt: 1.0 - 0.9, snapshot: true }));
+        assert!(schedule.is_over());
     }
 }

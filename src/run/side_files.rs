@@ -28,15 +28,28 @@ pub struct SideNames {
 pub struct SideFiles {
     /// Its histories.
     pub history: HistoryFile,
-    snapshots: BackgroundWriter,
+    /// Where snapshots go; without a directory nowhere.
+    snapshots: Option<BackgroundWriter>,
     fields: Vec<&'static str>,
     /// The mesh of the last snapshot with its generation.
     geometry: Option<(u64, Arc<OwnedQuadMesh>)>,
 }
 
 impl SideFiles {
-    /// Makes the files, without any rows and snapshots.
-    pub fn create(case: &Case, directory: &RunDirectory, names: SideNames) -> Result<Self, OutputError> {
+    /// Makes the files, without any rows and snapshots. Without a directory histories stay in memory.
+    pub fn create(
+        case: &Case,
+        directory: Option<&RunDirectory>,
+        names: SideNames,
+    ) -> Result<Self, OutputError> {
+        let Some(directory) = directory else {
+            return Ok(Self {
+                history: HistoryFile::in_memory(),
+                snapshots: None,
+                fields: vec![],
+                geometry: None,
+            });
+        };
         let owned = attributes(case);
         let attributes: Vec<(&str, &str)> =
             owned.iter().map(|(name, value)| (*name, value.as_str())).collect();
@@ -49,7 +62,7 @@ impl SideFiles {
         let specs: Vec<FieldSpec<'_>> = fields.iter().map(|name| (names.spec)(name)).collect();
         let path = directory.file(names.snapshots);
         let writer = SeriesWriter::create(&path, &specs, case.output.compression, &attributes)?;
-        let snapshots = BackgroundWriter::start(writer)?;
+        let snapshots = Some(BackgroundWriter::start(writer)?);
         Ok(Self { history, snapshots, fields, geometry: None })
     }
 
@@ -60,6 +73,7 @@ impl SideFiles {
         mesh: &Mesh<BLOCK>,
         values: impl FnOnce(&[&'static str]) -> Vec<Vec<f64>>,
     ) -> Result<(), OutputError> {
+        let Some(snapshots) = &mut self.snapshots else { return Ok(()) };
         let start = Instant::now();
         let mesh_id = mesh.generation();
         let geometry = match self.geometry.take() {
@@ -68,21 +82,23 @@ impl SideFiles {
         };
         self.geometry = Some((mesh_id, Arc::clone(&geometry)));
         let values = values(&self.fields);
-        self.snapshots.append(Snapshot { time, mesh: geometry, mesh_id, values })?;
+        snapshots.append(Snapshot { time, mesh: geometry, mesh_id, values })?;
         tracing::debug!(time, seconds = start.elapsed().as_secs_f64(), "handed a snapshot over");
         Ok(())
     }
 
     /// Writes a batch of the histories if one is due, and tells of what went wrong with snapshots.
     pub fn after_step(&mut self) -> Result<(), OutputError> {
-        self.snapshots.check()?;
+        if let Some(snapshots) = &mut self.snapshots {
+            snapshots.check()?;
+        }
         self.history.flush_if_due()?;
         Ok(())
     }
 
     /// Writes everything that is still in memory; of what goes wrong the first is told.
     pub fn close(&mut self) -> Result<(), OutputError> {
-        let snapshots = self.snapshots.close();
+        let snapshots = self.snapshots.as_mut().map_or(Ok(()), BackgroundWriter::close);
         self.history.flush()?;
         snapshots
     }

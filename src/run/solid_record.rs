@@ -10,7 +10,7 @@ use super::side_files::{SideFiles, SideNames};
 use super::wall_faces::WallFaces;
 use crate::case::{Case, Medium, SOLID_FIELDS};
 use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
-use crate::output::{Column, FieldSpec, OutputError, RunDirectory, SeriesId, Storage};
+use crate::output::{Column, FieldSpec, HistoryFile, OutputError, RunDirectory, SeriesId, Storage};
 
 /// Everything that the solid's side writes.
 pub struct SolidRecord {
@@ -36,10 +36,11 @@ struct Peak {
 }
 
 impl SolidRecord {
-    /// Makes the files of the solid's side and writes the state at t = 0.
+    /// Makes the files of the solid's side and writes the state at t = 0. Without a directory histories stay in memory
+    /// and there are no snapshots.
     pub fn create(
         case: &Case,
-        directory: &RunDirectory,
+        directory: Option<&RunDirectory>,
         solver: &SolidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
@@ -80,6 +81,16 @@ impl SolidRecord {
         record.snapshot(solver)?;
         record.files.history.flush()?;
         Ok(record)
+    }
+
+    /// The histories.
+    pub fn history(&self) -> &HistoryFile {
+        &self.files.history
+    }
+
+    /// Writes a batch of the histories.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.files.history.flush()
     }
 
     /// Takes notice of a finished step.

@@ -39,8 +39,13 @@ impl SolidSide {
     /// The solid of a case; with a directory it writes what happens.
     pub fn new(case: &Case, solid: &SolidCase, directory: Option<&RunDirectory>) -> Result<Self, RunError> {
         let solver = solid_solver(case, solid)?;
-        let record = directory.map(|d| SolidRecord::create(case, d, &solver)).transpose()?;
-        Ok(Self {
+        let record = directory.map(|d| SolidRecord::create(case, Some(d), &solver)).transpose()?;
+        Ok(Self::with(case, solver, record))
+    }
+
+    /// A solid that has been made already, in its initial state.
+    pub fn with(case: &Case, solver: SolidSolver<BLOCK>, record: Option<SolidRecord>) -> Self {
+        Self {
             solver,
             record,
             interface: Interface::default(),
@@ -53,12 +58,32 @@ impl SolidSide {
             fluid_edges: Vec::new(),
             last_dt: 0.0,
             clock: Clock::default(),
-        })
+        }
     }
 
     /// The solver.
     pub fn solver(&self) -> &SolidSolver<BLOCK> {
         &self.solver
+    }
+
+    /// What is recorded.
+    pub fn record(&self) -> Option<&SolidRecord> {
+        self.record.as_ref()
+    }
+
+    /// Writes the rows of the histories that are still in memory.
+    pub fn flush(&mut self) -> Result<(), RunError> {
+        self.record.as_mut().map_or(Ok(()), |record| record.flush()).map_err(RunError::Output)
+    }
+
+    /// When the next steps have to land, besides the times of snapshots; in a coupled run the fluid's counts.
+    pub fn schedule_mut(&mut self) -> &mut Schedule {
+        &mut self.schedule
+    }
+
+    /// The length of the last step, s.
+    pub fn last_step(&self) -> f64 {
+        self.last_dt
     }
 
     /// The first word: how long a step the solid allows. It is at rest.

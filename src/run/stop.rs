@@ -30,6 +30,11 @@ impl Stop {
         Ok(stop)
     }
 
+    /// Asks for the end, as SIGINT does.
+    pub fn interrupt(&self) {
+        self.interrupt.store(true, Ordering::Relaxed);
+    }
+
     /// Watches standard input, which the launcher holds open: its end means that the launcher is gone.
     pub fn watch_launcher(&self) {
         let gone = Arc::clone(&self.launcher_gone);

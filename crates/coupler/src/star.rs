@@ -140,6 +140,11 @@ fn curve(fluid: &FluidTrace, p: f64, shifted: f64) -> Curve {
     }
 }
 
+/// The velocity f(p) that the wave into the fluid adds at pressure p ≥ −π.
+pub(crate) fn wave_velocity(fluid: &FluidTrace, p: f64) -> f64 {
+    curve(fluid, p, (p + fluid.pi).max(TORN)).f
+}
+
 /// The star state on the exact shock or isentrope of the stiffened gas.
 ///
 /// The zero of G(p) = v_f + f(p) − v_s − (P_s − p)/Z_s; f as Toro (2009) eq. 4.7 in p + π. Paper: conditions

@@ -1,0 +1,57 @@
+"""A cavitation bubble collapsing near an elastic solid: cases, runs, results, pictures.
+
+    import pycav
+
+    case = pycav.Case("cases/dickopp2012-coarse.toml")
+    result = pycav.run(case.with_(**{"fluid.levels": 4, "solid.levels": 2}), out="runs/first")
+    print(result.summary["wall_pressure_peak"])
+    pycav.plot.histories(result).savefig("histories.png")
+
+Everything is in SI units; z points from the solid into the fluid, stresses are positive in tension. Arrays that are handed
+out are copies: changing one changes nothing else, and it may outlive what it came from.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from ._pycav import CaseError, CouplingError, InternalError, NumericalError, OutputError, RunError
+
+if TYPE_CHECKING:
+    from . import plot, theory
+    from ._animate import animate
+    from .case import Case, Material, materials
+    from .cells import Cells
+    from ._report import report
+    from .result import Result, Snapshot
+    from .result import open_run as open
+    from ._run import run
+    from .simulation import Simulation
+    from .solvers import FluidSolver, SolidSolver
+    from ._sweep import stand_off_map, sweep
+
+__all__ = [
+    "Case", "CaseError", "Cells", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
+    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "materials", "open", "plot",
+    "report", "run", "stand_off_map", "sweep", "theory",
+]
+
+# Where names live. They are fetched when they are first used: the processes of a run need none of them.
+_PLACES = {
+    "Case": "case", "Cells": "cells", "FluidSolver": "solvers", "Material": "case", "Result": "result",
+    "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
+    "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name in ("plot", "theory"):
+        return import_module(f".{name}", __name__)
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    found = getattr(import_module(f".{_PLACES[name]}", __name__), "open_run" if name == "open" else name)
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

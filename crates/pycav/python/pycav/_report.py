@@ -1,0 +1,214 @@
+"""One self-contained page on a run."""
+
+from __future__ import annotations
+
+import base64
+import html
+import io
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from . import plot
+from .plot.section import Run, default_time
+from .plot.style import number, prefix
+from .result import Result, open_run
+
+STYLE = """
+body { font: 16px/1.5 Georgia, serif; color: #1a1a1a; max-width: 56rem; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.6rem; margin-bottom: 0; } h2 { font-size: 1.15rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }
+table { border-collapse: collapse; margin: .6rem 0; } td, th { padding: .15rem 1.2rem .15rem 0; text-align: left; }
+td.n { text-align: right; font-variant-numeric: tabular-nums; } th { font-weight: normal; color: #666; }
+img { max-width: 100%; display: block; margin: 1rem 0; } .quiet { color: #666; } .bad { color: #a33b00; }
+pre { background: #f6f6f4; padding: .8rem; overflow-x: auto; font-size: .8rem; }
+"""
+
+Rows = Iterable[tuple[str, str, str]]
+
+
+def report(run: Run, out: str | os.PathLike[str] | None = None) -> Path:
+    """Writes an HTML page on a run, with everything in it: what was run, key numbers, pictures, damage, coupling, timings.
+
+    - `out`: the page; else `report.html` in the run directory. Returns its path.
+    """
+    result = open_run(run)
+    path = result.directory / "report.html" if out is None else Path(out)
+    path.write_text(page(result), encoding="utf-8")
+    return path
+
+
+def page(result: Result) -> str:
+    """The page as text."""
+    name = html.escape(str(result.histories.attrs.get("case_name", result.directory.name)))
+    parts = [
+        f"<h1>{name}</h1>", _state(result),
+        "<h2>Key numbers</h2>", _table(_key_numbers(result)), _resolution(result),
+        "<h2>Pictures</h2>", *_pictures(result),
+        "<h2>Damage</h2>", _table(_damage(result)),
+        "<h2>Health</h2>", _table(_health(result)),
+        "<h2>Time spent</h2>", _table(_timings(result)),
+        "<h2>The case, all defaults filled in</h2>",
+        f"<pre>{html.escape((result.directory / 'case.toml').read_text())}</pre>",
+    ]
+    return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
+            f'<link rel="icon" href="data:,"><style>{STYLE}</style></head><body>{"".join(parts)}</body></html>\n')
+
+
+def si(value: Any, unit: str) -> str:
+    """A number with the prefix that fits it; volumes and pure numbers without one."""
+    if value is None or (isinstance(value, float) and not np.isfinite(value)):
+        return "–"
+    if unit in ("Pa", "s", "m", "m/s", "J/rad"):
+        scale, letter = (1.0, "") if unit == "m/s" else prefix(abs(float(value)))
+        return f"{number(float(f'{value * scale:.4g}'))} {letter}{unit}"
+    return f"{number(float(f'{value:.4g}'))} {unit}".strip()
+
+
+def _table(rows: Rows) -> str:
+    body = "".join(f'<tr><th>{html.escape(what)}</th><td class="n">{html.escape(value)}</td>'
+                   f'<td class="quiet">{html.escape(note)}</td></tr>' for what, value, note in rows)
+    return f"<table>{body}</table>" if body else '<p class="quiet">Nothing to tell.</p>'
+
+
+def _state(result: Result) -> str:
+    summary, attributes = result.summary, result.histories.attrs
+    if summary.get("completed"):
+        state = "Completed"
+    else:
+        state = f'<span class="bad">Not completed: {html.escape(str(summary.get("error", "it was stopped")))}</span>'
+    revision = html.escape(f"{attributes.get('program', 'cav')}, revision {attributes.get('git_revision', 'unknown')}")
+    warnings = "".join(f'<p class="bad">{html.escape(warning)}</p>' for warning in summary.get("warnings", []))
+    return (f'<p>{state}: {si(summary.get("t_end"), "s")}, {summary.get("steps", 0)} steps. '
+            f'<span class="quiet">{revision}.</span></p>{warnings}')
+
+
+def _key_numbers(result: Result) -> Rows:
+    labels = {
+        "wall_pressure_peak": "wall pressure on the axis, largest", "wall_pressure_peak_interface": "p* on the axis, largest",
+        "wall_pressure_peak_anywhere": "wall pressure, largest anywhere", "von_mises_peak": "von Mises stress, largest",
+        "yielded_volume_peak": "yielded volume, largest", "min_equivalent_radius": "smallest equivalent radius",
+        "jet_velocity_peak": "fastest liquid on the axis",
+    }
+    table = result.key_numbers
+    for name, value, unit, time in zip(table.index, table["value"], table["unit"], table["time"]):
+        when = "" if time is None or time != time else f"at {si(float(time), 's')}"
+        yield labels[str(name)], si(float(value), str(unit).replace("m3", "m³")), when
+
+
+def _resolution(result: Result) -> str:
+    cells = result.cells_per_radius
+    counts = ", ".join(f"{medium}: {count.get('largest', 0):,} cells at most"
+                       for medium, count in result.summary.get("cells", {}).items())
+    per_radius = "" if cells is None else f"{cells:.4g} cells per radius; peaks depend on the resolution. "
+    return f'<p class="quiet">{per_radius}{counts.capitalize()}.</p>'
+
+
+def _pictures(result: Result) -> Iterable[str]:
+    time = default_time(result)
+    near, deep = _windows(result)
+    drawings: list[tuple[str, Callable[[], Figure]]] = []
+    data = result.histories
+    if "interface/pressure" in data or "solid/von_mises_max" in data or result.radius is not None:
+        drawings.append(("Histories", lambda: plot.histories(result)))
+    drawings.append(("Numerical schlieren", lambda: plot.schlieren(result, time, near)))
+    if len(result.media) == 2:
+        drawings.append(("Normal velocity and normal stress", lambda: plot.interface_continuity(result, time, near)))
+    strength = result.summary.get("yield_strength")
+    if strength is not None:
+        drawings.append(("Yield function", lambda: plot.yield_function(result, float(strength), time, deep)))
+    if "interface/pressure" in result.histories:
+        drawings.append(("Pressure on the wall over time", lambda: plot.space_time(result, "wall")))
+    for name, draw in drawings:
+        yield picture(draw(), name)
+
+
+def _windows(result: Result) -> tuple[plot.Window | None, plot.Window | None]:
+    """What is near the bubble and the wall, in both media and in the solid; all if there is no bubble."""
+    radius = result.radius
+    if radius is None:
+        return None, None
+    reach = {medium: result.snapshots(medium)[0].mesh for medium in result.media}
+    low, high = (float(pick(mesh.low[0] if pick is min else mesh.high[0] for mesh in reach.values())) for pick in (min, max))
+    far = min(float(mesh.high[1]) for mesh in reach.values())
+    wall = float(reach["fluid"].low[0])
+    across = min(4.5 * radius, far)
+    near = (max(low, wall - 4.5 * radius), min(high, wall + 4.5 * radius), across)
+    return near, (max(low, wall - 3.0 * radius), wall, min(3.0 * radius, far))
+
+
+def picture(figure: Figure, name: str) -> str:
+    """A figure as an image within the page."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=150)
+    data = base64.b64encode(buffer.getvalue()).decode()
+    return f'<img alt="{html.escape(name)}" src="data:image/png;base64,{data}">'
+
+
+def _damage(result: Result) -> Rows:
+    summary, data = result.summary, result.histories
+    if "solid" in result.media:
+        strength = summary.get("yield_strength")
+        yield "yield strength", si(strength, "Pa"), "" if strength else "the material has none"
+        yield "largest von Mises stress", si(summary.get("von_mises_peak"), "Pa"), _place(summary)
+        volume = summary.get("yielded_volume_peak")
+        yield "yielded volume, largest", si(volume, "m³") if strength else "–", "the solid is elastic: where it would yield"
+        duration = data["solid/time"].to_numpy()[data["solid/yielded_volume"].to_numpy() > 0]
+        if strength and len(duration):
+            yield "yields from, to", f"{si(duration[0], 's')}, {si(duration[-1], 's')}", "anywhere"
+    if "interface/impulse" in data:
+        impulse = data["interface/impulse"].to_numpy()[-1]
+        yield "impulse on the wall, on the axis", f"{impulse[0]:.4g} Pa s", "∫ (p* − p at t = 0) dt"
+
+
+def _place(summary: dict[str, Any]) -> str:
+    place = summary.get("von_mises_peak_position")
+    return "" if place is None else f"at z = {si(place[0], 'm')}, r = {si(place[1], 'm')}"
+
+
+def _health(result: Result) -> Rows:
+    data, summary = result.histories, result.summary
+    fluid, solid = "conservation/fluid/", "conservation/solid/"
+    sides = ("z_min", "z_max", "r_min", "r_max")
+    for quantity in ("mass", "energy"):
+        if fluid + quantity in data:
+            content = data[fluid + quantity].to_numpy()
+            came = sum(data[f"{fluid}{quantity}_in_{side}"].to_numpy() for side in sides)
+            if quantity == "energy":
+                came = came + data[f"{fluid}energy_from_floor"].to_numpy()
+            drift = np.abs(content - came - content[0]).max() / np.abs(content).max()
+            yield f"fluid's {quantity}, balance", f"{drift:.1e}", "relative; content minus what came in"
+    if fluid + "interface_work" in data and solid + "energy_in_z_max" in data:
+        for name, given, got in (("impulse", "interface_impulse", "momentum_in_z_max"),
+                                 ("work", "interface_work", "energy_in_z_max")):
+            one, other = data[fluid + given].to_numpy(), data[solid + got].to_numpy()
+            count = min(len(one), len(other))
+            size = max(np.abs(one).max(), np.abs(other).max())
+            gap = np.abs(one[:count] + other[:count]).max() / size if size else 0.0
+            yield f"{name} given and got at the interface", f"{gap:.1e}", "relative difference"
+    fixups = summary.get("fixups", {})
+    names = {"first_order": "cell-steps at first order", "redone": "mixed cell-steps done again",
+             "floored": "cell-steps lifted to the pressure floor", "floored_stars": "star states lifted"}
+    for key, label in names.items():
+        if key in fixups:
+            yield label, f"{fixups[key]:,}", ""
+    if fixups.get("floor_energy_share") is not None:
+        yield "energy that the floor added", f"{100 * fixups['floor_energy_share']:.3g} %", "of the collapse's"
+    if "exchange_share" in summary.get("coupling", {}):
+        yield "share of the exchange", f"{100 * summary['coupling']['exchange_share']:.2g} %", "of the wall time"
+
+
+def _timings(result: Result) -> Rows:
+    summary = result.summary
+    yield "wall time", f"{summary.get('wall_seconds', float('nan')):.2f} s", ""
+    for medium in ("fluid", "solid"):
+        spent = summary.get("coupling", {}).get(medium)
+        if spent:
+            yield (f"{medium}: computing", f"{spent['seconds_computing']:.2f} s",
+                   f"of that adapting {spent['seconds_adapting']:.2f} s; recording {spent['seconds_recording']:.2f} s")
+        updates = summary.get("cell_updates", {}).get(medium)
+        if updates and spent:
+            yield f"{medium}: cell updates", f"{updates:,}", f"{1e9 * spent['seconds_computing'] / updates:.0f} ns each"

@@ -1,0 +1,120 @@
+"""Cases: what a run computes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _pycav, _toml
+
+
+class Case:
+    """A case file, read and checked, with all defaults filled in. A case does not change.
+
+    Raises `pycav.CaseError` with the command line's text; its `faults` are dictionaries with the keys `path`, `message`,
+    `help`, `line`, `column`.
+    """
+
+    _native: _pycav.Case
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self._native = _pycav.Case.load(os.fspath(path))
+
+    @classmethod
+    def _of(cls, native: _pycav.Case) -> Case:
+        case = cls.__new__(cls)
+        case._native = native
+        return case
+
+    @classmethod
+    def from_toml(cls, text: str, name: str = "case") -> Case:
+        """A case from the text of a case file."""
+        return cls._of(_pycav.Case.from_toml(text, name))
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any], name: str = "case") -> Case:
+        """A case from nested dictionaries with the keys of a case file; `None` leaves a key out."""
+        return cls.from_toml(_toml.document(values), name)
+
+    def with_(self, changes: Mapping[str, Any] | None = None, /, **more: Any) -> Case:
+        """A changed copy: `case.with_(**{"fluid.ambient.pressure": 5e6})`.
+
+        Keys are those of `--set`: tables joined by dots, array elements by number. Values are numbers, texts, truth
+        values, lists, arrays, dictionaries.
+        """
+        changes = {**(changes or {}), **more}
+        return self._of(self._native.with_sets([f"{path}={_toml.value(item)}" for path, item in changes.items()]))
+
+    def with_inflow(self, pressure: Callable[[NDArray[np.float64]], ArrayLike], times: ArrayLike) -> Case:
+        """A copy whose inflow has the pressure `pressure(times)` in Pa at `times` in s (ascending), linear in between."""
+        t = np.asarray(times, float)
+        p = np.broadcast_to(np.asarray(pressure(t), float), t.shape)
+        return self.with_({"fluid.inflow.pressure": np.column_stack([t, p])})
+
+    @property
+    def name(self) -> str:
+        """What the case is called: its file's name without `.toml`."""
+        return self._native.name
+
+    @property
+    def end(self) -> float:
+        """End of the run, s."""
+        return self._native.end
+
+    @property
+    def media(self) -> list[str]:
+        """"fluid", "solid", or both."""
+        return self._native.media
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a run of the case would warn of."""
+        return self._native.warnings
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of what the case computes, the same as in the files of a run."""
+        return self._native.hash
+
+    def to_toml(self) -> str:
+        """The case as a case file with all defaults filled in."""
+        return self._native.to_toml()
+
+    def check(self) -> str:
+        """What `cav check` says: cells, memory, steps, impedances."""
+        return self._native.report()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Case) and self._native == other._native
+
+    def __hash__(self) -> int:
+        return hash(self._native)
+
+    def __repr__(self) -> str:
+        return f"<pycav.Case {self.name!r}, {' and '.join(self.media)}, to {self.end:g} s>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Case.from_toml, (self.to_toml(), self.name))
+
+
+class Material(NamedTuple):
+    """A material of the library."""
+
+    name: str
+    density: float
+    """kg/m³"""
+    c1: float
+    """Speed of dilatational waves, m/s."""
+    c2: float
+    """Speed of shear waves, m/s."""
+    yield_strength: float | None
+    """Pa; `None` if it has none."""
+
+
+def materials() -> list[Material]:
+    """The library of materials."""
+    return [Material(*row) for row in _pycav.materials()]

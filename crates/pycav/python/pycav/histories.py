@@ -1,0 +1,88 @@
+"""Histories as one labelled dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import xarray
+
+Columns = Mapping[str, tuple[Any, str, str]]
+
+PROBES = "probes/"
+
+
+def from_columns(columns: Columns) -> xarray.Dataset:
+    """A dataset of columns: path to (values, unit, description).
+
+    Variables have the paths of the files (`bubble/volume`, `interface/pressure`) and the attributes `units` and
+    `description`. Coordinates are the times: `time` of every step, and those of each group that is written less often, as
+    `interface/time`; the radii of the interface are `interface/r`.
+    """
+    groups: dict[str, dict[str, tuple[Any, str, str]]] = {}
+    for path, column in columns.items():
+        group, _, _ = path.strip("/").rpartition("/")
+        groups.setdefault(group, {})[path.strip("/")] = column
+    variables: dict[str, Any] = {}
+    coordinates: dict[str, Any] = {}
+    steps = np.asarray(columns.get("time", columns.get("/time", (np.empty(0), "", "")))[0])
+    for group, members in groups.items():
+        own = f"{group}/time" if group else "time"
+        # Where it is that of every step, the rows of all groups stand side by side.
+        of_steps = own not in members or np.array_equal(np.asarray(members[own][0]), steps)
+        time = "time" if of_steps else own
+        radii = f"{group}/r" if f"{group}/r" in members else None
+        for path, (values, unit, description) in members.items():
+            array = np.asarray(values)
+            attributes = {"units": unit, "description": description}
+            if path == own:
+                coordinates[path] = ((time,), array, attributes)
+            elif path == radii:
+                coordinates[path] = ((path,), array, attributes)
+            elif array.ndim == 1:
+                variables[path] = ((time,), array, attributes)
+            else:
+                across = radii if radii and array.shape[1] == len(members[radii][0]) else f"{path} component"
+                variables[path] = ((time, across), array, attributes)
+    return xarray.Dataset(variables, coordinates)
+
+
+def from_files(paths: Sequence[Path]) -> xarray.Dataset:
+    """The dataset of one or several files of histories; of a dataset that several have, the first one's counts."""
+    columns: dict[str, tuple[Any, str, str]] = {}
+    attributes: dict[str, Any] = {}
+    for path in paths:
+        with h5py.File(path, "r") as file:
+            attributes = {name: text(value) for name, value in file.attrs.items()} | attributes
+
+            def take(name: str, item: Any) -> None:
+                if isinstance(item, h5py.Dataset):
+                    units, description = (text(item.attrs.get(key, "")) for key in ("units", "description"))
+                    columns.setdefault(name, (item[()], units, description))
+
+            file.visititems(take)
+    found = from_columns(columns)
+    found.attrs.update(attributes)
+    return found
+
+
+def text(value: Any) -> Any:
+    """An attribute as a plain value."""
+    return value.decode() if isinstance(value, bytes) else value
+
+
+def probes(histories: xarray.Dataset) -> dict[str, xarray.Dataset]:
+    """Each probe's dataset by its name, with the coordinate `time`."""
+    names = sorted({str(name).split("/")[1] for name in histories.variables if str(name).startswith(PROBES)})
+    found = {}
+    for name in names:
+        prefix = f"{PROBES}{name}/"
+        time = histories[f"{prefix}time"]
+        members = [str(n) for n in histories.data_vars if str(n).startswith(prefix)]
+        found[name] = xarray.Dataset(
+            {n.removeprefix(prefix): (("time",), histories[n].to_numpy(), histories[n].attrs) for n in members},
+            {"time": (("time",), time.to_numpy(), time.attrs)})
+    return found

@@ -1,0 +1,21 @@
+"""Pictures of runs, as matplotlib figures of publication size.
+
+Every function takes a `pycav.Result` (or the path of a run directory) and returns a `matplotlib.figure.Figure`; times are in
+s, windows `(z_low, z_high, r_high)` in m. Without a time the snapshot nearest to the largest von Mises stress is drawn, or
+to the largest wall pressure. Sections show the solid and the fluid side by side, mirrored about the axis. Colour maps are
+perceptually uniform and safe for the colour-blind.
+"""
+
+from .across import interface_continuity
+from .flow import pathlines, streamlines
+from .maps import stand_off_map
+from .overtime import histories, space_time
+from .section import Window, default_time
+from .volume import volume
+from .waves import schlieren
+from .yielding import yield_function
+
+__all__ = [
+    "Window", "default_time", "histories", "interface_continuity", "pathlines", "schlieren", "space_time", "stand_off_map",
+    "streamlines", "volume", "yield_function",
+]

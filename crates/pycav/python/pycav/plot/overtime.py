@@ -1,0 +1,175 @@
+"""What happens over time: histories and space-time diagrams."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import Normalize, TwoSlopeNorm
+from matplotlib.figure import Figure
+
+from ..mesh import Floats
+from ..result import Result, open_run
+from ..theory import Bubble
+from .across import along
+from .section import Run
+from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WIDTH, legend, prefix, styled, ticks
+
+
+@styled
+def histories(run: Run, *, theory: bool = True, yield_strength: Sequence[float] = ()) -> Figure:
+    """The bubble's radius, the jet, the pressure on the wall and the largest von Mises stress over time.
+
+    - `theory`: Rayleigh's and Keller and Miksis's curves beside the radius. They are of the same bubble without a wall, which
+      holds a collapse up.
+    - `yield_strength`: lines at these stresses in Pa.
+    """
+    result = open_run(run)
+    data = result.histories
+    has_bubble = "bubble/equivalent_radius" in data and float(data["bubble/equivalent_radius"][0]) > 0
+    parts: list[tuple[Callable[[Axes], None], float]] = []
+    if has_bubble:
+        parts.append((lambda axes: _radius(result, axes, theory), 1.4))
+    if has_bubble and result.parameters.get("geometry") != "planar":
+        parts.append((lambda axes: _jet(result, axes), 1.0))
+    if "interface/pressure" in data or "solid/von_mises_max" in data:
+        parts.append((lambda axes: _loads(result, axes, yield_strength), 1.8))
+    if not parts:
+        raise ValueError("the run has no bubble, no wall and no solid: its histories are in `histories`")
+    heights = [height for _, height in parts]
+    figure = Figure(figsize=(WIDTH, 1.1 + 1.25 * sum(heights)), layout="constrained")
+    all_axes = np.atleast_1d(figure.subplots(len(parts), 1, sharex=True, gridspec_kw={"height_ratios": heights}))
+    for (draw, _), axes in zip(parts, all_axes):
+        draw(axes)
+    end = float(data["time"][-1])
+    all_axes[-1].set_xlim(0, end)
+    ticks(all_axes[-1].xaxis, end, "$t$", "s")
+    return figure
+
+
+def _radius(result: Result, axes: Axes, theory: bool) -> None:
+    data = result.histories
+    time, radius = data["time"].to_numpy(), data["bubble/equivalent_radius"].to_numpy()
+    bubble = Bubble.of(result) if theory and "bubbles/1/volume" not in data else None
+    if bubble is not None and bubble.pressure > bubble.gas_pressure:
+        axes.plot(*bubble.rayleigh(), color=GREY, dashes=(5, 2), linewidth=0.8, label="Rayleigh, no wall")
+        axes.plot(*bubble.keller_miksis(float(time[-1])), color=ORANGE, linewidth=0.8, label="Keller–Miksis, no wall")
+    cells = result.cells_per_radius
+    label = "run" if cells is None else f"run, {cells:.3g} cells per radius"
+    axes.plot(time, radius, color=BLUE, label=label)
+    ticks(axes.yaxis, float(radius.max()), r"$R_\mathrm{eq}$", "m")
+    axes.set_ylim(0, None)
+    legend(axes, loc="lower left" if radius[-1] > 0.5 * radius[0] else "best")
+
+
+def _jet(result: Result, axes: Axes) -> None:
+    data = result.histories
+    time, jet = data["time"].to_numpy(), data["bubble/jet_velocity"].to_numpy()
+    axes.plot(time, jet, color=GREEN)
+    axes.set_ylabel("fastest liquid on the axis\ntowards the wall / (m s$^{-1}$)", fontsize=8)
+    axes.axhline(0, color=GREY, linewidth=0.5)
+
+
+def _loads(result: Result, axes: Axes, yield_strength: Sequence[float]) -> None:
+    data = result.histories
+    largest = 0.0
+    for name, time, colour, label in (
+            ("wall/pressure_axis", "time", BLUE, "pressure on the wall, on the axis"),
+            ("wall/pressure_max", "time", PINK, "pressure on the wall, largest"),
+            ("solid/von_mises_max", "solid/time", ORANGE, "von Mises stress, largest in the solid")):
+        # A fluid without a wall at z_min still has cells there, whose pressure says nothing about a wall.
+        if name not in data or (name.startswith("wall/") and "interface/pressure" not in data):
+            continue
+        values = data[name].to_numpy()
+        axes.plot(data[time], values, color=colour, label=label, linewidth=0.7 if colour == PINK else 1.0,
+                  zorder=1.5 if colour == PINK else 2)
+        largest = max(largest, float(np.nanmax(values)))
+    for strength in yield_strength:
+        axes.axhline(strength, color=GREY, linewidth=0.6, dashes=(4, 3))
+        axes.annotate(f"$Y_0$ = {strength * 1e-6:.0f} MPa", (0.01, strength), xycoords=("axes fraction", "data"), fontsize=7,
+                      color="0.35", va="bottom")
+        largest = max(largest, strength)
+    ticks(axes.yaxis, largest, "stress", "Pa")
+    legend(axes, loc="upper left")
+
+
+@styled
+def space_time(run: Run, what: str = "wall", *, reach: float | None = None) -> Figure:
+    """Space-time diagrams: "wall", the pressure p* on the interface over radius and time (from the histories); "axis", the
+    pressure in the fluid and −σ_zz in the solid along the axis (from the snapshots: the more of them, the better).
+
+    - `reach`: how far from the axis or from the wall is shown, m.
+    """
+    result = open_run(run)
+    if what == "wall":
+        return _wall(result, reach)
+    if what == "axis":
+        return _axis(result, reach)
+    raise ValueError(f'what is "wall" or "axis", not {what!r}')
+
+
+def _panel(height: float = 3.4) -> tuple[Figure, Axes]:
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    return figure, figure.add_subplot()
+
+
+def _wall(result: Result, reach: float | None) -> Figure:
+    data = result.histories
+    if "interface/pressure" not in data:
+        raise ValueError("the run has no wall")
+    time, r = data["interface/time"].to_numpy(), data["interface/r"].to_numpy()
+    far = float(r[-1]) if reach is None else reach
+    shown = r <= far
+    pressure = data["interface/pressure"].to_numpy()[:, shown]
+    figure, axes = _panel()
+    _image(figure, axes, r[shown], time, pressure, "$p^*$", 99.9)
+    ticks(axes.xaxis, far, "$r$", "m")
+    ticks(axes.yaxis, float(time[-1]), "$t$", "s")
+    row, column = np.unravel_index(int(np.argmax(pressure)), pressure.shape)
+    axes.plot(r[shown][column], time[row], marker="+", color=INK, markersize=7)
+    scale, letter = prefix(float(pressure.max()))
+    axes.set_title(f"Pressure on the wall; largest of a row (+) {pressure.max() * scale:.0f} {letter}Pa", loc="left",
+                   fontsize=9)
+    return figure
+
+
+def _axis(result: Result, reach: float | None) -> Figure:
+    series = [(result.snapshots(medium), name, sign) for medium, name, sign in
+              (("solid", "stress_zz", -1.0), ("fluid", "pressure", 1.0)) if medium in result.media]
+    times = series[0][0].times
+    if len(times) < 3:
+        raise ValueError("the axis over time needs three snapshots or more")
+    wall = float(series[-1][0][0].mesh.low[0]) if "fluid" in result.media else float(series[0][0][0].mesh.high[0])
+    low = min(float(snapshots[0].mesh.low[0]) for snapshots, _, _ in series)
+    high = max(float(snapshots[0].mesh.high[0]) for snapshots, _, _ in series)
+    if reach is not None:
+        low, high = max(low, wall - reach), min(high, wall + reach)
+    finest = min(float(snapshots[0].mesh.finest[0]) for snapshots, _, _ in series)
+    z = np.linspace(low, high, min(1200, round((high - low) / finest)) + 1)
+    z = 0.5 * (z[1:] + z[:-1])
+    rows = np.full((len(times), len(z)), np.nan)
+    for snapshots, name, sign in series:
+        for step, snapshot in enumerate(snapshots):
+            place, values = along(snapshot, sign * snapshot[name], 0.25 * float(snapshot.mesh.finest[1]))
+            inside = (z > snapshot.mesh.low[0]) & (z < snapshot.mesh.high[0])
+            rows[step, inside] = np.interp(z[inside], place, values)
+    figure, axes = _panel()
+    _image(figure, axes, z, times, rows, r"$p$, $-\sigma_{zz}$", 99.0)
+    axes.axvline(wall, color=INK, linewidth=0.8)
+    ticks(axes.xaxis, max(abs(low), abs(high)), "$z$", "m")
+    ticks(axes.yaxis, float(times[-1]), "$t$", "s")
+    axes.set_title(f"Pressure along the axis, {len(times)} snapshots", loc="left", fontsize=9)
+    return figure
+
+
+def _image(figure: Figure, axes: Axes, x: Floats, time: Floats, values: Floats, symbol: str, share: float) -> None:
+    """A field over place and time on one scale that `share` per cent of the values are within."""
+    top = float(np.nanpercentile(values, share))
+    least = float(np.nanpercentile(values, 0.1))
+    scale, letter = prefix(max(abs(top), abs(least)))
+    tension = least < -0.02 * top
+    norm = TwoSlopeNorm(0, least * scale, top * scale) if tension and top > 0 else Normalize(least * scale, top * scale)
+    drawn = axes.pcolormesh(x, time, values * scale, cmap="RdBu_r" if tension else "cividis", norm=norm,
+                            shading="nearest", rasterized=True)
+    figure.colorbar(drawn, ax=axes, label=f"{symbol} / {letter}Pa", extend="both", pad=0.02, aspect=30)

@@ -1,0 +1,90 @@
+"""Where the solid would yield: von Mises stress minus yield strength."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.colors import TwoSlopeNorm
+from matplotlib.figure import Figure
+
+from ..mesh import Floats
+from .section import Run, Section, Window, bar
+from .style import INK, WHITE, number, styled
+
+MEGA = 1e-6
+
+
+@styled
+def yield_function(
+    run: Run,
+    yield_strength: float | Sequence[float] = (95e6, 250e6, 502e6),
+    time: float | None = None,
+    window: Window | None = None,
+    *,
+    names: Sequence[str] | None = None,
+    beside: Sequence[Run] = (),
+) -> Figure:
+    """The yield function Φ = σ_vM − Y₀ of the solid for one or several yield strengths in Pa, a panel each.
+
+    All these panels are evaluated on the stresses of the one elastic run, as the paper does: what a softer material would do
+    is then only indicated. The line is Φ = 0.
+
+    - `names`: of the materials, for the titles.
+    - `beside`: runs with the consistent materials, a panel each with the yield strength that their cases name.
+    """
+    first = _solid(run, time, window)
+    panels = [(first, float(strength), names[k] if names else "") for k, strength in enumerate(np.atleast_1d(yield_strength))]
+    for other in beside:
+        section = _solid(other, first.time, window)
+        strength = section.result.summary.get("yield_strength")
+        if strength is None:
+            raise ValueError(f"the material of {section.result.directory} has no yield strength")
+        material = section.result.parameters["solid"]["material"]
+        panels.append((section, float(strength), f"{material.get('name', 'own material')}, own run"))
+
+    images = [_images(section) for section, _, _ in panels]
+    strengths = [strength for _, strength, _ in panels]
+    # The very largest values fill a few cells at the surface: the colours end where there is something to see.
+    top = max(float(np.nanpercentile(image, 99.9)) - strength for (image, _), strength in zip(images, strengths))
+    norm = TwoSlopeNorm(0, -max(strengths) * MEGA, max(top, 0.5 * min(strengths)) * MEGA)
+    figure, all_axes = first.canvas(len(panels), 2 if len(panels) == 4 else 3)
+    for axes, (section, strength, name), (image, smooth) in zip(all_axes, panels, images):
+        raster = section.raster("solid")
+        assert raster is not None
+        drawn = section.show(axes, raster, (image - strength) * MEGA, cmap="PuOr_r", norm=norm)
+        section.contour(axes, raster, smooth - strength, 0.0, colors=INK, linewidths=1.0)
+        section.names(axes, "")
+        what = f"$Y_0$ = {number(strength * MEGA)} MPa"
+        axes.set_title(f"{name}, {what}" if name else what, loc="left", fontsize=9, pad=4)
+        excess = number(round((float(section.snapshots["solid"]["von_mises"].max()) - strength) * MEGA))
+        axes.text(0.03, 0.02, rf"largest $\Phi$: {excess} MPa", transform=axes.transAxes, fontsize=8, color=INK,
+                  bbox={"boxstyle": "square,pad=0.2", "facecolor": WHITE, "edgecolor": "none", "alpha": 0.85})
+    # One bar below all columns.
+    columns = [axes.get_position() for axes in all_axes]
+    begin, end = min(place.x0 for place in columns), max(place.x1 for place in columns)
+    label = rf"$\Phi = \sigma_\mathrm{{vM}} - Y_0$ / MPa at $t$ = {first.time_shown}"
+    bar(figure, all_axes[0], drawn, label, (0.0, (end - begin) / columns[0].width), "max")
+    return figure
+
+
+def _solid(run: Run, time: float | None, window: Window | None) -> Section:
+    """The section of a run's solid alone; all of it without a window."""
+    section = Section.of(run, time, None)
+    if "solid" not in section.snapshots:
+        raise ValueError("the run has no solid")
+    section.snapshots = {"solid": section.snapshots["solid"]}
+    mesh = section.snapshots["solid"].mesh
+    (z_low, r_low), (z_high, r_high) = mesh.low.tolist(), mesh.high.tolist()
+    section.box = (z_low, z_high, r_low, r_high) if window is None else (window[0], window[1], r_low, window[2])
+    if section.raster("solid") is None:
+        raise ValueError(f"the window {window} holds nothing of the solid")
+    return section
+
+
+def _images(section: Section) -> tuple[Floats, Floats]:
+    """The von Mises stress as it is in cells, and linear within them."""
+    raster, snapshot = section.raster("solid"), section.snapshots["solid"]
+    assert raster is not None
+    stress = snapshot["von_mises"]
+    return raster.paint(stress), raster.paint(stress, snapshot.mesh.gradient(stress))

@@ -1,0 +1,259 @@
+"""What a run left: histories, snapshots, summary."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, overload
+
+import h5py
+import numpy as np
+import pandas
+import xarray
+from numpy.typing import NDArray
+
+from . import _toml
+from .case import Case
+from .histories import from_files, probes, text
+from .mesh import Floats, Mesh
+
+if TYPE_CHECKING:
+    import pyvista
+
+QUAD = 9  # VTK's number of a quadrilateral
+
+
+class Snapshot:
+    """The cell fields of one medium at one time; a field is read when it is asked for, as a copy."""
+
+    def __init__(self, series: Snapshots, step: int) -> None:
+        self._series = series
+        self.step = step
+        self.time = float(series.times[step])
+        """s"""
+
+    @property
+    def mesh(self) -> Mesh:
+        """The cells: `centre()`, `width()` (m), `sample(values, points)`."""
+        return self._series.mesh(self.step)
+
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields, see docs/output.md."""
+        return self._series.fields
+
+    def __getitem__(self, name: str) -> Floats:
+        """A field, shape (cells,), of vectors (cells, 3): (z, r, 0)."""
+        return self._series.field(name, self.step)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.fields
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """The snapshot with all its fields as PyVista has it: x is z, y is r. Needs pyvista."""
+        import pyvista
+
+        points, quads = self._series.geometry(self.step)
+        cells = np.column_stack([np.full(len(quads), 4), quads]).ravel()
+        grid = pyvista.UnstructuredGrid(cells, np.full(len(quads), QUAD, np.uint8), points)
+        for name in self.fields:
+            grid.cell_data[name] = self[name]
+        grid.field_data["time"] = [self.time]
+        return grid
+
+    def __repr__(self) -> str:
+        return f"<pycav.Snapshot of the {self._series.medium} at {self.time:.6g} s>"
+
+
+class Snapshots(Sequence[Snapshot]):
+    """All snapshots of one medium."""
+
+    def __init__(self, path: Path, medium: str) -> None:
+        self.path = path
+        self.medium = medium
+        with h5py.File(path, "r") as file:
+            steps = file["VTKHDF/Steps"]
+            self.times: Floats = np.asarray(steps["Values"][: int(steps.attrs["NSteps"])], float)
+            """s"""
+            self.fields: list[str] = list(file["VTKHDF/CellData"])
+            self.units: dict[str, str] = {
+                name: text(data.attrs.get("units", "")) for name, data in file["VTKHDF/CellData"].items()}
+        self._mesh: tuple[tuple[int, int], Mesh] | None = None
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    @overload
+    def __getitem__(self, step: int) -> Snapshot: ...
+
+    @overload
+    def __getitem__(self, step: slice) -> list[Snapshot]: ...
+
+    def __getitem__(self, step: int | slice) -> Snapshot | list[Snapshot]:
+        if isinstance(step, slice):
+            return [self[k] for k in range(*step.indices(len(self)))]
+        if not -len(self) <= step < len(self):
+            raise IndexError(f"there are {len(self)} snapshots")
+        return Snapshot(self, range(len(self))[step])
+
+    def __iter__(self) -> Iterator[Snapshot]:
+        return (Snapshot(self, step) for step in range(len(self)))
+
+    def at(self, time: float) -> Snapshot:
+        """The snapshot nearest to `time` in s."""
+        return Snapshot(self, int(np.argmin(np.abs(self.times - time))))
+
+    def field(self, name: str, step: int) -> Floats:
+        if name not in self.fields:
+            raise KeyError(f"{self.path.name} has no field {name}, only {', '.join(self.fields)}")
+        with h5py.File(self.path, "r") as file:
+            root = file["VTKHDF"]
+            start = int(root["Steps/CellDataOffsets"][name][step])
+            return np.asarray(root["CellData"][name][start : start + _size(root, "NumberOfCells", step)], float)
+
+    def geometry(self, step: int) -> tuple[Floats, NDArray[np.int64]]:
+        """Points, shape (points, 3), and the four points of each cell, shape (cells, 4)."""
+        with h5py.File(self.path, "r") as file:
+            root = file["VTKHDF"]
+            first, corner = (_entry(root, name, step) for name in ("PointOffsets", "ConnectivityIdOffsets"))
+            points = root["Points"][first : first + _size(root, "NumberOfPoints", step)]
+            ids = root["Connectivity"][corner : corner + 4 * _size(root, "NumberOfCells", step)]
+            return np.asarray(points, float), np.asarray(ids, np.int64).reshape(-1, 4)
+
+    def mesh(self, step: int) -> Mesh:
+        with h5py.File(self.path, "r") as file:
+            root = file["VTKHDF"]
+            place = (_entry(root, "PointOffsets", step), _entry(root, "ConnectivityIdOffsets", step))
+        # The last one is kept: snapshots on the same mesh share it in the file.
+        if self._mesh is None or self._mesh[0] != place:
+            points, quads = self.geometry(step)
+            # Corners are counted around a cell, so the first and the third are opposite.
+            one, other = points[quads[:, 0], :2], points[quads[:, 2], :2]
+            self._mesh = (place, Mesh(np.minimum(one, other), np.maximum(one, other)))
+        return self._mesh[1]
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} snapshots of the {self.medium}, 0 to {self.times[-1]:.6g} s>"
+
+
+def _entry(root: Any, name: str, step: int) -> int:
+    """An entry of Steps; some of them have a column for each kind of cell, of which there is one."""
+    return int(np.ravel(root["Steps"][name][step])[0])
+
+
+def _size(root: Any, name: str, step: int) -> int:
+    """A length of the mesh of a snapshot."""
+    return int(root[name][_entry(root, "PartOffsets", step)])
+
+
+class Result:
+    """A run directory, as `cav run` or `pycav.run` left it; of a run that goes on, what is in the files so far."""
+
+    def __init__(self, directory: str | os.PathLike[str]) -> None:
+        self.directory = Path(directory)
+        if not (self.directory / "summary.json").is_file():
+            raise FileNotFoundError(f"{self.directory} is no run directory: it has no summary.json")
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """The numbers one asks for first, see docs/output.md."""
+        found: dict[str, Any] = json.loads((self.directory / "summary.json").read_text())
+        return found
+
+    @functools.cached_property
+    def case(self) -> Case:
+        """The effective case of the run."""
+        name = self.histories.attrs.get("case_name", "case")
+        return Case.from_toml((self.directory / "case.toml").read_text(), str(name))
+
+    @functools.cached_property
+    def parameters(self) -> dict[str, Any]:
+        """The effective case as nested dictionaries."""
+        return _toml.parse((self.directory / "case.toml").read_text())
+
+    @property
+    def media(self) -> list[str]:
+        """"fluid", "solid", or both."""
+        return [medium for medium in ("fluid", "solid") if (self.directory / f"{medium}.h5").exists()]
+
+    @functools.cached_property
+    def histories(self) -> xarray.Dataset:
+        """All histories with units and times as coordinates, by the names of docs/output.md: `bubble/volume`."""
+        return from_files([self.directory / f"{medium}.h5" for medium in self.media])
+
+    @functools.cached_property
+    def probes(self) -> dict[str, xarray.Dataset]:
+        """The histories of each probe by its name, with the coordinate `time`."""
+        return probes(self.histories)
+
+    @functools.cached_property
+    def fluid(self) -> Snapshots:
+        """The snapshots of the fluid."""
+        return Snapshots(self.directory / "fluid.vtkhdf", "fluid")
+
+    @functools.cached_property
+    def solid(self) -> Snapshots:
+        """The snapshots of the solid."""
+        return Snapshots(self.directory / "solid.vtkhdf", "solid")
+
+    def snapshots(self, medium: str) -> Snapshots:
+        """The snapshots of "fluid" or "solid"."""
+        if medium not in ("fluid", "solid"):
+            raise ValueError(f'media are "fluid" and "solid", not {medium!r}')
+        return self.fluid if medium == "fluid" else self.solid
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """The histories of every step (bubble, wall, solid, fix-ups) as a table over time in s."""
+        rows = self.histories["time"].size
+        names = [str(name) for name, data in self.histories.data_vars.items() if data.shape == (rows,)
+                 and str(name).partition("/")[0] in ("time_step", "bubble", "bubbles", "wall", "solid", "fixups")]
+        columns = {name: self.histories[name].to_numpy() for name in names}
+        return pandas.DataFrame(columns, pandas.Index(self.histories["time"].to_numpy(), name="time"))
+
+    @property
+    def key_numbers(self) -> pandas.DataFrame:
+        """The peaks of the summary with their times: columns `value`, `unit`, `time` (s)."""
+        known = [row for row in KEY_NUMBERS if self.summary.get(row[0]) is not None
+                 and not (row[0] == "yielded_volume_peak" and self.summary.get("yield_strength") is None)]
+        rows = {name: (self.summary[name], unit, self.summary.get(time)) for name, unit, time in known}
+        return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "unit", "time"])
+
+    @property
+    def radius(self) -> float | None:
+        """Radius of the case's first gas sphere, m; `None` if it has none."""
+        spheres = [region["radius"] for region in self.parameters.get("fluid", {}).get("region", [])
+                   if region.get("shape") == "sphere" and region.get("phase") == "gas"]
+        return float(spheres[0]) if spheres else None
+
+    @property
+    def cells_per_radius(self) -> float | None:
+        """Finest fluid cells along that radius, without which no peak means much."""
+        if self.radius is None:
+            return None
+        fluid = self.parameters["fluid"]
+        low, high = fluid["r"]
+        return float(self.radius * fluid["cells"][1] * 2 ** fluid.get("levels", 0) / (high - low))
+
+    def __repr__(self) -> str:
+        state = "completed" if self.summary.get("completed") else "not completed"
+        return f"<pycav.Result {str(self.directory)!r}, {state}>"
+
+
+KEY_NUMBERS = [
+    ("wall_pressure_peak", "Pa", "wall_pressure_peak_time"),
+    ("wall_pressure_peak_interface", "Pa", "wall_pressure_peak_interface_time"),
+    ("wall_pressure_peak_anywhere", "Pa", "wall_pressure_peak_anywhere_time"),
+    ("von_mises_peak", "Pa", "von_mises_peak_time"),
+    ("yielded_volume_peak", "m3", ""),
+    ("min_equivalent_radius", "m", "collapse_time"),
+    ("jet_velocity_peak", "m/s", "jet_velocity_peak_time"),
+]
+
+
+def open_run(run_dir: str | os.PathLike[str] | Result) -> Result:
+    """Opens the directory of a run."""
+    return run_dir if isinstance(run_dir, Result) else Result(run_dir)

@@ -1,0 +1,111 @@
+"""The two solvers alone, each with its surface driven from Python."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _pycav
+from .case import Case
+from .cells import Array, Cells
+from .simulation import InitialState
+
+
+def _faces(values: ArrayLike | None, count: int) -> Array | None:
+    if values is None:
+        return None
+    given = np.asarray(values, float)
+    return np.full(count, float(given)) if given.ndim == 0 else np.ascontiguousarray(given)
+
+
+class _Solver:
+    _native: _pycav.FluidSolver | _pycav.SolidSolver
+
+    @property
+    def time(self) -> float:
+        """s"""
+        return self._native.time
+
+    @property
+    def steps(self) -> int:
+        """Steps made."""
+        return self._native.steps
+
+    @property
+    def surface_edges(self) -> Array:
+        """Outer radii of the faces of the surface, m, ascending, shape (faces,). They change when the grid adapts."""
+        return self._native.surface_edges
+
+    def time_step_limit(self) -> float:
+        """The longest step that the case's Courant number allows, s."""
+        return self._native.time_step_limit()
+
+    def trace(self, dt: float) -> dict[str, Array]:
+        """The medium's own state on the surface in the middle of a step of length `dt`, arrays of shape (faces,).
+
+        `pressure` (the solid's −σ_zz, Pa), `velocity` (along +z, m/s), `impedance` (Pa s/m); the fluid's `density`,
+        `gamma`, `pi`, the solid's `shear`.
+        """
+        return self._native.trace(dt)
+
+    def step(
+        self,
+        dt: float,
+        *,
+        pressure: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+        power: ArrayLike | None = None,
+    ) -> None:
+        """Makes a step of length `dt` in s with the surface's state as means over the step, face by face or one number.
+
+        - `pressure`: −σ_zz on the surface, Pa; `velocity`: along +z, m/s. Of one alone the other follows from the wave that
+          runs into the medium; both are taken as they are: the star state of a coupling of your own.
+        - `power`: mean of pressure times velocity, W/m²; their product if left out.
+        """
+        count = len(self.surface_edges)
+        self._native.step(dt, *(_faces(values, count) for values in (pressure, velocity, power)))
+
+    def fields(self) -> Cells:
+        """The leaf cells and what is in them: copies of shape (cells,)."""
+        return Cells(self._native.cells(), self.time)
+
+    def sample(self, z: ArrayLike, r: ArrayLike) -> dict[str, Array]:
+        """On the grid of `z` and `r` in m: arrays of shape (len(z), len(r)), NaN outside."""
+        return self._native.sample(*(np.atleast_1d(np.asarray(x, float)) for x in (z, r)))
+
+
+class FluidSolver(_Solver):
+    """The fluid of a case above a surface that Python moves or presses on.
+
+    Where the case couples the fluid to a solid, its place below z_min is taken by what `step` is given; in other cases
+    there is no surface, and `step(dt)` needs nothing.
+    """
+
+    _native: _pycav.FluidSolver
+
+    def __init__(self, case: Case, *, initial: InitialState | None = None, threads: int | None = None) -> None:
+        self._native = _pycav.FluidSolver(case._native, initial, threads)
+
+    @property
+    def surface_pressure(self) -> Array:
+        """Pressure on the surface during the last step, Pa, shape (faces,)."""
+        return self._native.surface_pressure
+
+    @property
+    def equivalent_radius(self) -> float:
+        """Radius of the ball of the gas's volume, m."""
+        return self._native.equivalent_radius
+
+
+class SolidSolver(_Solver):
+    """The solid of a case under a surface that Python moves or presses on, in the place of the case's fluid."""
+
+    _native: _pycav.SolidSolver
+
+    def __init__(self, case: Case, *, initial: InitialState | None = None, threads: int | None = None) -> None:
+        self._native = _pycav.SolidSolver(case._native, initial, threads)
+
+    @property
+    def surface_velocity(self) -> Array:
+        """Velocity of the surface during the last step along +z, m/s, shape (faces,)."""
+        return self._native.surface_velocity

@@ -1,0 +1,79 @@
+"""A single bubble in unbounded liquid: what histories are compared with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.special import beta, betainc
+
+from .mesh import Floats
+from .result import Result
+
+RAYLEIGH_FACTOR = float(beta(5 / 6, 1 / 2) / np.sqrt(6))
+"""Collapse time over R₀ √(ρ/Δp): 0.91468."""
+
+
+@dataclass(frozen=True)
+class Bubble:
+    """A spherical gas bubble in liquid, SI."""
+
+    radius: float
+    gas_pressure: float
+    gas_exponent: float
+    pressure: float
+    density: float
+    sound_speed: float
+    begins_at_rest: bool
+    """Whether the liquid begins in the pressure field of Rayleigh's problem instead of a uniform pressure."""
+
+    @classmethod
+    def of(cls, result: Result) -> Bubble | None:
+        """The first gas sphere in a run's ambient liquid; `None` if there is none, or if the geometry is planar."""
+        case = result.parameters
+        fluid = case.get("fluid", {})
+        ambient = fluid.get("ambient", {})
+        spheres = [region for region in fluid.get("region", [])
+                   if region["shape"] == "sphere" and region["phase"] == "gas"]
+        if case.get("geometry") == "planar" or not spheres or ambient.get("phase") == "gas":
+            return None
+        liquid, gas, bubble = fluid["liquid"], fluid["gas"], spheres[0]
+        c = np.sqrt(liquid["gamma"] * (ambient["pressure"] + liquid["pi"]) / ambient["density"])
+        return cls(bubble["radius"], bubble["pressure"], gas["gamma"], ambient["pressure"], ambient["density"], float(c),
+                   fluid.get("initial_pressure") == "rayleigh")
+
+    @property
+    def collapse_time(self) -> float:
+        """Rayleigh's, 0.915 R₀ √(ρ/Δp) with Δp = p∞ − p_gas, s."""
+        return RAYLEIGH_FACTOR * self.radius * float(np.sqrt(self.density / (self.pressure - self.gas_pressure)))
+
+    def rayleigh(self, points: int = 400) -> tuple[Floats, Floats]:
+        """Times in s and radii in m of the collapse at constant Δp in incompressible liquid, to R = 0.
+
+        Rayleigh (1917): t/T = 1 − I(x³; 5/6, 1/2) with x = R/R₀ and the regularised incomplete beta function I.
+        """
+        x = np.linspace(1.0, 0.0, points)
+        return self.collapse_time * (1.0 - betainc(5 / 6, 1 / 2, x**3)), self.radius * x
+
+    def keller_miksis(self, end: float, points: int = 2000) -> tuple[Floats, Floats]:
+        """Times in s and radii in m up to `end` by the equation of Keller and Miksis (1980), gas p R^(3γ) = const.
+
+        Where the liquid begins at a uniform pressure, the pressure on the bubble's wall falls to the gas's at once; the
+        term R ṗ/(ρc) of the equation then starts the wall with (p_gas − p∞)/(ρc).
+        """
+        rho, c, p_inf, k = self.density, self.sound_speed, self.pressure, 3 * self.gas_exponent
+        start = 0.0 if self.begins_at_rest else (self.gas_pressure - p_inf) / (rho * c)
+
+        def rate(_: float, y: Floats) -> list[float]:
+            # By the logarithm of R/R₀, which no step makes negative.
+            radius, speed = self.radius * np.exp(y[0]), y[1]
+            p = self.gas_pressure * np.exp(-k * y[0])
+            mach = speed / c
+            change = -k * p * speed / radius  # of the gas's pressure in time
+            pull = (1 + mach) * (p - p_inf) / rho + radius * change / (rho * c) - 1.5 * (1 - mach / 3) * speed**2
+            return [speed / radius, pull / ((1 - mach) * radius)]
+
+        found = solve_ivp(rate, (0.0, end), [0.0, start], "DOP853", np.linspace(0, end, points), rtol=1e-9,
+                          atol=[1e-9, 1e-9 * c])
+        return np.asarray(found.t), np.asarray(self.radius * np.exp(found.y[0]))

@@ -1,0 +1,38 @@
+//! Python bindings of `cav`. No numerics: arguments are taken apart, the solvers called, results handed back as copies.
+//!
+//! | module | is |
+//! |---|---|
+//! | `case` | a case file, read and changed |
+//! | `simulation` | a run in this process, step by step |
+//! | `alone` | the fluid's and the solid's solver, each with its surface driven from Python |
+//! | `fields` | cells and samples of a solver as arrays |
+//! | `initial` | initial states that Python functions give |
+//! | `launch` | a run in two processes, and the command line |
+//! | `error` | errors and panics as exceptions |
+//!
+//! The lock of the interpreter is released while anything computes. Everything that is handed out is a copy.
+
+mod alone;
+mod case;
+mod error;
+mod fields;
+mod initial;
+mod launch;
+mod simulation;
+
+use pyo3::pymodule;
+
+/// The compiled part of `pycav`; what users call is in the Python package around it.
+#[pymodule]
+mod _pycav {
+    #[pymodule_export]
+    use super::alone::{FluidSolver, SolidSolver};
+    #[pymodule_export]
+    use super::case::{Case, materials};
+    #[pymodule_export]
+    use super::error::{CaseError, CouplingError, InternalError, NumericalError, OutputError, RunError};
+    #[pymodule_export]
+    use super::launch::{main, run_in_processes};
+    #[pymodule_export]
+    use super::simulation::Simulation;
+}

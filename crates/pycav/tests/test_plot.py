@@ -1,0 +1,181 @@
+"""Pictures: that they show what they say, not how it looks."""
+
+from __future__ import annotations
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from PIL import Image
+
+import pycav
+from pycav.plot import flow, style
+
+WINDOW = (-0.04, 0.04, 0.03)
+
+
+def texts(figure: Figure) -> str:
+    return "\n".join(text.get_text() for text in figure.findobj(mpl.text.Text))
+
+
+def save(figure: Figure, path) -> np.ndarray:
+    figure.savefig(path, dpi=80)
+    pixels = np.asarray(Image.open(path).convert("RGB"))
+    assert (pixels != 255).any(2).mean() > 0.05, "something is drawn"
+    return pixels
+
+
+def images(figure: Figure):
+    return [image for axes in figure.axes for image in axes.images]
+
+
+@pytest.mark.parametrize("kind", ["schlieren", "streamlines", "interface_continuity"])
+def test_sections_show_both_media_mirrored(kind, result, tmp_path):
+    figure = getattr(pycav.plot, kind)(result, window=WINDOW, levels=True)
+    save(figure, tmp_path / "a.png")
+    assert "solid" in texts(figure) and "fluid" in texts(figure) and "µs" in texts(figure)
+    shown = images(figure)
+    assert len(shown) == (4 if kind == "interface_continuity" else 2)
+    for image in shown:
+        values = np.ma.getdata(image.get_array())
+        assert np.array_equal(values, values[::-1], equal_nan=True), "mirrored about the axis"
+    low = min(image.get_extent()[0] for image in shown)
+    high = max(image.get_extent()[1] for image in shown)
+    assert low == pytest.approx(-0.04, abs=0.004) and high == pytest.approx(0.04, abs=0.004)
+
+
+def test_schlieren_of_the_start_show_the_bubble_alone(result):
+    figure = pycav.plot.schlieren(result, time=0.0, window=(0.0, 0.04, 0.03))
+    (image,) = images(figure)
+    values, (z0, z1, r0, r1) = image.get_array(), image.get_extent()
+    r, z = np.meshgrid(np.linspace(r0, r1, values.shape[0]), np.linspace(z0, z1, values.shape[1]), indexing="ij")
+    off = np.abs(np.hypot(z - 0.02, r) - 0.01)
+    assert values[off < 1e-3].max() > 1e4 and values[off > 4e-3].max() == 0
+
+
+def test_the_yield_function_is_the_stress_less_the_strength(result):
+    strengths = [70e6, 95e6, 250e6, 502e6]
+    figure = pycav.plot.yield_function(result, strengths, 50e-6, names=["a", "b", "c", "d"])
+    stress = result.solid.at(50e-6)["von_mises"]
+    shown = images(figure)
+    assert len(shown) == 4
+    for image, strength in zip(shown, strengths):
+        assert 1e6 * np.nanmax(image.get_array()) == pytest.approx(stress.max() - strength)
+        assert image.norm.vcenter == 0
+    with pytest.raises(ValueError, match="no solid"):
+        pycav.plot.yield_function(_rigid(result), 1e6)
+
+
+def _rigid(result):
+    case = result.case.with_({"coupling.scheme": "rigid", "time.end": 1e-6, "time.snapshots": []})
+    return pycav.run(case, result.directory.with_name("rigid"), force=True)
+
+
+def test_a_consistent_run_stands_beside(result):
+    """Aluminium's own run has other stresses than its yield strength on steel's, and its own strength."""
+    case = result.case.with_({"solid.material": "aluminium"})
+    own = pycav.run(case, result.directory.with_name("aluminium"), force=True)
+    figure = pycav.plot.yield_function(result, [95e6], 50e-6, names=["on steel"], beside=[own])
+    steel, aluminium = images(figure)
+    strength = own.summary["yield_strength"]
+    stress = own.solid.at(50e-6)["von_mises"]
+    assert 1e6 * np.nanmax(aluminium.get_array()) == pytest.approx(stress.max() - strength)
+    assert np.nanmax(np.abs(aluminium.get_array() + strength * 1e-6 - steel.get_array() - 95.0)) > 1.0
+    assert f"aluminium, own run, $Y_0$ = {strength * 1e-6:g} MPa" in texts(figure)
+    plain = pycav.run(case.with_({"solid.material": {"density": 2700.0, "c1": 6300.0, "c2": 3100.0}, "time.end": 1e-6,
+                                  "time.snapshots": []}), result.directory.with_name("plain"), force=True)
+    with pytest.raises(ValueError, match="no yield strength"):
+        pycav.plot.yield_function(result, 95e6, beside=[plain])
+
+
+def test_a_tube_and_a_solid_alone_can_be_drawn(root, tmp_path):
+    tube = pycav.run(pycav.Case(root / "cases/shock-tube.toml").with_(
+        {"time.snapshots": [], "time.end": 2e-5}), tmp_path / "tube")
+    assert len(pycav.plot.histories(tube).axes) == 1, "no jet in a plane, no wall"
+    save(pycav.plot.streamlines(tube), tmp_path / "a.png")
+    assert "Key numbers" in pycav.report(tube).read_text()
+    solid = pycav.run(pycav.Case.from_dict({
+        "time": {"end": 1e-6, "snapshot_every": 2.5e-7}, "coupling": {"scheme": "none"},
+        "solid": {"z": [-0.01, 0.0], "r": [0.0, 0.01], "cells": [4, 4], "levels": 3, "material": "copper",
+                  "pulse": [{"centre": [-5e-3, 0.0], "width": 2e-3, "amplitude": 1e-9}]}}), tmp_path / "solid")
+    for kind in ("schlieren", "streamlines", "yield_function"):
+        save(getattr(pycav.plot, kind)(solid, time=5e-7), tmp_path / "a.png")
+    save(pycav.plot.space_time(solid, "axis"), tmp_path / "a.png")
+    for draw in (pycav.plot.interface_continuity, pycav.plot.space_time):
+        with pytest.raises(ValueError, match="no (interface|wall)"):
+            draw(solid)
+
+
+def test_particles_move_with_the_flow(result):
+    start = np.array([[0.035, 0.001], [0.02, 0.02]])
+    track = flow.advect(result.fluid, start, 36e-6, 4)
+    assert track.shape == (2, 8, 2) and np.array_equal(track[:, 0], start)
+    assert track[0, -1, 0] < 0.0345 and track[1, -1, 1] < 0.0195, "towards the bubble that collapses"
+    finer = flow.advect(result.fluid, start, 36e-6, 16)
+    assert np.abs(track - finer).max() < 2e-5
+
+
+def test_pathlines_tell_what_they_enlarge(result, tmp_path):
+    figure = pycav.plot.pathlines(result, WINDOW, spacing=8e-3, substeps=2)
+    save(figure, tmp_path / "a.png")
+    assert "times enlarged" in texts(figure) and "Pathlines up to $t$ = 56 µs" in texts(figure)
+
+
+def test_histories_stand_beside_theory(result, tmp_path):
+    figure = pycav.plot.histories(result, yield_strength=[250e6])
+    save(figure, tmp_path / "a.png")
+    lines = {line.get_label(): line for line in figure.findobj(mpl.lines.Line2D)}
+    run, keller = lines["run, 10 cells per radius"], lines["Keller–Miksis, no wall"]
+    early = run.get_xdata() < 15e-6
+    theory = np.interp(run.get_xdata()[early], keller.get_xdata(), keller.get_ydata())
+    assert np.abs(run.get_ydata()[early] - theory).max() < 0.01 * 0.01, "until the wall makes itself felt"
+    assert "$Y_0$ = 250 MPa" in texts(figure) and "/ mm" in texts(figure) and "/ MPa" in texts(figure)
+
+
+@pytest.mark.parametrize("what", ["wall", "axis"])
+def test_space_time_diagrams(what, result, tmp_path):
+    figure = pycav.plot.space_time(result, what, reach=0.05)
+    save(figure, tmp_path / "a.png")
+    mesh = figure.axes[0].collections[0]
+    values = 1e6 * mesh.get_array()
+    largest = result.histories["interface/pressure"].max() if what == "wall" else result.fluid[-2]["pressure"].max()
+    assert 0.1 * largest < np.nanmax(values) and (what == "axis" or np.nanmax(values) == pytest.approx(float(largest)))
+    with pytest.raises(ValueError, match="wall"):
+        pycav.plot.space_time(result, "nowhere")
+
+
+@pytest.mark.parametrize("kind", ["gif", "mp4"])
+def test_an_animation_has_a_frame_for_every_snapshot(kind, result, tmp_path):
+    path = pycav.animate(result, tmp_path / f"a.{kind}", window=WINDOW, dpi=60)
+    if kind == "gif":
+        with Image.open(path) as image:
+            assert image.n_frames == len(result.fluid)
+    else:
+        import imageio_ffmpeg
+
+        frames, seconds = imageio_ffmpeg.count_frames_and_secs(str(path))
+        assert frames == len(result.fluid) and seconds == pytest.approx(frames / 12, rel=0.1)
+    with pytest.raises(ValueError, match="gif"):
+        pycav.animate(result, tmp_path / "a.avi")
+
+
+def test_the_run_turned_about_its_axis(result):
+    parts = pycav.plot.volume(result, time=0.0, cells=64)
+    x0, x1, y0, y1, z0, z1 = parts["bubble"].bounds
+    assert (x1, y1, z0, z1) == pytest.approx((0.01, 0.01, 0.01, 0.03), abs=1.5e-3) and x0 == pytest.approx(-x1, rel=1e-2)
+    assert parts["solid"].point_data["von_mises"].max() == pytest.approx(5e7, rel=1e-6)
+
+
+@pytest.mark.parametrize(("value", "shown"), [
+    (5.1e-5, (1e6, "µ")), (2.5e8, (1e-6, "M")), (0.02, (1e3, "m")), (1.0, (1.0, "")), (999.0, (1.0, "")),
+    (1e3, (1e-3, "k")), (0.0, (1.0, "")),
+])
+def test_si_prefixes(value, shown):
+    scale, letter = style.prefix(value)
+    assert (pytest.approx(scale), letter) == shown
+
+
+def test_the_callers_settings_are_left_alone(result):
+    before = dict(mpl.rcParams)
+    pycav.plot.space_time(result)
+    assert dict(mpl.rcParams) == before

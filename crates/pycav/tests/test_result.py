@@ -1,0 +1,124 @@
+"""What runs left, read."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pyvista
+import pytest
+
+import pycav
+from pycav.theory import RAYLEIGH_FACTOR, Bubble
+
+
+def test_histories_have_units_and_coordinates(result):
+    data = result.histories
+    pressure = data["interface/pressure"]
+    assert pressure.dims == ("interface/time", "interface/r") and pressure.attrs["units"] == "Pa"
+    assert data["bubble/volume"].dims == ("time",) and data["bubble/volume"].attrs["units"] == "m3"
+    assert data["solid/von_mises_max_position"].shape == (data["time"].size, 2)
+    with h5py.File(result.directory / "history.h5") as file:
+        compared = []
+        file.visititems(lambda name, item: compared.append(
+            np.array_equal(data[name], item[()], equal_nan=True)) if isinstance(item, h5py.Dataset) else None)
+    assert len(compared) > 60 and all(compared)
+    assert data.sel(time=2e-5, method="nearest")["wall/pressure_axis"] > 0
+
+
+def test_snapshots_are_those_that_vtk_reads(result):
+    for medium in ("fluid", "solid"):
+        series = result.snapshots(medium)
+        reader = pyvista.get_reader(series.path)
+        reader.reader.UpdateInformation()
+        assert reader.reader.GetNumberOfSteps() == len(series) == 13
+        for step in (0, 6, 12):
+            reader.reader.SetStep(step)
+            theirs, ours = reader.read(), series[step].to_pyvista()
+            assert np.array_equal(ours.points, theirs.points)
+            assert np.array_equal(ours.cell_connectivity, theirs.cell_connectivity)
+            for name in series.fields:
+                assert np.array_equal(ours.cell_data[name], theirs.cell_data[name]), name
+            assert ours.compute_cell_sizes().cell_data["Area"].sum() == pytest.approx(0.128**2)
+
+
+def test_snapshots_are_found_by_number_and_time(result):
+    assert result.fluid.at(1e-5).time == pytest.approx(2 * 56e-6 / 12)
+    assert [snapshot.time for snapshot in result.fluid] == list(result.fluid.times)
+    assert result.fluid[-1].time == pytest.approx(56e-6) and len(result.fluid[2:5]) == 3
+    with pytest.raises(IndexError):
+        result.fluid[13]
+    with pytest.raises(KeyError, match="no field wind"):
+        result.fluid[0]["wind"]
+    first = result.fluid[0]
+    mesh, gas = first.mesh, first["gas_fraction"]
+    volume = 2 * np.pi * (gas * mesh.centre()[:, 1] * mesh.width().prod(1)).sum()
+    assert volume == pytest.approx(float(result.histories["bubble/volume"][0]), rel=1e-9)
+
+
+def test_the_last_snapshot_is_the_simulations_state(result):
+    with pycav.Simulation(result.case) as simulation:
+        simulation.run()
+        cells = simulation.fields("solid")
+    last = result.solid[-1]
+    assert np.array_equal(cells["von_mises"], last["von_mises"]) and np.allclose(cells.z, last.mesh.centre()[:, 0])
+
+
+def test_summary_table_and_case(result):
+    assert result.summary["completed"] and result.media == ["fluid", "solid"]
+    assert result.cells_per_radius == pytest.approx(10.0)
+    numbers = result.key_numbers
+    assert numbers.loc["wall_pressure_peak", "value"] == result.histories["wall/pressure_axis"].max()
+    assert list(numbers.columns) == ["value", "unit", "time"]
+    table = result.table
+    assert table.index.name == "time" and table["solid/von_mises_max"].max() == numbers.loc["von_mises_peak", "value"]
+    assert result.case.hash == result.histories.attrs["case_hash"]
+
+
+def test_a_directory_of_something_else_is_refused(tmp_path):
+    with pytest.raises(FileNotFoundError, match="no run directory"):
+        pycav.open(tmp_path)
+
+
+def test_rayleighs_collapse(result):
+    bubble = Bubble.of(result)
+    assert RAYLEIGH_FACTOR == pytest.approx(0.91468, abs=1e-5)
+    time, radius = bubble.rayleigh()
+    assert time[-1] == pytest.approx(bubble.collapse_time) and (radius[0], radius[-1]) == (0.01, 0.0)
+    # Ṙ² = 2/3 Δp/ρ ((R₀/R)³ − 1), Rayleigh (1917).
+    speed = np.gradient(radius, time, edge_order=2)[100:300]
+    exact = np.sqrt(2 / 3 * (5e7 - 2118) / 1000 * ((0.01 / radius[100:300])**3 - 1))
+    assert np.allclose(-speed, exact, rtol=1e-3)
+
+
+def test_keller_and_miksis_become_rayleigh_and_plesset():
+    """In a liquid of very fast sound the energy of the incompressible bubble is kept."""
+    bubble = Bubble(1e-3, 1e4, 1.4, 1e5, 1000.0, 1e9, True)
+    time, radius = bubble.keller_miksis(1.5 * bubble.collapse_time)
+    x = radius.min() / 1e-3
+    # At the smallest radius the liquid's work has all gone into the gas.
+    work = 1e5 * (1 - x**3) / 3
+    gas = 1e4 / (3 * 0.4) * (x**(-3 * 0.4) - 1)
+    assert gas == pytest.approx(work, rel=1e-3)
+
+
+@pytest.mark.parametrize("first", ["pycav", "h5py", "pyvista"])
+def test_it_lives_beside_other_hdf5_libraries(first, result, tmp_path):
+    """h5py, VTK and the solver bring an HDF5 each."""
+    code = f"""
+import {first}
+import pycav, h5py, pyvista, sys
+case = pycav.Case.from_toml(open(sys.argv[1]).read()).with_(**{{"time.end": 1e-6, "time.snapshots": []}})
+found = pycav.run(case, sys.argv[2])
+reader = pyvista.get_reader(str(found.directory / "fluid.vtkhdf"))
+cells = reader.read().n_cells
+with h5py.File(found.directory / "fluid.vtkhdf") as file:
+    assert file["VTKHDF/NumberOfCells"][0] == cells == found.fluid[0].to_pyvista().n_cells
+again = pycav.run(case, sys.argv[2], force=True)
+assert again.summary["completed"]
+"""
+    done = subprocess.run([sys.executable, "-c", code, result.directory / "case.toml", tmp_path / "run"],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr

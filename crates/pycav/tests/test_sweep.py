@@ -1,0 +1,93 @@
+"""Sweeps: every point, whoever runs it, once."""
+
+from __future__ import annotations
+
+import multiprocessing
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+
+import distributed
+import numpy as np
+import pytest
+
+import pycav
+from pycav import _toml
+from pycav._sweep import at_point
+
+MATERIALS = ["structural-steel", "aluminium"]
+
+
+@pytest.fixture(scope="module")
+def short(small):
+    return small.with_({"time.end": 2e-5, "time.snapshots": []})
+
+
+def test_every_point_is_run_and_a_bad_one_does_no_harm(short, tmp_path):
+    told = []
+    parameters = {"fluid.ambient.pressure": [4e7, 5e7], "solid.material": ["structural-steel", "cheese"]}
+    data = pycav.sweep(short, parameters, tmp_path, progress=lambda point, how: told.append((dict(point), how)))
+    assert data.sizes == {"fluid.ambient.pressure": 2, "solid.material": 2} and len(told) == 4
+    good = data.sel({"solid.material": "structural-steel"})
+    alone = pycav.run(short.with_({"fluid.ambient.pressure": 4e7}), tmp_path / "alone")
+    assert good["von_mises_peak"][0] == alone.summary["von_mises_peak"]
+    assert data["von_mises_peak"].attrs["units"] == "Pa" and list(good["error"].values) == ["", ""]
+    bad = data.sel({"solid.material": "cheese"})
+    assert np.isnan(bad["von_mises_peak"]).all() and all("unknown material `cheese`" in e for e in bad["error"].values)
+
+
+def test_a_failing_run_is_recorded_and_tried_again(short, tmp_path):
+    parameters = {"fluid.region.0.pressure": [2118.0, 1.0], "fluid.limiter": ["none"], "time.cfl": [0.9]}
+    thin = short.with_({"fluid.region.0.density": 1e-9, "time.end": 65e-6})
+    data = pycav.sweep(thin, parameters, tmp_path)
+    errors = [str(error) for error in data["error"].values.ravel()]
+    assert "NumericalError" in errors[1], errors
+    assert [path.read_text().count("NumericalError") for path in tmp_path.glob("*.error.json")].count(1) >= 1
+    told = []
+    pycav.sweep(thin, parameters, tmp_path, progress=lambda _, how: told.append(how))
+    assert told.count("known") == errors.count("") and sum("NumericalError" in how for how in told) == 2 - errors.count("")
+
+
+@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_any_executor_will_do_and_a_sweep_goes_on_where_it_was(pool, short, tmp_path):
+    parameters = {"stand_off": [1.5, 2.0], "solid.material": MATERIALS}
+    first = pycav.sweep(short, {**parameters, "stand_off": [2.0]}, tmp_path / "a")
+    stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "a").glob("*/summary.json")}
+    told = []
+    options = {} if pool is ThreadPoolExecutor else {"mp_context": multiprocessing.get_context("spawn")}
+    with pool(2, **options) as executor:
+        data = pycav.sweep(short, parameters, tmp_path / "a", executor=executor, threads=1,
+                           progress=lambda _, how: told.append(how))
+    assert sorted(told) == ["done", "done", "known", "known"]
+    assert len(stamps) == 2 and all(path.stat().st_mtime_ns == stamp for path, stamp in stamps.items())
+    for name in ("von_mises_peak", "wall_pressure_peak", "wall_impulse"):
+        assert np.isfinite(data[name]).all()
+        assert np.array_equal(data[name].sel(stand_off=[2.0]), first[name])
+
+
+def test_another_case_in_the_same_place_is_run_again(short, tmp_path):
+    pycav.sweep(short, {"stand_off": [2.0]}, tmp_path)
+    told = []
+    pycav.sweep(short.with_({"time.cfl": 0.4}), {"stand_off": [2.0]}, tmp_path, progress=lambda _, how: told.append(how))
+    assert told == ["done"]
+
+
+def test_a_cluster_of_dask_is_an_executor(short, tmp_path):
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            data = pycav.sweep(short, {"stand_off": [1.5, 2.0]}, tmp_path, executor=client.get_executor(), threads=1)
+    assert (data["error"] == "").all() and np.isfinite(data["von_mises_peak"]).all()
+
+
+def test_the_stand_off_is_counted_in_radii_from_the_wall(short):
+    values = _toml.parse(at_point(short, {"stand_off": 1.5, "fluid.region.0.radius": 0.008}).to_toml())
+    region = values["fluid"]["region"][0]
+    assert region["radius"] == 0.008 and region["centre"][0] == pytest.approx(0.01 + 1.5 * 0.008)
+
+
+def test_the_map_over_stand_off_and_material(short, tmp_path):
+    data = pycav.stand_off_map(short, [1.6, 2.0], MATERIALS, tmp_path / "map")
+    figure = pycav.plot.stand_off_map(data)
+    figure.savefig(tmp_path / "map.png")
+    panels = figure.axes
+    assert len(panels) == 4 and [line.get_label() for line in panels[0].lines] == MATERIALS
+    expected = data["wall_pressure_peak"].sel({"solid.material": "aluminium"})
+    assert np.array_equal(panels[0].lines[1].get_ydata(), expected)

@@ -1,0 +1,54 @@
+//! The Python package: built and installed into a virtual environment of its own, and tested there by its own tests.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Runs a command and fails with what it printed if it fails.
+fn run(what: &str, command: &mut Command) {
+    let output = command.stdin(Stdio::null()).output();
+    let output = output.unwrap_or_else(|error| panic!("{what}: cannot start {command:?}: {error}"));
+    let text = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
+    assert!(output.status.success(), "{what} failed: {command:?}\n{}\n{}", text[0], text[1]);
+}
+
+/// A command without what `cargo test` tells the tests of this package, which would mislead the build of another one.
+fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
+    let mut command = Command::new(program);
+    for (name, _) in std::env::vars_os() {
+        let text = name.to_string_lossy();
+        let is_of_package = ["CARGO_PKG_", "CARGO_BIN_", "CARGO_MANIFEST_", "CARGO_CRATE_", "CARGO_PRIMARY_"]
+            .iter()
+            .any(|start| text.starts_with(start));
+        if is_of_package || matches!(&*text, "LD_LIBRARY_PATH" | "CARGO" | "PYTHONPATH" | "PYTHONHOME") {
+            command.env_remove(&name);
+        }
+    }
+    command
+}
+
+/// The directory that cargo builds in.
+fn target() -> PathBuf {
+    let binary = Path::new(env!("CARGO_BIN_EXE_cav"));
+    binary.ancestors().nth(2).expect("target/release/cav").to_owned()
+}
+
+#[test]
+fn the_package_installs_from_source_and_passes_its_tests() {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/pycav");
+    let environment = target().join("python");
+    let python = environment.join("bin/python");
+    if !python.exists() {
+        run("making a virtual environment", command("python3").args(["-m", "venv"]).arg(&environment));
+    }
+    let pip = |arguments: &[&str]| {
+        let mut install = command(&python);
+        install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(arguments);
+        install.current_dir(&package).env("CARGO_TARGET_DIR", target());
+        run("installing the package", &mut install);
+    };
+    pip(&[".[test]"]);
+    let mut tests = command(&python);
+    tests.args(["-m", "pytest", "-q", "--color=no", "-p", "no:cacheprovider"]).current_dir(&package);
+    tests.env("CAV_BINARY", env!("CARGO_BIN_EXE_cav"));
+    run("pytest", &mut tests);
+}
