@@ -7,8 +7,8 @@
 use std::time::{Duration, Instant};
 
 use coupler::{
-    CommonRefinement, FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme, TraceRow,
-    WallRegister,
+    CommonRefinement, FluidTrace, FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme,
+    TraceRow, WallRegister,
 };
 use fluid::{FluidSolver, WallState};
 use mesh::BLOCK;
@@ -60,8 +60,8 @@ pub struct FluidSide {
     answer: FrameHeader,
     /// The solid's velocities for the weak scheme.
     received: Vec<f64>,
-    /// The fluid's own pressure and velocity on the wall at mid-step, for the weak scheme.
-    own: Vec<[f64; 2]>,
+    /// The fluid's own states on the wall at mid-step, for the weak scheme.
+    own: Vec<FluidTrace>,
     limited_by: &'static str,
     smallest_step: f64,
     last_dt: f64,
@@ -84,7 +84,7 @@ impl FluidSide {
         Self {
             edges: solver.wall_edges(),
             received: vec![0.0; solver.wall_faces()],
-            own: vec![[0.0; 2]; solver.wall_faces()],
+            own: Vec::new(),
             solver,
             record,
             schedule: Schedule::new(&case.time.snapshots),
@@ -220,7 +220,6 @@ impl FluidSide {
                 let old = std::mem::replace(&mut self.received, vec![0.0; edges.len()]);
                 let received = &mut self.received;
                 map.means(true, |k| old[map.sub_faces()[k].first], |face, mean| received[face] = mean);
-                self.own = vec![[0.0; 2]; edges.len()];
             }
             self.edges = edges;
         }
@@ -249,22 +248,13 @@ impl FluidSide {
 
     /// Paper eq. (36): the wall moves with the solid's old velocity, times κ̂ where the paper's factor is on.
     fn step_weakly(&mut self, plan: Plan) -> Result<(), RunError> {
-        let own = &mut self.own;
-        own.fill([0.0; 2]);
-        let half = 0.5 * plan.dt;
-        self.solver.write_trace(plan.dt, |row, face, value| match row {
-            TraceRow::Pressure => own[face][0] += value,
-            TraceRow::PressureRate => own[face][0] += half * value,
-            TraceRow::NormalVelocity => own[face][1] += value,
-            TraceRow::NormalVelocityRate => own[face][1] += half * value,
-            _ => {}
-        });
+        self.solver.traces_at_mid_step(plan.dt, &mut self.own);
         // The Courant number of this step: the limit belongs to `cfl`.
         let courant = self.cfl * plan.dt / self.solver.time_step_limit(self.cfl);
         let kappa = if self.kappa == Kappa::Off { 1.0 } else { self.factor.next(courant) };
-        let (received, kind) = (&self.received, self.kappa);
+        let (own, received, kind) = (&self.own, &self.received, self.kappa);
         self.solver.set_wall_from(|face| {
-            let [pressure, own_velocity] = own[face];
+            let FluidTrace { pressure, velocity: own_velocity, .. } = own[face];
             let velocity = match kind {
                 Kappa::Off => received[face],
                 Kappa::Printed => kappa * received[face],

@@ -3,9 +3,8 @@
 //! - [`Frame`], [`Link`]: what crosses and how: [`ProcessLink`] between processes, [`DirectLink`] within one.
 //! - [`TraceRow`], [`RegisterRow`]: what the numbers in a frame mean.
 //! - [`CommonRefinement`]: two non-matching sets of interface faces.
-//! - [`exact_star`], [`acoustic_star`]: the Riemann problem between the two media; [`fluid_at_moving_wall`] and its like: one half
-//!   of it; [`KappaFactor`]: the paper's
-//!   damping of the weak scheme.
+//! - [`exact_star`], [`acoustic_star`]: the Riemann problem between the two media; [`fluid_at_moving_wall`] and its like:
+//!   one half of it; [`KappaFactor`]: the paper's damping of the weak scheme.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]

@@ -1,6 +1,6 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
-use coupler::{TraceRow, WallRegister};
+use coupler::{FluidTrace, TraceRow, WallRegister};
 use mesh::Padded;
 
 use crate::block::{BlockScratch, reconstruct};
@@ -105,6 +105,31 @@ impl<const N: usize> FluidSolver<N> {
                 }
             });
         }
+    }
+
+    /// The fluid's own states on the wall in the middle of a step of length `dt`, face by face.
+    ///
+    /// - `traces`: overwritten.
+    pub fn traces_at_mid_step(&self, dt: f64, traces: &mut Vec<FluidTrace>) {
+        const NOTHING: FluidTrace =
+            FluidTrace { pressure: 0.0, velocity: 0.0, density: 0.0, gamma: 0.0, pi: 0.0 };
+        traces.clear();
+        traces.resize(self.wall_faces(), NOTHING);
+        let half = 0.5 * dt;
+        self.write_trace(dt, |row, face, value| {
+            let trace = &mut traces[face];
+            match row {
+                TraceRow::Pressure => trace.pressure += value,
+                TraceRow::PressureRate => trace.pressure += half * value,
+                TraceRow::NormalVelocity => trace.velocity += value,
+                TraceRow::NormalVelocityRate => trace.velocity += half * value,
+                TraceRow::Density => trace.density += value,
+                TraceRow::DensityRate => trace.density += half * value,
+                TraceRow::Gamma => trace.gamma = value,
+                TraceRow::Pi => trace.pi = value,
+                _ => {}
+            }
+        });
     }
 
     /// The state at mid-step on the wall's face of a cell that holds both phases; `None` of other cells.

@@ -10,7 +10,7 @@ const LINE: usize = 8;
 const FAR: usize = 1 << 21;
 
 impl<const N: usize> Mesh<N> {
-    /// Loads a part of the memory that a step is about to need, so that it comes while the present block is computed: of
+    /// Asks for a part of the memory that a step is about to need, so that it comes while the present block is computed: of
     /// what the next block will be the first to read, and of where the present one will be written. A kernel that hardly
     /// computes would else wait for both.
     ///

@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 use cav::run::launch::thread_pool;
 use cav::run::setup::{fluid_solver, solid_solver};
 use coupler::{
-    FluidTrace, InterfaceStar, SolidTrace, TraceRow, fluid_at_moving_wall, fluid_under_pressure, solid_moved,
+    FluidTrace, InterfaceStar, SolidTrace, fluid_at_moving_wall, fluid_under_pressure, solid_moved,
     solid_under_pressure,
 };
 use fluid::WallState;
@@ -27,6 +27,25 @@ struct Alone<S> {
     solver: S,
     pool: ThreadPool,
     cfl: f64,
+}
+
+impl<S: Send> Alone<S> {
+    /// With as many threads as asked for, in which `make` makes the solver.
+    fn new(
+        py: Python<'_>,
+        case: &cav::case::Case,
+        threads: Option<usize>,
+        make: impl FnOnce() -> Result<S, Failure> + Send,
+    ) -> PyResult<Mutex<Self>> {
+        let alone = py.detach(|| {
+            guarded(|| {
+                let pool = thread_pool(threads)?;
+                let solver = pool.install(make)?;
+                Ok(Self { solver, pool, cfl: case.time.cfl })
+            })
+        })?;
+        Ok(Mutex::new(alone))
+    }
 }
 
 fn locked<T>(alone: &Mutex<T>) -> PyResult<MutexGuard<'_, T>> {
@@ -109,28 +128,9 @@ pub struct FluidSolver {
     alone: Mutex<Alone<fluid::FluidSolver<BLOCK>>>,
 }
 
-/// The traces on the wall at the middle of a step of length `dt`, face by face.
 fn wall_traces(solver: &fluid::FluidSolver<BLOCK>, dt: f64) -> Vec<FluidTrace> {
-    let nothing = FluidTrace { pressure: 0.0, velocity: 0.0, density: 0.0, gamma: 0.0, pi: 0.0 };
-    let mut traces = vec![nothing; solver.wall_faces()];
-    if traces.is_empty() {
-        return traces;
-    }
-    let half = 0.5 * dt;
-    solver.write_trace(dt, |row, face, value| {
-        let trace = &mut traces[face];
-        match row {
-            TraceRow::Pressure => trace.pressure += value,
-            TraceRow::PressureRate => trace.pressure += half * value,
-            TraceRow::NormalVelocity => trace.velocity += value,
-            TraceRow::NormalVelocityRate => trace.velocity += half * value,
-            TraceRow::Density => trace.density += value,
-            TraceRow::DensityRate => trace.density += half * value,
-            TraceRow::Gamma => trace.gamma = value,
-            TraceRow::Pi => trace.pi = value,
-            _ => {}
-        }
-    });
+    let mut traces = Vec::new();
+    solver.traces_at_mid_step(dt, &mut traces);
     traces
 }
 
@@ -146,17 +146,11 @@ impl FluidSolver {
     ) -> PyResult<Self> {
         let case = case.case();
         let Some(fluid) = &case.fluid else { return Err(PyValueError::new_err("the case has no fluid")) };
-        let alone = py.detach(|| {
-            guarded(|| {
-                let pool = thread_pool(threads)?;
-                let solver = pool.install(|| match &initial {
-                    Some(function) => fluid_from(case, function),
-                    None => Ok(fluid_solver(case, fluid)?),
-                })?;
-                Ok(Alone { solver, pool, cfl: case.time.cfl })
-            })
-        })?;
-        Ok(Self { alone: Mutex::new(alone) })
+        let make = || match &initial {
+            Some(function) => fluid_from(case, function),
+            None => Ok(fluid_solver(case, fluid)?),
+        };
+        Ok(Self { alone: Alone::new(py, case, threads, make)? })
     }
 
     #[getter]
@@ -287,17 +281,11 @@ impl SolidSolver {
     ) -> PyResult<Self> {
         let case = case.case();
         let Some(solid) = &case.solid else { return Err(PyValueError::new_err("the case has no solid")) };
-        let alone = py.detach(|| {
-            guarded(|| {
-                let pool = thread_pool(threads)?;
-                let solver = pool.install(|| match &initial {
-                    Some(function) => solid_from(case, function),
-                    None => Ok(solid_solver(case, solid)?),
-                })?;
-                Ok(Alone { solver, pool, cfl: case.time.cfl })
-            })
-        })?;
-        Ok(Self { alone: Mutex::new(alone) })
+        let make = || match &initial {
+            Some(function) => solid_from(case, function),
+            None => Ok(solid_solver(case, solid)?),
+        };
+        Ok(Self { alone: Alone::new(py, case, threads, make)? })
     }
 
     #[getter]

@@ -15,7 +15,7 @@ const LOWEST: f64 = 1e-4;
 /// Whether a cell holds both phases.
 #[inline(always)]
 pub(crate) fn is_mixed(phi: f64) -> bool {
-    phi > PURE && phi < 1.0 - PURE
+    (phi > PURE) & (phi < 1.0 - PURE)
 }
 
 /// A gas fraction bounded to [0, 1], but for the distance from it that counts as pure: prediction on a finer grid may

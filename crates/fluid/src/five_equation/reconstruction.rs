@@ -52,23 +52,13 @@ impl Cells<'_> {
         let row = |at: usize| -> &[f64; N] { self.rows[4][at..].first_chunk().expect("rows have ghosts") };
         let (phi, west, east) = (row(first), row(first - 1), row(first + 1));
         let (south, north) = (row(first - self.stride), row(first + self.stride));
-        let mut flags = [false; N];
-        for i in 0..N {
-            let is_other = |other: f64| (other - phi[i]).abs() > 0.5;
-            flags[i] = ((phi[i] > PURE) & (phi[i] < 1.0 - PURE))
-                | is_other(west[i])
-                | is_other(east[i])
-                | is_other(south[i])
-                | is_other(north[i]);
-        }
-        flags
+        std::array::from_fn(|i| is_at_interface(phi[i], [west[i], east[i], south[i], north[i]]))
     }
 
-    /// Whether a cell is mixed, or pure beside one of the other phase.
+    /// The same of one cell.
     pub fn is_at_interface(&self, k: usize) -> bool {
         let phi = self.rows[4];
-        let is_other = |other: usize| (phi[other] - phi[k]).abs() > 0.5;
-        is_mixed(phi[k]) || [k - 1, k + 1, k - self.stride, k + self.stride].into_iter().any(is_other)
+        is_at_interface(phi[k], [phi[k - 1], phi[k + 1], phi[k - self.stride], phi[k + self.stride]])
     }
 
     /// The cells `by` after some by phases; a phase that is as good as absent has the density `else_densities`.
@@ -95,6 +85,12 @@ impl Cells<'_> {
         }
         phases
     }
+}
+
+/// Whether a cell is mixed, or pure beside one of the other phase; without branches, for rows of them.
+#[inline(always)]
+fn is_at_interface(phi: f64, around: [f64; 4]) -> bool {
+    around.into_iter().fold(is_mixed(phi), |found, other| found | ((other - phi).abs() > 0.5))
 }
 
 /// What the reconstruction needs to know of the block and the step.
