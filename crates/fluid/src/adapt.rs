@@ -66,6 +66,7 @@ impl<const N: usize> FluidSolver<N> {
         for slot in fresh {
             self.measure_speeds(slot);
         }
+        self.pending.clone_from(&self.reports);
         self.note_gas();
         self.index_sides();
         true

@@ -30,6 +30,7 @@ mod reflux;
 mod rows;
 mod solver;
 mod state;
+mod steps;
 mod update;
 
 pub use analysis::Scales;
@@ -45,3 +46,4 @@ pub use options::{Boundary, Model, RiemannSolver, Sharpening};
 pub use rayleigh::{RayleighError, RayleighField};
 pub use solver::{BoundaryLedger, Fixups, FluidSetup, FluidSolver};
 pub use state::Primitive;
+pub use steps::Part;

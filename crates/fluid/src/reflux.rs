@@ -46,10 +46,13 @@ pub(crate) fn register_fluxes<const N: usize>(
 
 /// Corrects the cells of a block along its finer neighbours, after all blocks have made their step.
 ///
+/// - `finer`: what those neighbours have passed in the meantime.
+///
 /// The formulas are those of `update.rs` for one face; the pressure floor holds for the corrected cells, too.
 pub(crate) fn correct<const N: usize>(
     ctx: &StepContext<'_, N>,
     register: &Register<N>,
+    finer: &Register<N>,
     slot: usize,
     new: &mut [f64],
     report: &mut BlockReport<N>,
@@ -58,7 +61,7 @@ pub(crate) fn correct<const N: usize>(
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let (dt_z, dt_r) = (ctx.dt / h_z, ctx.dt / h_r);
     let r_low = ctx.mesh.origin(id)[1];
-    register.for_corrected_faces(ctx.mesh, slot, |face| {
+    register.for_corrected_faces(finer, ctx.mesh, slot, |face| {
         let CorrectedFace { side, outward, cell: [i, j], difference } = face;
         let [mass, carried, pressure, shear, energy, velocity, velocity_phi, gas] = difference;
         let cell = |c: usize| (c * N + j) * N + i;

@@ -1,17 +1,16 @@
 //! `FluidSolver`: owns the mesh and the fields, and advances them.
 
 use mesh::{
-    Adaptation, Domain, Field, Horizon, Limiter, Mesh, Patch, ScratchPool, Side, SideStates, for_each_block,
-    for_some_blocks, maximum,
+    Adaptation, Domain, Field, Horizon, LevelSteps, Limiter, Mesh, Patch, ScratchPool, Side, SideStates, maximum,
 };
 
 use crate::analysis::{Analysis, Scales};
-use crate::block::{BlockReport, BlockScratch, Marks, StepContext, step_block};
+use crate::block::{BlockReport, BlockScratch, Marks};
 use crate::boundary::{Boundaries, PressureHistory, WallState};
-use crate::five_equation::marked_blocks;
 use crate::options::TwoPhaseOptions;
-use crate::reflux::{self, Register};
+use crate::reflux::{QUANTITIES, Register};
 use crate::state::Contents;
+use crate::steps::check;
 use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::update::Extremes;
 use crate::{
@@ -104,7 +103,10 @@ pub struct FluidSolver<const N: usize> {
     pub(crate) state: Field,
     pub(crate) next: Field,
     pub(crate) register: Register<N>,
+    pub(crate) levels: LevelSteps<N, QUANTITIES>,
+    /// Of each block's last finished step, and of the one it is in.
     pub(crate) reports: Vec<BlockReport<N>>,
+    pub(crate) pending: Vec<BlockReport<N>>,
     /// Whether there is gas in each block, as the reports have it.
     pub(crate) has_gas: Vec<bool>,
     pub(crate) marks: Marks,
@@ -118,11 +120,15 @@ pub struct FluidSolver<const N: usize> {
     /// Slots of the blocks along z_min and along r_min, in order.
     pub(crate) wall_blocks: Vec<usize>,
     pub(crate) axis_blocks: Vec<usize>,
+    /// Points at which the state is asked for at all times, and the blocks that are for this or that reason.
+    pub(crate) watched_points: Vec<[f64; 2]>,
+    pub(crate) is_watched: Vec<bool>,
     pub(crate) time: f64,
-    steps: u64,
-    cell_updates: u64,
-    fixups: Fixups,
-    ledger: BoundaryLedger,
+    pub(crate) steps: u64,
+    pub(crate) cell_updates: u64,
+    pub(crate) common_updates: u64,
+    pub(crate) fixups: Fixups,
+    pub(crate) ledger: BoundaryLedger,
 }
 
 impl<const N: usize> FluidSolver<N> {
@@ -177,6 +183,8 @@ impl<const N: usize> FluidSolver<N> {
         });
         let mut solver = Self {
             reports: vec![BlockReport::default(); mesh.blocks()],
+            pending: Vec::new(),
+            levels: LevelSteps::new(components),
             has_gas: Vec::new(),
             marks: Marks::new(),
             next: state.clone(),
@@ -195,9 +203,12 @@ impl<const N: usize> FluidSolver<N> {
             wall_first: Vec::new(),
             wall_blocks: Vec::new(),
             axis_blocks: Vec::new(),
+            watched_points: Vec::new(),
+            is_watched: Vec::new(),
             time: 0.0,
             steps: 0,
             cell_updates: 0,
+            common_updates: 0,
             fixups: Fixups::default(),
             ledger: BoundaryLedger::default(),
             mixture,
@@ -207,8 +218,9 @@ impl<const N: usize> FluidSolver<N> {
         for slot in 0..solver.mesh.blocks() {
             solver.measure_speeds(slot);
         }
+        solver.pending.clone_from(&solver.reports);
         solver.note_gas();
-        solver.check(0.0)?;
+        check(&solver.mesh, &solver.mixture, &solver.state, &solver.reports, 0.0, 1)?;
         Ok(solver)
     }
 
@@ -225,6 +237,23 @@ impl<const N: usize> FluidSolver<N> {
             }
         }
         self.wall = vec![WallState::default(); faces];
+        self.index_watched();
+    }
+
+    /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
+    pub fn watch(&mut self, point: [f64; 2]) {
+        self.watched_points.push(point);
+        self.index_watched();
+    }
+
+    fn index_watched(&mut self) {
+        self.is_watched.clear();
+        self.is_watched.resize(self.mesh.blocks(), false);
+        let points = self.watched_points.iter().filter_map(|point| self.mesh.locate(*point));
+        let at_points = points.map(|(slot, ..)| slot);
+        for slot in self.wall_blocks.iter().chain(&self.axis_blocks).copied().chain(at_points) {
+            self.is_watched[slot] = true;
+        }
     }
 
     /// The mesh.
@@ -242,7 +271,7 @@ impl<const N: usize> FluidSolver<N> {
         self.time
     }
 
-    /// Steps made.
+    /// Steps made, of the finest level.
     pub fn steps(&self) -> u64 {
         self.steps
     }
@@ -250,6 +279,11 @@ impl<const N: usize> FluidSolver<N> {
     /// Cells advanced so far, step by step.
     pub fn cell_updates(&self) -> u64 {
         self.cell_updates
+    }
+
+    /// Cells that would have been advanced if all levels made the steps of the finest.
+    pub fn common_updates(&self) -> u64 {
+        self.common_updates
     }
 
     /// Corrections made so far.
@@ -265,148 +299,6 @@ impl<const N: usize> FluidSolver<N> {
     /// Conserved variables ρ, ρv_z, ρv_r, ρE, φ of all blocks.
     pub fn state(&self) -> &Field {
         &self.state
-    }
-
-    /// The largest |v| + c along z and r, m/s.
-    pub fn largest_speeds(&self) -> [f64; 2] {
-        self.reports.iter().fold([0.0_f64; 2], |[z, r], report| {
-            [z.max(report.extremes.speed_z), r.max(report.extremes.speed_r)]
-        })
-    }
-
-    /// The largest step that the Courant number allows, s:
-    /// cfl · min over cells of min(h_z/(|v_z| + c), h_r/(|v_r| + c)).
-    pub fn time_step_limit(&self, cfl: f64) -> f64 {
-        (self.mesh.tree().leaves().iter().zip(&self.reports)).fold(f64::INFINITY, |limit, (id, report)| {
-            let [h_z, h_r] = self.mesh.widths(id.level);
-            limit.min(cfl * h_z / report.extremes.speed_z).min(cfl * h_r / report.extremes.speed_r)
-        })
-    }
-
-    /// Advances by `dt`. With a solid behind z_min the wall's state must have been set, see
-    /// [`FluidSolver::set_wall`].
-    ///
-    /// - errors: [`FluidError::NonPhysical`]; the state before the step is then kept.
-    pub fn step(&mut self, dt: f64) -> Result<(), FluidError> {
-        let mut next = std::mem::replace(&mut self.next, Field::zeros(0, 0, 0));
-        let mut reports = std::mem::take(&mut self.reports);
-        let mut register = std::mem::replace(&mut self.register, Register::new(0));
-        let context = self.context(dt);
-        for_each_block(&mut next, register.values_mut(), &mut reports, |slot, new, fluxes, report| {
-            *report = self.scratch.with(|scratch| step_block(&context, slot, new, fluxes, scratch));
-        });
-        if reports.iter().any(|report| report.marked > 0) {
-            self.redo_marked(&context, &mut next, &mut register, &mut reports);
-        }
-        let is_due = |slot: usize| Register::is_due(&self.mesh, slot);
-        for_some_blocks(&mut next, &mut reports, is_due, |slot, new, report| {
-            reflux::correct(&context, &register, slot, new, report);
-        });
-        (self.next, self.reports, self.register) = (next, reports, register);
-        std::mem::swap(&mut self.state, &mut self.next);
-        if let Err(error) = self.check(self.time + dt) {
-            std::mem::swap(&mut self.state, &mut self.next);
-            return Err(error);
-        }
-        self.note_gas();
-        self.account();
-        self.account_wall(dt);
-        self.time += dt;
-        self.steps += 1;
-        self.cell_updates += self.mesh.cells() as u64;
-        Ok(())
-    }
-
-    /// Does the blocks around marked cells again, with those cells at first order.
-    fn redo_marked(
-        &self,
-        context: &StepContext<'_, N>,
-        next: &mut Field,
-        register: &mut Register<N>,
-        reports: &mut [BlockReport<N>],
-    ) {
-        let marked: Vec<usize> = reports
-            .iter()
-            .enumerate()
-            .filter(|(_, report)| report.marked > 0)
-            .map(|(slot, _)| slot)
-            .collect();
-        let mut step = |context: &StepContext<'_, N>, slot: usize| {
-            self.scratch.with(|scratch| {
-                let fluxes = register.values_mut().block_mut(slot);
-                reports[slot] = step_block(context, slot, next.block_mut(slot), fluxes, scratch);
-                scratch.marked_cells().to_vec()
-            })
-        };
-        // Which cells they are is still in the scratch of a block's step, and only there.
-        let marks: Marks = marked.into_iter().map(|slot| (slot, step(context, slot))).collect();
-        let context = StepContext { marks: &marks, ..*context };
-        for slot in marked_blocks(&self.mesh, &marks) {
-            step(&context, slot);
-        }
-        for (slot, cells) in &marks {
-            let id = self.mesh.tree().leaves()[*slot];
-            reports[*slot].redone = cells.len() as u32;
-            reports[*slot].redone_volume = cells.iter().map(|cell| self.mesh.volume(id, cell / N)).sum();
-        }
-    }
-
-    /// Impulse and work of the wall's states in a step of length `dt`.
-    fn account_wall(&mut self, dt: f64) {
-        if self.wall.is_empty() {
-            return;
-        }
-        for (first, &slot) in self.wall_blocks.iter().enumerate() {
-            let id = self.mesh.tree().leaves()[slot];
-            let h_r = self.mesh.widths(id.level)[1];
-            for j in 0..N {
-                let area = self.mesh.weight(self.mesh.centre(id, 0, j)[1]) * h_r;
-                let state = self.wall[first * N + j];
-                self.ledger.wall_impulse += dt * area * state.pressure;
-                self.ledger.wall_work += dt * area * state.power;
-            }
-        }
-    }
-
-    /// Adds up the blocks' reports in the order of their slots, so that sums do not depend on threads.
-    fn account(&mut self) {
-        for report in &self.reports {
-            self.fixups.first_order += u64::from(report.fallbacks);
-            self.fixups.redone += u64::from(report.redone);
-            self.fixups.redone_volume += report.redone_volume;
-            self.fixups.floored_volume += report.floored_volume;
-            self.fixups.floored += u64::from(report.floored);
-            self.fixups.floor_energy += report.floor_energy;
-            for (side, [mass, momentum, energy]) in report.inflow.into_iter().enumerate() {
-                self.ledger.mass[side] += mass;
-                self.ledger.momentum[side] += momentum;
-                self.ledger.energy[side] += energy;
-            }
-        }
-    }
-
-    /// Fails if a cell is not physical; its speed is then infinite.
-    fn check(&self, time: f64) -> Result<(), FluidError> {
-        if self.largest_speeds().iter().all(|speed| speed.is_finite()) {
-            return Ok(());
-        }
-        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
-            for j in 0..N {
-                for i in 0..N {
-                    let u: [f64; COUNT] = std::array::from_fn(|c| self.state.component(slot, c)[j * N + i]);
-                    let w = Primitive::from_conserved(u, &self.mixture);
-                    let stiffness = self.mixture.stiffness(w.pressure, w.phi);
-                    if w.density > 0.0 && stiffness >= 0.0 && (stiffness / w.density).is_finite() {
-                        continue;
-                    }
-                    let [z, r] = self.mesh.centre(*id, i, j);
-                    let [density, _, _, energy, phi] = u;
-                    let step = self.steps + 1;
-                    return Err(FluidError::NonPhysical { z, r, time, step, density, energy, phi });
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Speeds in a block of the initial state or one that is new; else they come with each step.
@@ -428,10 +320,11 @@ impl<const N: usize> FluidSolver<N> {
         self.reports[slot].has_gas = self.two_phase.is_some() && (has_any(PHI) || has_any(GAS));
     }
 
-    /// Takes from the reports which blocks have gas.
+    /// Takes from the reports which blocks have gas, or will have at the end of the step they are in.
     pub(crate) fn note_gas(&mut self) {
         self.has_gas.clear();
-        self.has_gas.extend(self.reports.iter().map(|report| report.has_gas));
+        let both = self.reports.iter().zip(&self.pending);
+        self.has_gas.extend(both.map(|(report, pending)| report.has_gas | pending.has_gas));
     }
 
     /// Mean pressure of the last step on each face of z_min, in the order of r, Pa.

@@ -9,13 +9,14 @@ use crate::Field;
 /// Blocks that a thread takes at once.
 const BLOCKS_AT_ONCE: usize = 4;
 
-/// Runs `work(slot, block, block of second, report)` for every block of two fields, in parallel on the current
-/// rayon pool. The result cannot depend on the number of threads: each block has its own part of the fields and
-/// its own report.
+/// Runs `work(slot, block, block of second, report)` for every block of two fields for which `is_due(slot)` holds, in
+/// parallel on the current rayon pool. The result cannot depend on the number of threads: each block has its own part of
+/// the fields and its own report.
 pub fn for_each_block<R: Send>(
     field: &mut Field,
     second: &mut Field,
     reports: &mut [R],
+    is_due: impl Fn(usize) -> bool + Sync,
     work: impl Fn(usize, &mut [f64], &mut [f64], &mut R) + Sync,
 ) {
     let (len, second_len) = (field.block_len(), second.block_len());
@@ -24,6 +25,7 @@ pub fn for_each_block<R: Send>(
         .zip(reports.par_iter_mut())
         .enumerate()
         .with_min_len(BLOCKS_AT_ONCE)
+        .filter(|(slot, _)| is_due(*slot))
         .for_each(|(slot, ((block, second), report))| work(slot, block, second, report));
 }
 

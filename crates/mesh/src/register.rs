@@ -41,6 +41,11 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
         &mut self.values
     }
 
+    /// The values of all blocks.
+    pub fn values(&self) -> &Field {
+        &self.values
+    }
+
     /// Keeps the values on those sides of a block that meet another level.
     ///
     /// - `block`: its part of the register; `values`: what passes the outer face of a side above the padded cell `k`.
@@ -71,13 +76,16 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
     }
 
     /// Calls `correct` for every face of a block that has finer neighbours beyond it, side by side.
+    ///
+    /// - `finer`: what the finer side has passed; this register, unless levels step by themselves.
     pub fn for_corrected_faces(
         &self,
+        finer: &Self,
         mesh: &Mesh<N>,
         slot: usize,
         mut correct: impl FnMut(CorrectedFace<K>),
     ) {
-        self.for_corrected_sides(mesh, slot, |side, outward, differences| {
+        self.for_corrected_sides(finer, mesh, slot, |side, outward, differences| {
             for along in 0..N {
                 let cell = match side {
                     Side::ZMin => [0, along],
@@ -95,6 +103,7 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
     /// what [`CorrectedFace`] holds: quantity by quantity, along the side.
     pub fn for_corrected_sides(
         &self,
+        finer: &Self,
         mesh: &Mesh<N>,
         slot: usize,
         mut correct: impl FnMut(Side, f64, &[[f64; N]; K]),
@@ -102,7 +111,7 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
         for side in Side::ALL {
             if let Neighbour::Finer(children) = mesh.tree().neighbours(slot)[side as usize] {
                 let outward = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
-                correct(side, outward, &self.differences(mesh, slot, side, children));
+                correct(side, outward, &self.differences(finer, mesh, slot, side, children));
             }
         }
     }
@@ -127,7 +136,14 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
     /// mean is weighted with the areas of the fine faces.
     ///
     /// - `children`: the finer blocks beyond the side, see [`Neighbour::Finer`].
-    fn differences(&self, mesh: &Mesh<N>, slot: usize, side: Side, children: [usize; 2]) -> [[f64; N]; K] {
+    fn differences(
+        &self,
+        finer: &Self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        side: Side,
+        children: [usize; 2],
+    ) -> [[f64; N]; K] {
         let opposite = match side {
             Side::ZMin => Side::ZMax,
             Side::ZMax => Side::ZMin,
@@ -143,15 +159,19 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
                 *share = row.lower_share;
             }
         }
-        let row = |slot: usize, side: Side, quantity: usize| {
-            let row: &[f64; N] = (self.values.component(slot, side as usize * K + quantity))
+        fn row<const N: usize, const K: usize>(
+            of: &FluxRegister<N, K>,
+            slot: usize,
+            side: Side,
+            quantity: usize,
+        ) -> &[f64; N] {
+            (of.values.component(slot, side as usize * K + quantity))
                 .first_chunk()
-                .expect("a row has as many faces as a block has cells along a side");
-            row
-        };
+                .expect("a row has as many faces as a block has cells along a side")
+        }
         std::array::from_fn(|quantity| {
-            let own = row(slot, side, quantity);
-            let fine = children.map(|child| row(child, opposite, quantity));
+            let own = row(self, slot, side, quantity);
+            let fine = children.map(|child| row(finer, child, opposite, quantity));
             std::array::from_fn(|along| {
                 let (child, first) = (fine[along / (N / 2)], 2 * (along % (N / 2)));
                 let (low, high) = (child[first], child[first + 1]);

@@ -81,6 +81,7 @@ impl<const N: usize> SolidSolver<N> {
         for slot in fresh {
             self.measure(slot);
         }
+        self.pending.clone_from(&self.reports);
         self.index_surface();
         true
     }

@@ -20,6 +20,7 @@ pub mod riemann;
 mod rows;
 mod solver;
 mod state;
+mod steps;
 mod update;
 mod yield_criterion;
 
@@ -32,4 +33,5 @@ pub use participant::{Interface, SurfaceTrace};
 pub use riemann::WaveSpeeds;
 pub use solver::{BoundaryLedger, SolidSetup, SolidSolver};
 pub use state::ElasticState;
+pub use steps::Part;
 pub use yield_criterion::{von_mises, yield_function};

@@ -31,6 +31,7 @@ pub(crate) fn register_stars<const N: usize>(
 pub(crate) fn correct<const N: usize>(
     ctx: &StepContext<'_, N>,
     register: &Register<N>,
+    finer: &Register<N>,
     slot: usize,
     new: &mut [f64],
     report: &mut BlockReport,
@@ -38,7 +39,7 @@ pub(crate) fn correct<const N: usize>(
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let e = ctx.elasticity;
-    register.for_corrected_sides(ctx.mesh, slot, |side, outward, [v_n, v_t, s_nn, s_nt]| {
+    register.for_corrected_sides(finer, ctx.mesh, slot, |side, outward, [v_n, v_t, s_nn, s_nt]| {
         if matches!(side, Side::ZMin | Side::ZMax) {
             let i = if side == Side::ZMin { 0 } else { N - 1 };
             let scale = outward * ctx.dt / h_z;

@@ -1,16 +1,16 @@
 //! `SolidSolver`: owns the mesh and the fields, and advances them.
 
 use mesh::{
-    Adaptation, Domain, Field, Horizon, Limiter, Mesh, Patch, ScratchPool, Side, SideStates, for_each_block,
-    for_some_blocks,
+    Adaptation, Domain, Field, Horizon, LevelSteps, Limiter, Mesh, Patch, ScratchPool, Side, SideStates,
 };
 
 use crate::analysis::Analysis;
-use crate::block::{BlockReport, BlockScratch, StepContext, report_stresses, step_block};
+use crate::block::{BlockReport, BlockScratch, StepContext, report_stresses};
 use crate::boundary::{Boundaries, SurfaceState};
-use crate::reflux::{self, Register};
+use crate::reflux::{QUANTITIES, Register};
 use crate::rows::Elasticity;
 use crate::state::component::COUNT;
+use crate::steps::check;
 use crate::{Boundary, ElasticState, SolidError, WaveSpeeds};
 
 /// Everything that defines a solid.
@@ -58,7 +58,10 @@ pub struct SolidSolver<const N: usize> {
     pub(crate) state: Field,
     pub(crate) next: Field,
     pub(crate) register: Register<N>,
+    pub(crate) levels: LevelSteps<N, QUANTITIES>,
+    /// Of each block's last finished step, and of the one it is in.
     pub(crate) reports: Vec<BlockReport>,
+    pub(crate) pending: Vec<BlockReport>,
     pub(crate) analysis: Analysis,
     pub(crate) horizon: Horizon,
     pub(crate) patches: ScratchPool<Patch<N>>,
@@ -67,10 +70,14 @@ pub struct SolidSolver<const N: usize> {
     pub(crate) surface_first: Vec<usize>,
     /// Slots of the blocks along z_max, in order.
     pub(crate) surface_blocks: Vec<usize>,
+    /// Points at which the state is asked for at all times, and the blocks that are for this or that reason.
+    pub(crate) watched_points: Vec<[f64; 2]>,
+    pub(crate) is_watched: Vec<bool>,
     pub(crate) time: f64,
-    steps: u64,
-    cell_updates: u64,
-    ledger: BoundaryLedger,
+    pub(crate) steps: u64,
+    pub(crate) cell_updates: u64,
+    pub(crate) common_updates: u64,
+    pub(crate) ledger: BoundaryLedger,
 }
 
 impl<const N: usize> SolidSolver<N> {
@@ -93,6 +100,8 @@ impl<const N: usize> SolidSolver<N> {
             reports: vec![BlockReport::default(); mesh.blocks()],
             next: state.clone(),
             register: Register::new(mesh.blocks()),
+            levels: LevelSteps::new(COUNT),
+            pending: Vec::new(),
             state,
             analysis,
             horizon: Horizon::default(),
@@ -101,9 +110,12 @@ impl<const N: usize> SolidSolver<N> {
             surface: Vec::new(),
             surface_first: Vec::new(),
             surface_blocks: Vec::new(),
+            watched_points: Vec::new(),
+            is_watched: Vec::new(),
             time: 0.0,
             steps: 0,
             cell_updates: 0,
+            common_updates: 0,
             ledger: BoundaryLedger::default(),
             setup,
             mesh,
@@ -112,7 +124,8 @@ impl<const N: usize> SolidSolver<N> {
         for slot in 0..solver.mesh.blocks() {
             solver.measure(slot);
         }
-        solver.check(0.0)?;
+        solver.pending.clone_from(&solver.reports);
+        check(&solver.mesh, &solver.state, &solver.reports, 0.0, 1)?;
         Ok(solver)
     }
 
@@ -128,6 +141,22 @@ impl<const N: usize> SolidSolver<N> {
             }
         }
         self.surface = vec![SurfaceState::default(); faces];
+        self.index_watched();
+    }
+
+    /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
+    pub fn watch(&mut self, point: [f64; 2]) {
+        self.watched_points.push(point);
+        self.index_watched();
+    }
+
+    fn index_watched(&mut self) {
+        self.is_watched.clear();
+        self.is_watched.resize(self.mesh.blocks(), false);
+        let points = self.watched_points.iter().filter_map(|point| self.mesh.locate(*point));
+        for slot in self.surface_blocks.iter().copied().chain(points.map(|(slot, ..)| slot)) {
+            self.is_watched[slot] = true;
+        }
     }
 
     /// The mesh.
@@ -145,7 +174,7 @@ impl<const N: usize> SolidSolver<N> {
         self.time
     }
 
-    /// Steps made.
+    /// Steps made, of the finest level.
     pub fn steps(&self) -> u64 {
         self.steps
     }
@@ -153,6 +182,11 @@ impl<const N: usize> SolidSolver<N> {
     /// Cells advanced so far, step by step.
     pub fn cell_updates(&self) -> u64 {
         self.cell_updates
+    }
+
+    /// Cells that would have been advanced if all levels made the steps of the finest.
+    pub fn common_updates(&self) -> u64 {
+        self.common_updates
     }
 
     /// What crossed the domain's sides so far.
@@ -163,14 +197,6 @@ impl<const N: usize> SolidSolver<N> {
     /// v_z, v_r, σ_zz, σ_zr, σ_rr, σ_φφ of all blocks.
     pub fn state(&self) -> &Field {
         &self.state
-    }
-
-    /// The largest step that the Courant number allows, s: cfl · min(h)/c₁.
-    pub fn time_step_limit(&self, cfl: f64) -> f64 {
-        self.mesh.tree().leaves().iter().fold(f64::INFINITY, |limit, id| {
-            let [h_z, h_r] = self.mesh.widths(id.level);
-            limit.min(cfl * h_z.min(h_r) / self.setup.speeds.c1)
-        })
     }
 
     /// What all blocks of a step of length `dt` share.
@@ -189,41 +215,6 @@ impl<const N: usize> SolidSolver<N> {
         }
     }
 
-    /// Advances by `dt`. Under a fluid the surface's state must have been set, see
-    /// [`SolidSolver::set_surface`].
-    ///
-    /// - errors: [`SolidError::NotFinite`]; the state before the step is then kept.
-    pub fn step(&mut self, dt: f64) -> Result<(), SolidError> {
-        let mut next = std::mem::replace(&mut self.next, Field::zeros(0, 0, 0));
-        let mut reports = std::mem::take(&mut self.reports);
-        let mut register = std::mem::replace(&mut self.register, Register::new(0));
-        let context = self.context(dt);
-        for_each_block(&mut next, register.values_mut(), &mut reports, |slot, new, stars, report| {
-            *report = self.scratch.with(|scratch| step_block(&context, slot, new, stars, scratch));
-        });
-        let is_due = |slot: usize| Register::is_due(&self.mesh, slot);
-        for_some_blocks(&mut next, &mut reports, is_due, |slot, new, report| {
-            reflux::correct(&context, &register, slot, new, report);
-        });
-        (self.next, self.reports, self.register) = (next, reports, register);
-        std::mem::swap(&mut self.state, &mut self.next);
-        if let Err(error) = self.check(self.time + dt) {
-            std::mem::swap(&mut self.state, &mut self.next);
-            return Err(error);
-        }
-        // In the order of the slots, so that sums do not depend on threads.
-        for report in &self.reports {
-            for (side, [momentum, energy]) in report.inflow.into_iter().enumerate() {
-                self.ledger.momentum[side] += momentum;
-                self.ledger.energy[side] += energy;
-            }
-        }
-        self.time += dt;
-        self.steps += 1;
-        self.cell_updates += self.mesh.cells() as u64;
-        Ok(())
-    }
-
     /// The largest von Mises stress in each block, Pa.
     pub(crate) fn mises_by_block(&self) -> impl Iterator<Item = f64> + '_ {
         self.reports.iter().map(|report| report.mises_squared.sqrt())
@@ -232,24 +223,6 @@ impl<const N: usize> SolidSolver<N> {
     /// The volume in which the von Mises stress exceeds the yield strength, m³ (per radian).
     pub(crate) fn yielded(&self) -> f64 {
         self.reports.iter().map(|report| report.yielded).sum()
-    }
-
-    /// Fails if a number is not finite; its von Mises stress is then infinite.
-    fn check(&self, time: f64) -> Result<(), SolidError> {
-        if self.reports.iter().all(|report| report.mises_squared.is_finite()) {
-            return Ok(());
-        }
-        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
-            for (k, _) in self.state.component(slot, 0).iter().enumerate() {
-                if (0..COUNT).any(|c| self.state.component(slot, c)[k].abs() > f64::MAX.sqrt())
-                    || (0..COUNT).any(|c| self.state.component(slot, c)[k].is_nan())
-                {
-                    let [z, r] = self.mesh.centre(*id, k % N, k / N);
-                    return Err(SolidError::NotFinite { z, r, time, step: self.steps + 1 });
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Stresses in a block of the initial state or one that is new; else they come with each step.

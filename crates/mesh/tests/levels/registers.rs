@@ -43,7 +43,7 @@ proptest! {
             (Side::RMin, Side::RMax, [0, -1]), (Side::RMax, Side::RMin, [0, 1])];
         for (slot, id) in mesh.tree().leaves().iter().enumerate() {
             let mut corrected = [None; 4];
-            register.for_corrected_sides(&mesh, slot, |side, outward, differences| {
+            register.for_corrected_sides(&register, &mesh, slot, |side, outward, differences| {
                 assert_eq!(outward > 0.0, matches!(side, Side::ZMax | Side::RMax));
                 corrected[side as usize] = Some(*differences);
             });

@@ -1,0 +1,296 @@
+//! How the fluid advances: in steps of the whole grid, or of its levels one by one.
+//!
+//! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
+//! the finer ones have caught up. Without local time steps one sub-step is the whole.
+
+use mesh::{
+    Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, for_each_block, for_some_blocks,
+};
+
+use crate::block::{BlockReport, Marks, StepContext, step_block};
+use crate::five_equation::marked_blocks;
+use crate::reflux::{self, Register};
+use crate::state::conserved::COUNT;
+use crate::{FluidError, FluidSolver, Mixture, Primitive};
+
+/// Which blocks a part of a step is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// All of the group.
+    All,
+    /// Those that do not touch the wall to the solid: they need not know what it does.
+    AwayFromWall,
+    /// Those that do.
+    AtWall,
+}
+
+impl<const N: usize> FluidSolver<N> {
+    /// The largest |v| + c along z and r, m/s.
+    pub fn largest_speeds(&self) -> [f64; 2] {
+        self.reports.iter().fold([0.0_f64; 2], |[z, r], report| {
+            [z.max(report.extremes.speed_z), r.max(report.extremes.speed_r)]
+        })
+    }
+
+    /// The longest step of the block in `slot`, s.
+    fn limit_of(&self, slot: usize, cfl: f64) -> f64 {
+        let [h_z, h_r] = self.mesh.widths(self.mesh.tree().leaves()[slot].level);
+        let extremes = &self.reports[slot].extremes;
+        (cfl * h_z / extremes.speed_z).min(cfl * h_r / extremes.speed_r)
+    }
+
+    /// The largest step that the Courant number allows all cells, s:
+    /// cfl · min over cells of min(h_z/(|v_z| + c), h_r/(|v_r| + c)).
+    pub fn time_step_limit(&self, cfl: f64) -> f64 {
+        (0..self.mesh.blocks()).fold(f64::INFINITY, |limit, slot| limit.min(self.limit_of(slot, cfl)))
+    }
+
+    /// The largest step of the whole that the Courant number allows if each level finer than `base` halves it once more, s.
+    pub fn local_step_limit(&self, cfl: f64, base: u8) -> f64 {
+        let leaves = self.mesh.tree().leaves();
+        let (mut limit, mut shortest) = (f64::INFINITY, f64::INFINITY);
+        for (slot, id) in leaves.iter().enumerate() {
+            let own = self.limit_of(slot, cfl);
+            shortest = shortest.min(own);
+            limit = limit.min(own * f64::from(1_u32 << id.level.saturating_sub(base).min(MOST_HALVINGS)));
+        }
+        limit.min(shortest * f64::from(1_u32 << MOST_HALVINGS))
+    }
+
+    /// The coarsest level that local steps may set apart from the finest there is.
+    pub fn coarsest_base(&self) -> u8 {
+        let finest = self.mesh.tree().leaves().iter().map(|id| id.level).max().unwrap_or(0);
+        finest.saturating_sub(MOST_HALVINGS)
+    }
+
+    /// The finest level at the wall to the solid.
+    pub fn finest_at_wall(&self) -> u8 {
+        let levels = self.wall_blocks.iter().map(|slot| self.mesh.tree().leaves()[*slot].level);
+        levels.max().unwrap_or(0)
+    }
+
+    /// Which levels step when.
+    pub fn clock(&self) -> &LevelClock {
+        self.levels.clock()
+    }
+
+    /// Advances all cells by `dt`. With a solid behind z_min the wall's state must have been set, see
+    /// [`FluidSolver::set_wall`].
+    ///
+    /// - errors: [`FluidError::NonPhysical`]; the state before the step is then kept.
+    pub fn step(&mut self, dt: f64) -> Result<(), FluidError> {
+        self.begin_step(dt, u8::MAX);
+        self.sub_step(f64::INFINITY)
+    }
+
+    /// Begins a step of length `dt` in which levels finer than `base` make steps of their own.
+    pub fn begin_step(&mut self, dt: f64, base: u8) {
+        let is_watched = &self.is_watched;
+        self.levels.begin(&self.mesh, base, self.time, dt, |slot| is_watched[slot]);
+    }
+
+    /// Makes the next step of the finest level, and what coarser ones have to do before and after it.
+    ///
+    /// - `cfl`: bounds the steps of levels within the whole.
+    /// - errors: as [`FluidSolver::step`].
+    pub fn sub_step(&mut self, cfl: f64) -> Result<(), FluidError> {
+        while self.clock().due().is_some() {
+            let step = self.start(cfl);
+            self.run(step, Part::All)?;
+        }
+        self.finish()
+    }
+
+    /// Starts the step of the group of levels that is due.
+    pub fn start(&mut self, cfl: f64) -> GroupStep {
+        let group = self.clock().due().unwrap_or(0);
+        let limit = if cfl == f64::INFINITY {
+            cfl
+        } else {
+            (0..self.mesh.blocks())
+                .filter(|slot| self.levels.group_of(&self.mesh, *slot) == group)
+                .fold(f64::INFINITY, |limit, slot| limit.min(self.limit_of(slot, cfl)))
+        };
+        self.levels.start(limit)
+    }
+
+    /// Makes a part of a step that has been started. The parts of group 0 may be made one after the other.
+    ///
+    /// - errors: as [`FluidSolver::step`].
+    pub fn run(&mut self, step: GroupStep, part: Part) -> Result<(), FluidError> {
+        let mut target = self.levels.take_target(step.group, &mut self.next);
+        let mut pending = std::mem::take(&mut self.pending);
+        let mut register = std::mem::replace(&mut self.register, Register::new(0));
+        let context = self.context(step.dt);
+        let is_due = |slot: usize| {
+            let at_wall = self.wall_first[slot] != usize::MAX;
+            let is_in_part = match part {
+                Part::All => true,
+                Part::AwayFromWall => !at_wall,
+                Part::AtWall => at_wall,
+            };
+            is_in_part && self.levels.group_of(&self.mesh, slot) == step.group
+        };
+        for_each_block(
+            &mut target,
+            register.values_mut(),
+            &mut pending,
+            is_due,
+            |slot, new, fluxes, report| {
+                *report = self.scratch.with(|scratch| step_block(&context, slot, new, fluxes, scratch));
+            },
+        );
+        if pending.iter().enumerate().any(|(slot, report)| report.marked > 0 && is_due(slot)) {
+            self.redo_marked(&context, &mut target, &mut register, &mut pending, is_due);
+        }
+        let due = (0..self.mesh.blocks()).filter(|slot| is_due(*slot)).count();
+        let end = self.time + step.dt;
+        let checked = check(&self.mesh, &self.mixture, &target, &pending, end, self.steps + 1);
+        self.levels.put_target(step.group, &mut self.next, target);
+        (self.pending, self.register) = (pending, register);
+        checked?;
+        self.levels.gather(&self.mesh, &self.register, step.group);
+        self.cell_updates += (due * N * N) as u64;
+        self.note_gas();
+        Ok(())
+    }
+
+    /// Does the blocks around marked cells again, with those cells at first order. Beyond the group's blocks the fluxes are
+    /// those of the finer side.
+    fn redo_marked(
+        &self,
+        context: &StepContext<'_, N>,
+        next: &mut Field,
+        register: &mut Register<N>,
+        reports: &mut [BlockReport<N>],
+        is_due: impl Fn(usize) -> bool,
+    ) {
+        let marked: Vec<usize> = reports
+            .iter()
+            .enumerate()
+            .filter(|(slot, report)| report.marked > 0 && is_due(*slot))
+            .map(|(slot, _)| slot)
+            .collect();
+        let mut step = |context: &StepContext<'_, N>, slot: usize| {
+            self.scratch.with(|scratch| {
+                let fluxes = register.values_mut().block_mut(slot);
+                reports[slot] = step_block(context, slot, next.block_mut(slot), fluxes, scratch);
+                scratch.marked_cells().to_vec()
+            })
+        };
+        // Which cells they are is still in the scratch of a block's step, and only there.
+        let marks: Marks = marked.into_iter().map(|slot| (slot, step(context, slot))).collect();
+        let context = StepContext { marks: &marks, ..*context };
+        for slot in marked_blocks(&self.mesh, &marks).into_iter().filter(|slot| is_due(*slot)) {
+            step(&context, slot);
+        }
+        for (slot, cells) in &marks {
+            let id = self.mesh.tree().leaves()[*slot];
+            reports[*slot].redone = cells.len() as u32;
+            reports[*slot].redone_volume = cells.iter().map(|cell| self.mesh.volume(id, cell / N)).sum();
+        }
+    }
+
+    /// Ends the present step of the finest level, and those of coarser ones that end with it.
+    ///
+    /// - errors: as [`FluidSolver::step`].
+    pub fn finish(&mut self) -> Result<(), FluidError> {
+        let later = self.clock().next();
+        let ended = |clock: &LevelClock, group: usize| clock.end(group) == later;
+        for group in (0..self.clock().groups()).rev() {
+            if ended(self.clock(), group) {
+                self.correct(group)?;
+            }
+        }
+        for slot in 0..self.mesh.blocks() {
+            let group = self.levels.group_of(&self.mesh, slot);
+            if ended(self.clock(), group) {
+                self.account(slot, self.clock().length(group));
+            }
+        }
+        self.levels.turn(&self.mesh, &mut self.state, &mut self.next);
+        self.note_gas();
+        self.time = later;
+        self.steps += 1;
+        self.common_updates += self.mesh.cells() as u64;
+        Ok(())
+    }
+
+    /// Corrects the cells of a group along finer neighbours.
+    fn correct(&mut self, group: usize) -> Result<(), FluidError> {
+        let mut target = self.levels.take_target(group, &mut self.next);
+        let mut pending = std::mem::take(&mut self.pending);
+        let context = self.context(self.clock().length(group));
+        let (levels, register, mesh) = (&self.levels, &self.register, &self.mesh);
+        let is_due = |slot: usize| levels.group_of(mesh, slot) == group && Register::is_due(mesh, slot);
+        for_some_blocks(&mut target, &mut pending, is_due, |slot, new, report| {
+            let finer = levels.finer_side(mesh, slot, register);
+            reflux::correct(&context, register, finer, slot, new, report);
+        });
+        let end = self.clock().next();
+        let checked = check(&self.mesh, &self.mixture, &target, &pending, end, self.steps + 1);
+        self.levels.put_target(group, &mut self.next, target);
+        self.pending = pending;
+        checked
+    }
+
+    /// Takes over the report of a block's step that has ended: in the order of the slots, so that sums do not depend on
+    /// threads.
+    fn account(&mut self, slot: usize, dt: f64) {
+        let report = self.pending[slot];
+        self.reports[slot] = report;
+        self.fixups.first_order += u64::from(report.fallbacks);
+        self.fixups.redone += u64::from(report.redone);
+        self.fixups.redone_volume += report.redone_volume;
+        self.fixups.floored_volume += report.floored_volume;
+        self.fixups.floored += u64::from(report.floored);
+        self.fixups.floor_energy += report.floor_energy;
+        for (side, [mass, momentum, energy]) in report.inflow.into_iter().enumerate() {
+            self.ledger.mass[side] += mass;
+            self.ledger.momentum[side] += momentum;
+            self.ledger.energy[side] += energy;
+        }
+        let first = self.wall_first[slot];
+        if first == usize::MAX {
+            return;
+        }
+        let id = self.mesh.tree().leaves()[slot];
+        let h_r = self.mesh.widths(id.level)[1];
+        for j in 0..N {
+            let area = self.mesh.weight(self.mesh.centre(id, 0, j)[1]) * h_r;
+            let state = self.wall[first + j];
+            self.ledger.wall_impulse += dt * area * state.pressure;
+            self.ledger.wall_work += dt * area * state.power;
+        }
+    }
+}
+
+/// Fails if a cell of a new state is not physical; its block's speed is then infinite.
+pub(crate) fn check<const N: usize>(
+    mesh: &Mesh<N>,
+    mixture: &Mixture,
+    state: &Field,
+    reports: &[BlockReport<N>],
+    time: f64,
+    step: u64,
+) -> Result<(), FluidError> {
+    let is_sane = |report: &BlockReport<N>| {
+        report.extremes.speed_z.is_finite() && report.extremes.speed_r.is_finite()
+    };
+    for (slot, id) in mesh.tree().leaves().iter().enumerate().filter(|(slot, _)| !is_sane(&reports[*slot])) {
+        for j in 0..N {
+            for i in 0..N {
+                let u: [f64; COUNT] = std::array::from_fn(|c| state.component(slot, c)[j * N + i]);
+                let w = Primitive::from_conserved(u, mixture);
+                let stiffness = mixture.stiffness(w.pressure, w.phi);
+                if w.density > 0.0 && stiffness >= 0.0 && (stiffness / w.density).is_finite() {
+                    continue;
+                }
+                let [z, r] = mesh.centre(*id, i, j);
+                let [density, _, _, energy, phi] = u;
+                return Err(FluidError::NonPhysical { z, r, time, step, density, energy, phi });
+            }
+        }
+    }
+    Ok(())
+}

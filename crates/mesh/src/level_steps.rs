@@ -1,0 +1,150 @@
+//! Local time steps: what a solver keeps for the levels that step less often than the finest.
+
+use rayon::prelude::*;
+
+use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Neighbour};
+
+/// Clock and storage of local time steps.
+///
+/// The finest group of levels reads `state` and writes `next`, and the two are exchanged after each of its steps. Coarser
+/// groups write where they will be at the end of their step into a field of its own; until then those of their blocks
+/// that finer ones read move there linearly in time (Osher & Sanders 1983; Berger & Colella 1989), and the others stay
+/// as they were. What finer blocks pass to coarser ones is kept as the mean over the coarser one's step.
+#[derive(Clone, Debug)]
+pub struct LevelSteps<const N: usize, const K: usize> {
+    clock: LevelClock,
+    ahead: Field,
+    means: FluxRegister<N, K>,
+    follows: Vec<bool>,
+}
+
+impl<const N: usize, const K: usize> LevelSteps<N, K> {
+    /// For fields of so many components.
+    pub fn new(components: usize) -> Self {
+        Self {
+            clock: LevelClock::default(),
+            ahead: Field::zeros(0, N * N, components),
+            means: FluxRegister::new(0),
+            follows: Vec::new(),
+        }
+    }
+
+    /// Begins a step of length `dt`, in which levels coarser than `base` step like `base`.
+    ///
+    /// - `watched`: whether a block's state is asked for at all times, whatever its level.
+    pub fn begin(&mut self, mesh: &Mesh<N>, base: u8, now: f64, dt: f64, watched: impl Fn(usize) -> bool) {
+        let levels = mesh.tree().leaves().iter().map(|id| id.level);
+        let (coarsest, finest) =
+            levels.fold((u8::MAX, 0), |(low, high), level| (level.min(low), level.max(high)));
+        self.clock.begin(base.max(coarsest).min(finest), finest, now, dt);
+        if self.clock.groups() == 1 {
+            return;
+        }
+        self.ahead.resize(mesh.blocks());
+        self.means.resize(mesh.blocks());
+        let is_read = |slot: usize| {
+            mesh.tree().neighbours(slot).iter().any(|neighbour| matches!(neighbour, Neighbour::Finer(_)))
+        };
+        self.follows.clear();
+        self.follows.extend((0..mesh.blocks()).map(|slot| is_read(slot) || watched(slot)));
+    }
+
+    /// Which levels step when.
+    pub fn clock(&self) -> &LevelClock {
+        &self.clock
+    }
+
+    /// Starts the next step of the group that is due, see [`LevelClock::start`].
+    pub fn start(&mut self, limit: f64) -> GroupStep {
+        self.clock.start(limit)
+    }
+
+    /// The group of a block.
+    pub fn group_of(&self, mesh: &Mesh<N>, slot: usize) -> usize {
+        self.clock.group(mesh.tree().leaves()[slot].level)
+    }
+
+    /// Where a group writes its new state: into `next` if it is the finest.
+    pub fn take_target(&mut self, group: usize, next: &mut Field) -> Field {
+        let field = if group == self.clock.finest() { next } else { &mut self.ahead };
+        std::mem::replace(field, Field::zeros(0, 0, 0))
+    }
+
+    /// Gives the target back.
+    pub fn put_target(&mut self, group: usize, next: &mut Field, target: Field) {
+        *(if group == self.clock.finest() { next } else { &mut self.ahead }) = target;
+    }
+
+    /// Takes what the blocks of a group have passed in their step into the means over the coarser group's step.
+    pub fn gather(&mut self, mesh: &Mesh<N>, register: &FluxRegister<N, K>, group: usize) {
+        if group == 0 {
+            return;
+        }
+        let (clock, weight) = (&self.clock, self.clock.weight(group));
+        let is_due = |slot: usize| {
+            clock.group(mesh.tree().leaves()[slot].level) == group
+                && mesh.tree().neighbours(slot).iter().any(|n| matches!(n, Neighbour::Coarser(_)))
+        };
+        let means = self.means.values_mut();
+        let len = means.block_len();
+        means.as_mut_slice().par_chunks_mut(len).enumerate().with_min_len(16).for_each(|(slot, means)| {
+            if !is_due(slot) {
+                return;
+            }
+            for (mean, value) in means.iter_mut().zip(register.values().block(slot)) {
+                // By differences, so that the mean of what stays the same is the same to the last bit.
+                *mean = if weight == 1.0 { *value } else { *mean + weight * (*value - *mean) };
+            }
+        });
+    }
+
+    /// The register that holds what the finer neighbours of a block have passed during its step.
+    pub fn finer_side<'a>(
+        &'a self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        register: &'a FluxRegister<N, K>,
+    ) -> &'a FluxRegister<N, K> {
+        let level = mesh.tree().leaves()[slot].level;
+        if self.clock.group(level) == self.clock.group(level + 1) { register } else { &self.means }
+    }
+
+    /// Ends the finest group's step: `state` is then that of its end.
+    ///
+    /// To be called when the clock still shows the beginning, after all corrections.
+    pub fn turn(&mut self, mesh: &Mesh<N>, state: &mut Field, next: &mut Field) {
+        let clock = &self.clock;
+        let finest = clock.finest();
+        if finest > 0 {
+            let later = clock.next();
+            let (ahead, follows) = (&self.ahead, &self.follows);
+            let len = state.block_len();
+            (state.as_mut_slice().par_chunks_mut(len))
+                .zip(next.as_mut_slice().par_chunks_mut(len))
+                .enumerate()
+                .with_min_len(16)
+                .for_each(|(slot, (old, new))| {
+                    let group = clock.group(mesh.tree().leaves()[slot].level);
+                    if group == finest {
+                        return;
+                    }
+                    let share = clock.share_until(group, later);
+                    if share >= 1.0 {
+                        // Into both: they are exchanged step by step.
+                        old.copy_from_slice(ahead.block(slot));
+                        new.copy_from_slice(ahead.block(slot));
+                    } else if follows[slot] {
+                        for ((new, old), end) in new.iter_mut().zip(&mut *old).zip(ahead.block(slot)) {
+                            *new = *old + share * (end - *old);
+                        }
+                    }
+                });
+        }
+        std::mem::swap(state, next);
+        self.clock.advance();
+    }
+}
+
+/// The levels below the finest that have steps of their own: what coarser ones would save is little, and their steps would be
+/// longer than the grid holds.
+pub const MOST_HALVINGS: u8 = 3;
