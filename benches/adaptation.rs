@@ -138,7 +138,7 @@ fn measure(side: &str, sets: &[String]) -> Result<Spent, Failure> {
             |s| Ok(s.step(s.time_step_limit(0.45))?),
             |s| {
                 let dt = s.time_step_limit(0.45);
-                s.adapt_if_due(dt);
+                s.adapt_if_due(dt, 1);
             },
             |s| s.mesh().cells(),
         )
@@ -155,8 +155,8 @@ fn measure(side: &str, sets: &[String]) -> Result<Spent, Failure> {
             },
             |s| {
                 let dt = s.time_step_limit(0.45);
-                if s.adaptation_follows(dt) {
-                    s.adapt(dt);
+                if s.adaptation_follows(dt, 1) {
+                    s.adapt(dt, 1);
                 }
             },
             |s| s.mesh().cells(),

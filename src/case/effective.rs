@@ -44,6 +44,7 @@ impl Case {
         text.head("[time]");
         text.number("end", self.time.end);
         text.number("cfl", self.time.cfl);
+        text.key("local_steps", self.time.local_steps);
         text.list("snapshots", &self.time.snapshots);
         if let Some(fluid) = &self.fluid {
             write_fluid(&mut text, fluid, self.coupling.scheme);
@@ -55,6 +56,7 @@ impl Case {
         text.name("scheme", &coupler::Scheme::NAMES, self.coupling.scheme);
         text.name("star", &coupler::StarSolver::NAMES, self.coupling.star);
         text.name("kappa", &coupler::Kappa::NAMES, self.coupling.kappa);
+        text.key("step_ratio", self.coupling.step_ratio);
         if waiting {
             text.number("connect_timeout", self.coupling.connect_timeout);
             text.number("patience", self.coupling.patience);

@@ -86,6 +86,8 @@ pub struct Time {
     pub end: f64,
     /// Δt over the smallest h/(|v| + c) of a cell; in (0, 0.9].
     pub cfl: f64,
+    /// Whether coarse levels make longer steps than fine ones.
+    pub local_steps: bool,
     /// When fields are written, s: ascending, from 0 to `end`, both included.
     pub snapshots: Vec<f64>,
 }
@@ -218,6 +220,8 @@ pub struct CouplingCase {
     pub star: StarSolver,
     /// The paper's factors of the weak scheme.
     pub kappa: Kappa,
+    /// The most steps that one side makes within one of the other; 1: both make the same.
+    pub step_ratio: u32,
     /// How long a side waits for the other to appear, s.
     pub connect_timeout: f64,
     /// How long a side waits for the other within a step, s.

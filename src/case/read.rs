@@ -121,6 +121,7 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
     {
         faults.of(cfl, format!("must lie in (0, 0.9], got {:?}", cfl.value), "0.45 is a good value");
     }
+    let local_steps = table.boolean("local_steps", faults);
     let snapshots = table.numbers("snapshots", "s", faults);
     let every = table.number("snapshot_every", "s", faults);
     table.finish(faults);
@@ -150,7 +151,12 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
             times.extend((1..).map(|k| f64::from(k) * every).take_while(|time| *time < end));
         }
     }
-    Some(Time { end, cfl: cfl.map_or(0.45, |given| given.value), snapshots: resolve(times, end) })
+    Some(Time {
+        end,
+        cfl: cfl.map_or(0.45, |given| given.value),
+        local_steps: local_steps.is_none_or(|given| given.value),
+        snapshots: resolve(times, end),
+    })
 }
 
 /// Ascending, with 0 and `end`, without times that are one up to round-off.
@@ -165,11 +171,15 @@ fn resolve(mut times: Vec<f64>, end: f64) -> Vec<f64> {
     times
 }
 
+/// The most steps that one side makes within one of the other.
+const MOST_STEPS_IN_ONE: u32 = 16;
+
 fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCase, Option<Given<Scheme>>) {
     let mut coupling = CouplingCase {
         scheme: Scheme::Riemann,
         star: StarSolver::Exact,
         kappa: Kappa::Off,
+        step_ratio: MOST_STEPS_IN_ONE,
         connect_timeout: 30.0,
         patience: 600.0,
     };
@@ -197,6 +207,9 @@ fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCase, Option<
         if kappa.value != Kappa::Off && scheme.as_ref().is_some_and(|given| given.value != Scheme::Weak) {
             faults.of(&kappa, "only scheme = \"weak\" has factors kappa", "remove it, or take that scheme");
         }
+    }
+    if let Some(ratio) = table.whole("step_ratio", 1..=MOST_STEPS_IN_ONE as usize, faults) {
+        coupling.step_ratio = ratio.value as u32;
     }
     if let Some(seconds) = table.positive("connect_timeout", "s", faults) {
         coupling.connect_timeout = seconds;

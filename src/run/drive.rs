@@ -11,10 +11,11 @@ use coupler::{Endpoint, Link, LinkCounters, Participant, ProcessLink};
 use serde_json::{Map, Value, json};
 
 use super::RunError;
-use super::fluid_side::{Clock, FluidSide, Turn};
+use super::fluid_side::{FluidSide, Turn};
 use super::session::{Session, Solvers};
 use super::solid_side::SolidSide;
 use super::stop::Stop;
+use super::timed::Clock;
 use crate::case::Case;
 use crate::output::{ProgressLine, RunDirectory, summary};
 

@@ -1,26 +1,29 @@
 //! The fluid's part of the step loop.
 //!
-//! In a coupled run the fluid leads: it chooses the step, sends its trace on the wall, and completes the step
-//! when the solid has answered with what the wall did. In the weak scheme it first makes the step with the
-//! solid's old velocity and then sends its new pressure, paper eqs. (36), (37).
+//! In a coupled run the fluid leads: it chooses the longer of both sides' steps and whose it is. If it is its own, it sends
+//! its trace on the wall and completes the step when the solid has answered with what the wall did; else it asks the solid
+//! for its trace and answers. In the weak scheme it first makes the step with the solid's old velocity and then sends
+//! its new pressure, paper eqs. (36), (37).
 
 use std::time::{Duration, Instant};
 
 use coupler::{
-    CommonRefinement, FluidTrace, FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme,
-    TraceRow, WallRegister,
+    CommonRefinement, FluidTrace, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme,
+    StarSolver, TraceRow, WallRegister,
 };
 use fluid::{FluidSolver, WallState};
-use mesh::BLOCK;
+use mesh::{BLOCK, GroupStep};
 use serde_json::{Map, Value};
 
 use super::RunError;
 use super::drive::Side;
 use super::fluid_record::FluidRecord;
+use super::medium::{self, StepRule};
 use super::schedule::{Plan, Schedule};
 use super::setup::fluid_solver;
 use super::stop::Stop;
-use crate::case::{Case, FluidCase};
+use super::timed::{Clock, Timed};
+use crate::case::{Case, FluidCase, Medium};
 use crate::output::run_directory::FLUID_SUMMARY;
 use crate::output::{ProgressLine, RunDirectory};
 
@@ -33,15 +36,13 @@ pub enum Turn {
     Over(u32),
 }
 
-/// Shares of the run's wall time.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Clock {
-    /// Time in the solver and in the exchange's own computation.
-    pub computing: Duration,
-    /// Of that, adapting the grid.
-    pub adapting: Duration,
-    /// Time in diagnostics and output.
-    pub recording: Duration,
+/// A step under way.
+#[derive(Clone, Copy, Debug)]
+enum Pending {
+    /// The fluid's is the longer one; it waits for what the solid makes of it.
+    Long(Plan, GroupStep),
+    /// The solid's is.
+    Short(Plan),
 }
 
 /// The fluid with its place in a run.
@@ -49,13 +50,15 @@ pub struct FluidSide {
     solver: FluidSolver<BLOCK>,
     record: Option<FluidRecord>,
     schedule: Schedule,
-    cfl: f64,
+    rule: StepRule,
+    meeting: Meeting,
     scheme: Scheme,
+    star: StarSolver,
     kappa: Kappa,
     factor: KappaFactor,
     edges: Vec<f64>,
-    /// The step that waits for the solid's answer.
-    pending: Option<Plan>,
+    /// The step that waits for the solid.
+    pending: Option<Pending>,
     /// The solid's last word: how long a step it allows, how many cells it has, what it was asked to do.
     answer: FrameHeader,
     /// The solid's velocities for the weak scheme.
@@ -80,7 +83,10 @@ impl FluidSide {
     }
 
     /// A fluid that has been made already, in its initial state.
-    pub fn with(case: &Case, solver: FluidSolver<BLOCK>, record: Option<FluidRecord>) -> Self {
+    pub fn with(case: &Case, mut solver: FluidSolver<BLOCK>, record: Option<FluidRecord>) -> Self {
+        for probe in case.probes.iter().filter(|probe| probe.medium == Medium::Fluid) {
+            solver.watch(probe.position);
+        }
         Self {
             edges: solver.wall_edges(),
             received: vec![0.0; solver.wall_faces()],
@@ -88,8 +94,10 @@ impl FluidSide {
             solver,
             record,
             schedule: Schedule::new(&case.time.snapshots),
-            cfl: case.time.cfl,
+            rule: StepRule::of(case),
+            meeting: Meeting::default(),
             scheme: case.coupling.scheme,
+            star: case.coupling.star,
             kappa: case.coupling.kappa,
             factor: KappaFactor::default(),
             pending: None,
@@ -126,19 +134,24 @@ impl FluidSide {
         self.last_dt
     }
 
-    /// Ends the step under way with the solid's answer; before the first step, its first word.
+    /// Ends the step under way with what the solid says; before the first step, takes its first word.
     pub fn complete(&mut self, link: &mut impl Link) -> Result<(), RunError> {
-        self.answer = self.take_answer(link)?;
-        if let Some(plan) = self.pending.take() {
-            let start = Instant::now();
-            self.solver.step(plan.dt)?;
-            self.clock.computing += start.elapsed();
-            self.recorded(plan)?;
+        match self.pending.take() {
+            Some(Pending::Short(plan)) => self.step_shortly(link, plan),
+            Some(Pending::Long(plan, step)) => {
+                self.answer = self.take_answer(link)?;
+                let timed = Timed::new(&mut self.clock);
+                medium::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))
+            }
+            None => {
+                self.answer = self.take_answer(link)?;
+                Ok(())
+            }
         }
-        Ok(())
     }
 
-    /// Begins a step: plans it and sends the trace on the wall. In the weak scheme it makes the step first.
+    /// Begins a step: plans it and sends the trace on the wall, or asks the solid for its own. In the weak scheme it makes
+    /// the step first.
     pub fn begin(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         let stopped =
             self.answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
@@ -151,8 +164,38 @@ impl FluidSide {
         if self.solver.steps() > 0 {
             self.adapt_if_due();
         }
+        let (own, others) = (self.rule.long(&self.solver).limit, self.answer.dt_max);
+        let common = self.rule.ratio == 1 || self.scheme == Scheme::Weak;
+        let is_long = own >= others || common;
+        // No longer than the side with the longer steps allows, and than the other one can follow.
+        let limit = if common {
+            others
+        } else if is_long {
+            self.rule.longest(others)
+        } else {
+            others.min(self.rule.longest(self.rule.counted(&self.solver)))
+        };
+        let Some(plan) = self.plan(if is_long { own } else { f64::INFINITY }, limit)? else {
+            return Ok(Turn::Over(0));
+        };
+        if is_long { self.begin_long(link, plan)? } else { self.ask_for_trace(link, plan)? }
+        Ok(Turn::Continues)
+    }
+
+    /// Asks the solid, whose step is the longer one, for its trace.
+    fn ask_for_trace(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
+        let mut header = self.header(FrameKind::Yours, 0, plan.dt);
+        if plan.snapshot {
+            header.flags |= FrameHeader::SNAPSHOT;
+        }
+        link.send(header, |_| {})?;
+        self.pending = Some(Pending::Short(plan));
+        Ok(())
+    }
+
+    /// Shows the trace on the wall, and does meanwhile what does not depend on the solid.
+    fn begin_long(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
         let start = Instant::now();
-        let Some(plan) = self.plan(self.answer.dt_max)? else { return Ok(Turn::Over(0)) };
         let faces = self.solver.wall_faces();
         let mut header = self.header(FrameKind::Trace, faces, plan.dt);
         if plan.snapshot {
@@ -179,11 +222,46 @@ impl FluidSide {
         // What comes after the frame is filled is the exchange.
         self.clock.computing += filled;
         if weak {
-            self.recorded(plan)?;
-        } else {
-            self.pending = Some(plan);
+            return self.recorded(plan);
         }
-        Ok(Turn::Continues)
+        let start = Instant::now();
+        let step = medium::begin_long(&mut self.solver, plan.dt, &self.rule)?;
+        self.clock.computing += start.elapsed();
+        self.pending = Some(Pending::Long(plan, step));
+        Ok(())
+    }
+
+    /// Makes short steps within the solid's, once its trace is there.
+    fn step_shortly(&mut self, link: &mut impl Link, asked: Plan) -> Result<(), RunError> {
+        let (solver, meeting) = (&self.solver, &mut self.meeting);
+        let answer = link.receive(|frame| {
+            frame.require(FrameKind::Trace)?;
+            let faces = frame.header.count as usize;
+            frame.require_shape(TraceRow::COUNT, faces)?;
+            medium::begin_meeting(solver, meeting, (frame.payload, faces));
+            Ok::<_, coupler::CouplerError>(*frame.header)
+        })??;
+        self.answer = answer;
+        // The solid's grid may have become finer meanwhile: what it says of its step counts.
+        let plan = if answer.dt == asked.dt { asked } else { self.schedule.shorten(asked, answer.dt) };
+        self.last_dt = plan.dt;
+        let faces = answer.count as usize;
+        let mut header = self.header(FrameKind::Register, faces, plan.dt);
+        header.fields = RegisterRow::COUNT as u64;
+        let timed = Timed::new(&mut self.clock);
+        medium::short_steps(
+            &mut self.solver,
+            &mut self.meeting,
+            (plan.dt, self.star),
+            &self.rule,
+            |_, meeting| {
+                link.send(header, |payload| {
+                    meeting.write_register(|row, face, value| payload[row as usize * faces + face] = value);
+                })?;
+                Ok(())
+            },
+            timed.recorded(&mut self.record, plan),
+        )
     }
 
     /// Reads the solid's register frame in place.
@@ -210,7 +288,7 @@ impl FluidSide {
     /// Adapts the grid if it is time to, with all that is kept per face of the wall.
     fn adapt_if_due(&mut self) {
         let start = Instant::now();
-        if self.solver.adapt_if_due(self.last_dt) {
+        if self.solver.adapt_if_due(self.last_dt, self.rule.steps_in(self.last_dt, &self.solver)) {
             let edges = self.solver.wall_edges();
             if self.scheme == Scheme::Weak {
                 let domain = self.solver.mesh().domain();
@@ -229,8 +307,7 @@ impl FluidSide {
     }
 
     /// The next step: no longer than either side's limit.
-    fn plan(&mut self, others_limit: f64) -> Result<Option<Plan>, RunError> {
-        let own = self.solver.time_step_limit(self.cfl);
+    fn plan(&mut self, own: f64, others_limit: f64) -> Result<Option<Plan>, RunError> {
         self.limited_by = if own <= others_limit { "fluid" } else { "solid" };
         let limit = own.min(others_limit);
         if !(limit > self.smallest_step) {
@@ -250,7 +327,7 @@ impl FluidSide {
     fn step_weakly(&mut self, plan: Plan) -> Result<(), RunError> {
         self.solver.traces_at_mid_step(plan.dt, &mut self.own);
         // The Courant number of this step: the limit belongs to `cfl`.
-        let courant = self.cfl * plan.dt / self.solver.time_step_limit(self.cfl);
+        let courant = self.rule.cfl * plan.dt / self.solver.time_step_limit(self.rule.cfl);
         let kappa = if self.kappa == Kappa::Off { 1.0 } else { self.factor.next(courant) };
         let (own, received, kind) = (&self.own, &self.received, self.kappa);
         self.solver.set_wall_from(|face| {
@@ -291,11 +368,10 @@ impl Side for FluidSide {
     const SUMMARY: &'static str = FLUID_SUMMARY;
 
     fn step_alone(&mut self) -> Result<bool, RunError> {
-        let start = Instant::now();
-        let Some(plan) = self.plan(f64::INFINITY)? else { return Ok(false) };
-        self.solver.step(plan.dt)?;
-        self.clock.computing += start.elapsed();
-        self.recorded(plan)?;
+        let own = self.rule.alone(&self.solver).limit;
+        let Some(plan) = self.plan(own, f64::INFINITY)? else { return Ok(false) };
+        let timed = Timed::new(&mut self.clock);
+        medium::step_alone(&mut self.solver, plan.dt, &self.rule, timed.recorded(&mut self.record, plan))?;
         self.adapt_if_due();
         Ok(true)
     }

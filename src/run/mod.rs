@@ -6,11 +6,13 @@
 //! | [`schedule`] | when to stop, when to write, and so how long a step may be |
 //! | [`fluid_side`], [`solid_side`] | one side's part of the step loop |
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
+//! | [`medium`] | long and short steps of a solver, whichever medium it is for |
 //! | [`side_files`] | into which files |
 //! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`session`] | a run in one process, step by step |
 //! | [`drive`] | the step loop of a run in one process, of one of two processes |
 //! | [`launch`] | `cav run`: two processes started and watched |
+//! | [`timed`] | where the wall time goes |
 //! | [`conclusion`] | one history and one summary of both sides' parts |
 //! | [`stop`] | signals, and a launcher that is gone |
 //! | [`error`] | what can go wrong, and the exit code it means |
@@ -23,6 +25,7 @@ pub mod fluid_record;
 pub mod fluid_side;
 pub mod interface_history;
 pub mod launch;
+pub mod medium;
 pub mod record;
 pub mod schedule;
 pub mod session;
@@ -31,6 +34,7 @@ pub mod side_files;
 pub mod solid_record;
 pub mod solid_side;
 pub mod stop;
+pub mod timed;
 pub mod wall_faces;
 
 pub use error::RunError;

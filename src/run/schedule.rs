@@ -59,6 +59,14 @@ impl Schedule {
     }
 }
 
+impl Schedule {
+    /// The plan that takes the place of one which turns out to be too long: shorter, and with nothing due at its end.
+    pub fn shorten(&mut self, plan: Plan, dt: f64) -> Plan {
+        self.next -= usize::from(plan.snapshot);
+        Plan { dt, snapshot: false }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

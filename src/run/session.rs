@@ -53,6 +53,7 @@ impl Coupled {
         self.solid.turn(&mut self.to_fluid, stop)?;
         if turn == Turn::Continues {
             self.fluid.complete(&mut self.to_solid)?;
+            self.solid.settle(&mut self.to_fluid)?;
         }
         Ok(turn)
     }

@@ -1,19 +1,24 @@
-//! The solid's part of the step loop: it answers the fluid's trace with what the wall did.
+//! The solid's part of the step loop: it answers the fluid's trace with what the wall did, or shows its own.
 
 use std::time::{Duration, Instant};
 
-use coupler::{FrameHeader, FrameKind, Kappa, KappaFactor, Link, RegisterRow, Scheme, StarSolver, TraceRow};
-use mesh::BLOCK;
+use coupler::{
+    Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme, StarSolver, TraceRow,
+    WallRegister,
+};
+use mesh::{BLOCK, GroupStep};
 use serde_json::{Map, Value, json};
 use solid::{Interface, SolidSolver};
 
 use super::RunError;
 use super::drive::Side;
-use super::fluid_side::{Clock, Turn};
+use super::fluid_side::Turn;
+use super::medium::{self, Medium, StepRule};
 use super::schedule::{Plan, Schedule};
 use super::setup::solid_solver;
 use super::solid_record::SolidRecord;
 use super::stop::Stop;
+use super::timed::{Clock, Timed};
 use crate::case::{Case, SolidCase};
 use crate::output::run_directory::SOLID_SUMMARY;
 use crate::output::{ProgressLine, RunDirectory};
@@ -23,14 +28,17 @@ pub struct SolidSide {
     solver: SolidSolver<BLOCK>,
     record: Option<SolidRecord>,
     interface: Interface,
+    meeting: Meeting,
     schedule: Schedule,
-    cfl: f64,
+    rule: StepRule,
     scheme: Scheme,
     star: StarSolver,
     kappa: Kappa,
     factor: KappaFactor,
     /// Outer radii of the fluid's faces on the interface; none before the first trace.
     fluid_edges: Vec<f64>,
+    /// The long step that waits for what the fluid made of it.
+    pending: Option<(Plan, GroupStep)>,
     last_dt: f64,
     clock: Clock,
 }
@@ -44,18 +52,23 @@ impl SolidSide {
     }
 
     /// A solid that has been made already, in its initial state.
-    pub fn with(case: &Case, solver: SolidSolver<BLOCK>, record: Option<SolidRecord>) -> Self {
+    pub fn with(case: &Case, mut solver: SolidSolver<BLOCK>, record: Option<SolidRecord>) -> Self {
+        for probe in case.probes.iter().filter(|probe| probe.medium == crate::case::Medium::Solid) {
+            solver.watch(probe.position);
+        }
         Self {
             solver,
             record,
             interface: Interface::default(),
+            meeting: Meeting::default(),
             schedule: Schedule::new(&case.time.snapshots),
-            cfl: case.time.cfl,
+            rule: StepRule::of(case),
             scheme: case.coupling.scheme,
             star: case.coupling.star,
             kappa: case.coupling.kappa,
             factor: KappaFactor::default(),
             fluid_edges: Vec::new(),
+            pending: None,
             last_dt: 0.0,
             clock: Clock::default(),
         }
@@ -88,45 +101,156 @@ impl SolidSide {
 
     /// The first word: how long a step the solid allows. It is at rest.
     pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
-        self.answer(link, stop)
-    }
-
-    /// Sends the register of the last step, the admissible next step, and what this side was asked to do.
-    fn answer(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
-        let start = Instant::now();
-        let faces = self.fluid_edges.len();
-        let header = FrameHeader {
-            step: self.solver.steps(),
-            time: self.solver.time(),
-            dt: self.last_dt,
-            dt_max: self.solver.time_step_limit(self.cfl),
-            fields: RegisterRow::COUNT as u64,
-            count: faces as u64,
-            cells: self.solver.mesh().cells() as u64,
-            flags: stop.flags(),
-            ..FrameHeader::new(FrameKind::Register)
-        };
-        let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
-        let (weak, first) = (self.scheme == Scheme::Weak, !interface.has_met());
-        let mut filled = Duration::ZERO;
-        link.send(header, |payload| {
-            let put =
-                |row: RegisterRow, face: usize, value: f64| payload[row as usize * faces + face] = value;
-            if weak && faces > 0 {
-                solver.write_cell_velocities(interface, edges, put);
-            } else if !first {
-                interface.write_register(put);
-            }
-            filled = start.elapsed();
-        })?;
-        // What comes after the frame is filled is the exchange.
-        self.clock.computing += filled;
+        link.send(self.header(FrameKind::Register, 0, stop), |_| {})?;
         Ok(())
     }
 
-    fn adapt(&mut self, dt: f64) {
+    /// What a frame says besides its payload: the admissible step, and what this side was asked to do.
+    fn header(&self, kind: FrameKind, fields: usize, stop: &Stop) -> FrameHeader {
+        FrameHeader {
+            step: self.solver.steps(),
+            time: self.solver.time(),
+            dt: self.last_dt,
+            dt_max: self.rule.counted(&self.solver),
+            fields: fields as u64,
+            cells: self.solver.mesh().cells() as u64,
+            flags: stop.flags(),
+            ..FrameHeader::new(kind)
+        }
+    }
+
+    /// Ends the long step under way with what the fluid made of it; does nothing if there is none.
+    pub fn settle(&mut self, link: &mut impl Link) -> Result<(), RunError> {
+        let Some((plan, step)) = self.pending.take() else { return Ok(()) };
+        let solver = &mut self.solver;
+        link.receive(|frame| {
+            frame.require(FrameKind::Register)?;
+            let faces = solver.surface_faces();
+            frame.require_shape(RegisterRow::COUNT, faces)?;
+            solver.set_register(&WallRegister::of(frame.payload, faces));
+            Ok::<_, coupler::CouplerError>(())
+        })??;
+        let adapts = self.adapts(plan.dt);
+        let timed = Timed::new(&mut self.clock);
+        medium::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))?;
+        self.adapt_if(adapts, plan.dt);
+        Ok(())
+    }
+
+    /// Begins a long step: shows the trace and does what does not depend on the fluid.
+    fn begin_long(&mut self, link: &mut impl Link, asked: Plan, stop: &Stop) -> Result<(), RunError> {
+        let limit = self.rule.long(&self.solver).limit;
+        let plan = if asked.dt <= limit * (1.0 + 1e-10) { asked } else { Plan { dt: limit, snapshot: false } };
+        self.last_dt = plan.dt;
+        let faces = self.solver.surface_faces();
+        let header =
+            FrameHeader { count: faces as u64, ..self.header(FrameKind::Trace, TraceRow::COUNT, stop) };
+        let (solver, start) = (&self.solver, Instant::now());
+        let mut filled = Duration::ZERO;
+        link.send(header, |payload| {
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(&solver.surface_edges());
+            solver.write_trace(|row, face, value| payload[row as usize * faces + face] = value);
+            filled = start.elapsed();
+        })?;
         let start = Instant::now();
-        self.solver.adapt(dt);
+        let step = medium::begin_long(&mut self.solver, plan.dt, &self.rule)?;
+        self.clock.computing += filled + start.elapsed();
+        self.pending = Some((plan, step));
+        Ok(())
+    }
+
+    /// Makes short steps within the fluid's, of which the trace has been read.
+    fn step_shortly(&mut self, link: &mut impl Link, plan: Plan, stop: &Stop) -> Result<(), RunError> {
+        let adapts = self.adapts(plan.dt);
+        // How long the next step may be is known only once the grid has adapted. Where steps have to be the same on both
+        // sides, the answer waits for that; else both sides go on at the same time.
+        let early = !adapts || self.rule.ratio > 1;
+        let faces = self.fluid_edges.len();
+        let header = FrameHeader {
+            count: faces as u64,
+            dt: plan.dt,
+            ..self.header(FrameKind::Register, RegisterRow::COUNT, stop)
+        };
+        let mut send = |meeting: &Meeting, header: FrameHeader| -> Result<(), RunError> {
+            link.send(header, |payload| {
+                meeting.write_register(|row, face, value| payload[row as usize * faces + face] = value);
+            })?;
+            Ok(())
+        };
+        let timed = Timed::new(&mut self.clock);
+        medium::short_steps(
+            &mut self.solver,
+            &mut self.meeting,
+            (plan.dt, self.star),
+            &self.rule,
+            |_, meeting| if early { send(meeting, header) } else { Ok(()) },
+            timed.recorded(&mut self.record, plan),
+        )?;
+        self.adapt_if(adapts, plan.dt);
+        if !early {
+            let dt_max = self.rule.counted(&self.solver);
+            let cells = self.solver.mesh().cells() as u64;
+            send(&self.meeting, FrameHeader { dt_max, cells, ..header })?;
+        }
+        Ok(())
+    }
+
+    /// The weak scheme's half of a step, paper eq. (37), and the answer.
+    fn step_weakly(&mut self, link: &mut impl Link, plan: Plan, stop: &Stop) -> Result<(), RunError> {
+        let adapts = self.adapts(plan.dt);
+        let start = Instant::now();
+        self.solver.step(plan.dt)?;
+        self.clock.computing += start.elapsed();
+        self.recorded(plan)?;
+        self.adapt_if(adapts, plan.dt);
+        let faces = self.fluid_edges.len();
+        let header =
+            FrameHeader { count: faces as u64, ..self.header(FrameKind::Register, RegisterRow::COUNT, stop) };
+        let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
+        link.send(header, |payload| {
+            solver.write_cell_velocities(interface, edges, |row, face, value| {
+                payload[row as usize * faces + face] = value;
+            });
+        })?;
+        Ok(())
+    }
+
+    /// Takes over what a trace frame says.
+    fn read_trace(&mut self, frame: &Frame<'_>) -> Result<(), coupler::CouplerError> {
+        let faces = frame.header.count as usize;
+        frame.require_shape(TraceRow::COUNT, faces)?;
+        let start = Instant::now();
+        if self.fluid_edges.as_slice() != TraceRow::Edge.of(frame.payload, faces) {
+            self.fluid_edges = TraceRow::Edge.of(frame.payload, faces).to_vec();
+        }
+        if self.scheme == Scheme::Weak {
+            let (kappa, dt) = (self.kappa, frame.header.dt);
+            let courant = self.rule.cfl * dt / self.solver.time_step_limit(self.rule.cfl);
+            let factor = if kappa == Kappa::Off { 1.0 } else { self.factor.next(courant) };
+            let pressure_of = |received: f64, own: f64| match kappa {
+                Kappa::Off => received,
+                Kappa::Printed => factor * received,
+                Kappa::Jump => own + factor * (received - own),
+            };
+            self.solver.load_weakly(&mut self.interface, frame.payload, faces, dt, pressure_of);
+        } else {
+            medium::begin_meeting(&self.solver, &mut self.meeting, (frame.payload, faces));
+        }
+        self.clock.computing += start.elapsed();
+        Ok(())
+    }
+
+    /// Whether the grid adapts after a step of length `dt`; to be asked once for each.
+    fn adapts(&mut self, dt: f64) -> bool {
+        self.solver.adaptation_follows(dt, self.rule.steps_in(dt, &self.solver))
+    }
+
+    fn adapt_if(&mut self, adapts: bool, dt: f64) {
+        if !adapts {
+            return;
+        }
+        let start = Instant::now();
+        self.solver.adapt(dt, self.rule.steps_in(dt, &self.solver));
         let elapsed = start.elapsed();
         self.clock.computing += elapsed;
         self.clock.adapting += elapsed;
@@ -147,72 +271,40 @@ impl Side for SolidSide {
     const SUMMARY: &'static str = SOLID_SUMMARY;
 
     fn step_alone(&mut self) -> Result<bool, RunError> {
-        let start = Instant::now();
-        let limit = self.solver.time_step_limit(self.cfl);
+        let limit = self.rule.alone(&self.solver).limit;
         let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(false) };
         self.last_dt = plan.dt;
-        let adapts = self.solver.adaptation_follows(plan.dt);
-        self.solver.step(plan.dt)?;
-        self.clock.computing += start.elapsed();
-        self.recorded(plan)?;
-        if adapts {
-            self.adapt(plan.dt);
-        }
+        let adapts = self.adapts(plan.dt);
+        let timed = Timed::new(&mut self.clock);
+        medium::step_alone(&mut self.solver, plan.dt, &self.rule, timed.recorded(&mut self.record, plan))?;
+        self.adapt_if(adapts, plan.dt);
         Ok(true)
     }
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
-        let (scheme, star, kappa, cfl) = (self.scheme, self.star, self.kappa, self.cfl);
-        let (solver, interface, factor, edges) =
-            (&mut self.solver, &mut self.interface, &mut self.factor, &mut self.fluid_edges);
-        let clock = &mut self.clock;
+        self.settle(link)?;
         let header = link.receive(|frame| {
-            frame.require(FrameKind::Trace)?;
-            if frame.header.has(FrameHeader::LAST) {
-                return Ok(*frame.header);
+            if frame.require(FrameKind::Yours).is_err() {
+                frame.require(FrameKind::Trace)?;
+                if !frame.header.has(FrameHeader::LAST) {
+                    self.read_trace(frame)?;
+                }
             }
-            let faces = frame.header.count as usize;
-            frame.require_shape(TraceRow::COUNT, faces)?;
-            let start = Instant::now();
-            let dt = frame.header.dt;
-            if edges.as_slice() != TraceRow::Edge.of(frame.payload, faces) {
-                *edges = TraceRow::Edge.of(frame.payload, faces).to_vec();
-            }
-            if scheme == Scheme::Weak {
-                let courant = cfl * dt / solver.time_step_limit(cfl);
-                let factor = if kappa == Kappa::Off { 1.0 } else { factor.next(courant) };
-                solver.load_weakly(interface, frame.payload, faces, dt, |received, own| match kappa {
-                    Kappa::Off => received,
-                    Kappa::Printed => factor * received,
-                    Kappa::Jump => own + factor * (received - own),
-                });
-            } else {
-                solver.meet_fluid(interface, frame.payload, faces, dt, star);
-            }
-            clock.computing += start.elapsed();
             Ok::<_, coupler::CouplerError>(*frame.header)
         })??;
         if header.has(FrameHeader::LAST) {
             return Ok(Turn::Over(header.flags & !FrameHeader::LAST));
         }
         let plan = Plan { dt: header.dt, snapshot: header.has(FrameHeader::SNAPSHOT) };
+        if header.kind == FrameKind::Yours as u32 {
+            self.begin_long(link, plan, stop)?;
+            return Ok(Turn::Continues);
+        }
         self.last_dt = plan.dt;
-        let adapts = self.solver.adaptation_follows(plan.dt);
-        // In the Riemann scheme all that the fluid needs is known, and both sides make their steps at the same
-        // time; but how long the next step may be is known only once the grid has adapted.
-        let early = self.scheme != Scheme::Weak && !adapts;
-        if early {
-            self.answer(link, stop)?;
-        }
-        let start = Instant::now();
-        self.solver.step(plan.dt)?;
-        self.clock.computing += start.elapsed();
-        self.recorded(plan)?;
-        if adapts {
-            self.adapt(plan.dt);
-        }
-        if !early {
-            self.answer(link, stop)?;
+        if self.scheme == Scheme::Weak {
+            self.step_weakly(link, plan, stop)?;
+        } else {
+            self.step_shortly(link, plan, stop)?;
         }
         Ok(Turn::Continues)
     }
@@ -226,7 +318,7 @@ impl Side for SolidSide {
 
     fn summary(&self) -> Map<String, Value> {
         let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
-        part.insert("fixups".to_owned(), json!({ "floored_stars": self.interface.floored() }));
+        part.insert("fixups".to_owned(), json!({ "floored_stars": self.meeting.floored() }));
         part
     }
 

@@ -5,12 +5,14 @@ use cav::run::drive::Side as _;
 use cav::run::fluid_side::{FluidSide, Turn};
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;
-use coupler::{DirectLink, RegisterRow, StarSolver, TraceRow, WallRegister, direct_pair};
+use coupler::{
+    DirectLink, Meeting, Participant, RegisterRow, ShortStep, StarSolver, TraceRow, WallRegister, direct_pair,
+};
 use fluid::{
     Boundary as FluidBoundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, StiffenedGas,
 };
 use mesh::{BLOCK, Domain, Geometry, Limiter};
-use solid::{Boundary as SolidBoundary, ElasticState, Interface, SolidSetup, SolidSolver, WaveSpeeds};
+use solid::{Boundary as SolidBoundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
 
 /// The fluid's solver as runs use it.
 pub type Fluid = FluidSolver<BLOCK>;
@@ -74,7 +76,7 @@ impl Sides {
 pub struct Pair {
     pub fluid: Fluid,
     pub solid: Solid,
-    interface: Interface,
+    meeting: Meeting,
     star: StarSolver,
     trace: Vec<f64>,
     register: Vec<f64>,
@@ -89,7 +91,7 @@ impl Pair {
         Self {
             trace,
             register: vec![0.0; RegisterRow::COUNT * faces],
-            interface: Interface::default(),
+            meeting: Meeting::default(),
             star: StarSolver::Exact,
             fluid,
             solid,
@@ -98,11 +100,18 @@ impl Pair {
 
     /// One step of `dt`.
     pub fn step(&mut self, dt: f64) {
-        let Self { fluid, solid, interface, star, trace, register } = self;
+        let Self { fluid, solid, meeting, star, trace, register } = self;
         let faces = fluid.wall_faces();
         fluid.write_trace(dt, |row, face, value| trace[row as usize * faces + face] = value);
-        solid.meet_fluid(interface, trace, faces, dt, *star);
-        interface.write_register(|row, face, value| register[row as usize * faces + face] = value);
+        let domain = solid.mesh().domain();
+        let axisymmetric = domain.geometry == Geometry::Axisymmetric;
+        let own = (solid.mesh().generation(), || solid.surface_edges());
+        meeting.begin((&*trace, faces), solid.time(), own, domain.r[0], axisymmetric);
+        let (rows, count) = meeting.own_trace();
+        solid.write_trace(|row, face, value| rows[row as usize * count + face] = value);
+        meeting.meet(Participant::Solid, ShortStep { begin: solid.time(), dt }, *star, |_| true);
+        meeting.own_means(|face, state| solid.set_surface_face(face, state));
+        meeting.write_register(|row, face, value| register[row as usize * faces + face] = value);
         fluid.set_wall(&WallRegister::of(register, faces));
         solid.step(dt).expect("the solid's step");
         fluid.step(dt).expect("the fluid's step");

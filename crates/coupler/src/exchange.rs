@@ -1,10 +1,10 @@
 //! What the two sides tell each other: the rows of a frame's payload.
 //!
 //! One round trip a step: the side with the longer step sends its trace on the interface and the trace's rate
-//! of change and slope along the interface; the other side meets it in a Riemann problem per common sub-face,
-//! advances, and returns the means
-//! over the step of p*, v* and p*v* on the faces of the first. All rows are there in every frame, tangential
-//! velocity and shear included, so that a viscous fluid needs no other format.
+//! of change and slope along the interface; the other side meets it in a Riemann problem per common sub-face in
+//! each of its own steps, and returns the means over the long step of p*, v* and p*v* on the faces of the first. All
+//! rows are there in every frame, tangential velocity and shear included, so that a viscous fluid needs no other
+//! format.
 
 /// A row of a trace frame: one number per interface face of the sender. Velocities along +z and +r.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,11 +39,13 @@ pub enum TraceRow {
     NormalVelocitySlope,
     /// ∂ρ/∂r along the face, kg/m⁴.
     DensitySlope,
+    /// Acoustic impedance of the wave that leaves the interface into this side, Pa s/m: ρc, in a solid ρ̄c₁.
+    Impedance,
 }
 
 impl TraceRow {
     /// How many rows a trace frame has.
-    pub const COUNT: usize = 15;
+    pub const COUNT: usize = 16;
 
     /// This row's part of a payload of `count` faces.
     pub fn of(self, payload: &[f64], count: usize) -> &[f64] {

@@ -7,7 +7,7 @@ use iceoryx2::prelude::ZeroCopySend;
 use crate::error::CouplerError;
 
 /// Layout and meaning of [`FrameHeader`]; a change of either counts it up.
-pub const FRAME_VERSION: u32 = 2;
+pub const FRAME_VERSION: u32 = 3;
 
 /// What a frame is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,13 +23,15 @@ pub enum FrameKind {
     Fault = 4,
     /// The sender leaves; links send it themselves.
     Goodbye = 5,
+    /// The step that is planned is a long one for the receiver, which sends the trace.
+    Yours = 6,
 }
 
 impl TryFrom<u32> for FrameKind {
     type Error = CouplerError;
 
     fn try_from(value: u32) -> Result<Self, CouplerError> {
-        [Self::Hello, Self::Trace, Self::Register, Self::Fault, Self::Goodbye]
+        [Self::Hello, Self::Trace, Self::Register, Self::Fault, Self::Goodbye, Self::Yours]
             .into_iter()
             .find(|kind| *kind as u32 == value)
             .ok_or(CouplerError::UnknownKind { found: value })
@@ -44,6 +46,7 @@ impl fmt::Display for FrameKind {
             Self::Register => "register",
             Self::Fault => "fault",
             Self::Goodbye => "goodbye",
+            Self::Yours => "yours",
         })
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! - [`Frame`], [`Link`]: what crosses and how: [`ProcessLink`] between processes, [`DirectLink`] within one.
 //! - [`TraceRow`], [`RegisterRow`]: what the numbers in a frame mean.
-//! - [`CommonRefinement`]: two non-matching sets of interface faces.
+//! - [`CommonRefinement`]: two non-matching sets of interface faces; [`Meeting`]: the interface during a long step of one
+//!   side, which is several of the other.
 //! - [`exact_star`], [`acoustic_star`]: the Riemann problem between the two media; [`fluid_at_moving_wall`] and its like:
 //!   one half of it; [`KappaFactor`]: the paper's damping of the weak scheme.
 
@@ -16,6 +17,7 @@ mod exchange;
 mod frame;
 mod link;
 mod mapping;
+mod meeting;
 mod one_sided;
 mod options;
 mod ports;
@@ -31,6 +33,7 @@ pub use exchange::{RegisterRow, TraceRow, WallRegister};
 pub use frame::{Expected, FRAME_VERSION, Fault, Frame, FrameHeader, FrameKind};
 pub use link::{Link, LinkCounters, Participant};
 pub use mapping::{CommonRefinement, SubFace};
+pub use meeting::{Meeting, ShortStep};
 pub use one_sided::{fluid_at_moving_wall, fluid_under_pressure, solid_moved, solid_under_pressure};
 pub use options::{Kappa, Scheme, StarSolver};
 pub use process::{Endpoint, Interrupt, ProcessLink, check_run_id};

@@ -179,7 +179,7 @@ impl Conversation {
                 fault: Fault::from_code(frame.header.code),
             }),
             FrameKind::Goodbye => Err(CouplerError::PeerClosed { peer: self.peer, step: self.step }),
-            FrameKind::Hello | FrameKind::Trace | FrameKind::Register => {
+            FrameKind::Hello | FrameKind::Trace | FrameKind::Register | FrameKind::Yours => {
                 self.note_step(frame.header);
                 Ok(())
             }

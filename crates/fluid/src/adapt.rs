@@ -34,14 +34,14 @@ impl<const N: usize> FluidSolver<N> {
     /// Adapts the grid if it is time to; to be called after a step. Returns whether the mesh changed: slots, faces
     /// of the wall and their number are then new ones.
     ///
-    /// - `dt`: about the length of the steps to come, s.
-    pub fn adapt_if_due(&mut self, dt: f64) -> bool {
+    /// - `dt`: about the length of the steps to come, s; `steps`: how many of the finest level they are.
+    pub fn adapt_if_due(&mut self, dt: f64, steps: u32) -> bool {
         let Some(every) = self.adaptation.as_ref().map(|adaptation| adaptation.every) else { return false };
-        self.horizon.is_due(every, self.time, dt) && self.adapt(dt)
+        self.horizon.is_due(every, steps, self.time, dt) && self.adapt(dt, steps)
     }
 
     /// Adapts the grid to the present state. Returns whether the mesh changed.
-    pub fn adapt(&mut self, dt: f64) -> bool {
+    pub fn adapt(&mut self, dt: f64, steps: u32) -> bool {
         let Some(adaptation) = &self.adaptation else { return false };
         // Waves cross a cell, or a block, of their level in these times.
         let crossing = |slot: usize| {
@@ -51,7 +51,7 @@ impl<const N: usize> FluidSolver<N> {
         };
         let shortest = (0..self.mesh.blocks()).map(crossing).fold(f64::INFINITY, f64::min);
         let longest = (N as f64 - 2.0) * shortest;
-        let span = self.horizon.renew(adaptation.every, self.time, dt, longest);
+        let span = self.horizon.renew(adaptation.every, steps, self.time, dt, longest);
         let travel = |slot: usize| 1.0 + span / crossing(slot);
         let adapted =
             self.mesh.adapted(&self.state, &self.analysis, adaptation, &self.patches, travel, |_| 0);

@@ -46,4 +46,3 @@ pub use options::{Boundary, Model, RiemannSolver, Sharpening};
 pub use rayleigh::{RayleighError, RayleighField};
 pub use solver::{BoundaryLedger, Fixups, FluidSetup, FluidSolver};
 pub use state::Primitive;
-pub use steps::Part;

@@ -1,7 +1,7 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
 use coupler::{FluidTrace, TraceRow, WallRegister};
-use mesh::Padded;
+use mesh::{GroupStep, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
 use crate::five_equation::{Cells, FaceState, Stencil, face_states};
@@ -12,11 +12,11 @@ use crate::{FluidSolver, Mixture, WallState};
 fn put_steady(w: [f64; 5], mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
     let at = mixture.at(w[4]);
     use TraceRow::{
-        Density, DensityRate, DensitySlope, Gamma, NormalVelocity, NormalVelocityRate, NormalVelocitySlope,
+        Density, DensityRate, DensitySlope, Gamma, Impedance, NormalVelocity, NormalVelocityRate, NormalVelocitySlope,
         Pi, Pressure, PressureRate, PressureSlope, Shear, TangentialVelocity, TangentialVelocityRate,
     };
     let state = [(Density, w[0]), (NormalVelocity, w[1]), (TangentialVelocity, w[2]), (Pressure, w[3])];
-    let law = [(Gamma, at.gamma), (Pi, at.pi)];
+    let law = [(Gamma, at.gamma), (Pi, at.pi), (Impedance, impedance(w, mixture))];
     let still = [
         Shear,
         DensityRate,
@@ -30,6 +30,11 @@ fn put_steady(w: [f64; 5], mixture: &Mixture, face: usize, put: &mut impl FnMut(
     for (row, value) in state.into_iter().chain(law).chain(still.map(|row| (row, 0.0))) {
         put(row, face, value);
     }
+}
+
+/// ρc of a trace ρ, v_n, v_t, p, φ.
+fn impedance(w: [f64; 5], mixture: &Mixture) -> f64 {
+    (w[0] * mixture.stiffness(w[3], w[4].clamp(0.0, 1.0))).max(0.0).sqrt()
 }
 
 impl<const N: usize> FluidSolver<N> {
@@ -56,8 +61,27 @@ impl<const N: usize> FluidSolver<N> {
     ///
     /// - `dt`: the step about to be made: a cell that falls back to first order in it has no slope and no rate.
     /// - `row`: gives the place to write one [`TraceRow`] of a face.
-    pub fn write_trace(&self, dt: f64, mut put: impl FnMut(TraceRow, usize, f64)) {
-        for &slot in &self.wall_blocks {
+    pub fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(dt, |_| true, put);
+    }
+
+    /// [`FluidSolver::write_trace`] for the faces of the levels that are about to make a step.
+    pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(step.dt, |slot| self.levels.group_of(&self.mesh, slot) == step.group, put);
+    }
+
+    /// The group of levels that a face of the wall belongs to.
+    pub fn group_of_face(&self, face: usize) -> usize {
+        self.levels.group_of(&self.mesh, self.wall_blocks[face / N])
+    }
+
+    fn write_trace_of(
+        &self,
+        dt: f64,
+        is_due: impl Fn(usize) -> bool,
+        mut put: impl FnMut(TraceRow, usize, f64),
+    ) {
+        for slot in self.wall_blocks.iter().copied().filter(|slot| is_due(*slot)) {
             let first = self.wall_first[slot];
             let id = self.mesh.tree().leaves()[slot];
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
@@ -99,6 +123,7 @@ impl<const N: usize> FluidSolver<N> {
                     put(TraceRow::PressureRate, face, rate[3]);
                     put(TraceRow::Gamma, face, at.gamma);
                     put(TraceRow::Pi, face, at.pi);
+                    put(TraceRow::Impedance, face, impedance(trace, &self.mixture));
                     put(TraceRow::PressureSlope, face, keep * d_r[3] * inverse_h[1]);
                     put(TraceRow::NormalVelocitySlope, face, keep * d_r[1] * inverse_h[1]);
                     put(TraceRow::DensitySlope, face, keep * d_r[0] * inverse_h[1]);
@@ -164,6 +189,11 @@ impl<const N: usize> FluidSolver<N> {
                 power: register.power[face],
             };
         }
+    }
+
+    /// Sets the state of one face of the wall for the next step of its level: p*, v*, p*v*.
+    pub fn set_wall_face(&mut self, face: usize, [pressure, velocity, power]: [f64; 3]) {
+        self.wall[face] = WallState { pressure, velocity, power };
     }
 
     /// Sets the wall's state for the next step face by face.

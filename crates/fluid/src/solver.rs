@@ -327,11 +327,11 @@ impl<const N: usize> FluidSolver<N> {
         self.has_gas.extend(both.map(|(report, pending)| report.has_gas | pending.has_gas));
     }
 
-    /// Mean pressure of the last step on each face of z_min, in the order of r, Pa.
+    /// Mean pressure of its level's present or last step on each face of z_min, in the order of r, Pa.
     pub fn wall_face_pressures(&self, pressures: &mut Vec<f64>) {
         pressures.clear();
         for slot in &self.wall_blocks {
-            pressures.extend_from_slice(&self.reports[*slot].wall_pressure);
+            pressures.extend_from_slice(&self.pending[*slot].wall_pressure);
         }
     }
 

@@ -3,26 +3,13 @@
 //! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
-use mesh::{
-    Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, for_each_block, for_some_blocks,
-};
+use mesh::{Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, Part, for_each_block, for_some_blocks};
 
 use crate::block::{BlockReport, Marks, StepContext, step_block};
 use crate::five_equation::marked_blocks;
 use crate::reflux::{self, Register};
 use crate::state::conserved::COUNT;
 use crate::{FluidError, FluidSolver, Mixture, Primitive};
-
-/// Which blocks a part of a step is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// All of the group.
-    All,
-    /// Those that do not touch the wall to the solid: they need not know what it does.
-    AwayFromWall,
-    /// Those that do.
-    AtWall,
-}
 
 impl<const N: usize> FluidSolver<N> {
     /// The largest |v| + c along z and r, m/s.
@@ -95,22 +82,22 @@ impl<const N: usize> FluidSolver<N> {
     /// - errors: as [`FluidSolver::step`].
     pub fn sub_step(&mut self, cfl: f64) -> Result<(), FluidError> {
         while self.clock().due().is_some() {
-            let step = self.start(cfl);
+            let step = self.start(self.due_limit(cfl));
             self.run(step, Part::All)?;
         }
         self.finish()
     }
 
-    /// Starts the step of the group of levels that is due.
-    pub fn start(&mut self, cfl: f64) -> GroupStep {
-        let group = self.clock().due().unwrap_or(0);
-        let limit = if cfl == f64::INFINITY {
-            cfl
-        } else {
-            (0..self.mesh.blocks())
-                .filter(|slot| self.levels.group_of(&self.mesh, *slot) == group)
-                .fold(f64::INFINITY, |limit, slot| limit.min(self.limit_of(slot, cfl)))
-        };
+    /// The longest step of the group of levels that is due, s.
+    pub fn due_limit(&self, cfl: f64) -> f64 {
+        let Some(group) = self.clock().due().filter(|_| cfl.is_finite()) else { return cfl };
+        (0..self.mesh.blocks())
+            .filter(|slot| self.levels.group_of(&self.mesh, *slot) == group)
+            .fold(f64::INFINITY, |limit, slot| limit.min(self.limit_of(slot, cfl)))
+    }
+
+    /// Starts the step of the group of levels that is due, of at most `limit`, see [`LevelClock::start`].
+    pub fn start(&mut self, limit: f64) -> GroupStep {
         self.levels.start(limit)
     }
 
@@ -123,13 +110,8 @@ impl<const N: usize> FluidSolver<N> {
         let mut register = std::mem::replace(&mut self.register, Register::new(0));
         let context = self.context(step.dt);
         let is_due = |slot: usize| {
-            let at_wall = self.wall_first[slot] != usize::MAX;
-            let is_in_part = match part {
-                Part::All => true,
-                Part::AwayFromWall => !at_wall,
-                Part::AtWall => at_wall,
-            };
-            is_in_part && self.levels.group_of(&self.mesh, slot) == step.group
+            let at_interface = self.wall_first[slot] != usize::MAX;
+            part.has(at_interface) && self.levels.group_of(&self.mesh, slot) == step.group
         };
         for_each_block(
             &mut target,

@@ -145,6 +145,28 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
     }
 }
 
+/// Which blocks a part of a step is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// All of the group.
+    All,
+    /// Those that do not touch the interface between the media: they need not know what the other side does.
+    AwayFromInterface,
+    /// Those that do.
+    AtInterface,
+}
+
+impl Part {
+    /// Whether a block is in it.
+    pub fn has(self, at_interface: bool) -> bool {
+        match self {
+            Self::All => true,
+            Self::AwayFromInterface => !at_interface,
+            Self::AtInterface => at_interface,
+        }
+    }
+}
+
 /// The levels below the finest that have steps of their own: what coarser ones would save is little, and their steps would be
 /// longer than the grid holds.
 pub const MOST_HALVINGS: u8 = 3;

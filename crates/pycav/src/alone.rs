@@ -220,7 +220,7 @@ impl FluidSolver {
                 });
                 pool.install(|| {
                     solver.step(dt)?;
-                    solver.adapt_if_due(dt);
+                    solver.adapt_if_due(dt, 1);
                     Ok(())
                 })
             })
@@ -355,10 +355,10 @@ impl SolidSolver {
                     SurfaceState { pressure, velocity, power }
                 });
                 pool.install(|| -> Result<(), Failure> {
-                    let adapts = solver.adaptation_follows(dt);
+                    let adapts = solver.adaptation_follows(dt, 1);
                     solver.step(dt)?;
                     if adapts {
-                        solver.adapt(dt);
+                        solver.adapt(dt, 1);
                     }
                     Ok(())
                 })

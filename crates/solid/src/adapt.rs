@@ -43,20 +43,20 @@ fn fill<const N: usize>(mesh: &Mesh<N>, initial: &(impl Fn([f64; 2]) -> ElasticS
 }
 
 impl<const N: usize> SolidSolver<N> {
-    /// Whether [`SolidSolver::adapt`] should follow the step about to be made, of length `dt`; to be asked once
-    /// before each step.
-    pub fn adaptation_follows(&mut self, dt: f64) -> bool {
+    /// Whether [`SolidSolver::adapt`] should follow the step about to be made, of length `dt`, which is `steps` of the finest
+    /// level; to be asked once before each step.
+    pub fn adaptation_follows(&mut self, dt: f64, steps: u32) -> bool {
         let Some(every) = self.setup.adaptation.as_ref().map(|adaptation| adaptation.every) else {
             return false;
         };
-        self.horizon.is_due(every, self.time + dt, dt)
+        self.horizon.is_due(every, steps, self.time + dt, dt)
     }
 
     /// Adapts the grid to the present state. Returns whether the mesh changed: slots, faces of the surface and
     /// their number are then new ones.
     ///
-    /// - `dt`: about the length of the steps to come, s.
-    pub fn adapt(&mut self, dt: f64) -> bool {
+    /// - `dt`: about the length of the steps to come, s; `steps`: how many of the finest level they are.
+    pub fn adapt(&mut self, dt: f64, steps: u32) -> bool {
         let Some(adaptation) = &self.setup.adaptation else { return false };
         // Waves cross a cell of a level in this time.
         let crossing = |level: u8| {
@@ -66,7 +66,7 @@ impl<const N: usize> SolidSolver<N> {
         let leaves = self.mesh.tree().leaves();
         let finest = leaves.iter().map(|id| id.level).max().unwrap_or(0);
         let longest = (N as f64 - 2.0) * crossing(finest);
-        let span = self.horizon.renew(adaptation.every, self.time, dt, longest);
+        let span = self.horizon.renew(adaptation.every, steps, self.time, dt, longest);
         let travel = |slot: usize| 1.0 + span / crossing(leaves[slot].level);
         let adapted =
             self.mesh.adapted(&self.state, &self.analysis, adaptation, &self.patches, travel, |_| 0);

@@ -33,5 +33,4 @@ pub use participant::{Interface, SurfaceTrace};
 pub use riemann::WaveSpeeds;
 pub use solver::{BoundaryLedger, SolidSetup, SolidSolver};
 pub use state::ElasticState;
-pub use steps::Part;
 pub use yield_criterion::{von_mises, yield_function};

@@ -1,17 +1,14 @@
 //! The solid as one side of the interface: the only place where it meets the coupler.
 
-use coupler::{
-    CommonRefinement, FluidTrace, InterfaceStar, RegisterRow, SolidTrace, StarSolver, TraceRow,
-    acoustic_star, exact_star,
-};
-use mesh::{Geometry, Padded};
+use coupler::{CommonRefinement, InterfaceStar, RegisterRow, TraceRow, WallRegister};
+use mesh::{Geometry, GroupStep, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
 use crate::rows::rates;
 use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
 use crate::{SolidSolver, SurfaceState};
 
-/// What the solid knows of its interface with the fluid: faces, sub-faces, and the last step's star states.
+/// What the solid knows of its interface with the fluid in the weak scheme: faces, sub-faces, and the last step's states.
 #[derive(Clone, Debug, Default)]
 pub struct Interface {
     edges: Vec<f64>,
@@ -22,7 +19,6 @@ pub struct Interface {
     traces: Vec<SurfaceTrace>,
     /// Velocities of the cells under the surface, for the weak scheme.
     cells: Vec<f64>,
-    floored: u64,
 }
 
 /// The solid's own state on one face of its surface.
@@ -36,34 +32,6 @@ pub struct SurfaceTrace {
     pub tangential_velocity: f64,
     /// σ_zr, Pa.
     pub shear: f64,
-    /// ∂(−σ_zz)/∂r along the surface, Pa/m.
-    pub pressure_slope: f64,
-    /// ∂v_z/∂r along the surface, 1/s.
-    pub velocity_slope: f64,
-}
-
-impl Interface {
-    /// Star states that had to be lifted to the lowest admissible pressure so far.
-    pub fn floored(&self) -> u64 {
-        self.floored
-    }
-
-    /// Whether there is a last step to tell of.
-    pub fn has_met(&self) -> bool {
-        !self.stars.is_empty()
-    }
-
-    /// Writes the means of the last step over the faces of the fluid, row by row of a [`RegisterRow`].
-    pub fn write_register(&self, mut put: impl FnMut(RegisterRow, usize, f64)) {
-        let star = |k: usize| &self.stars[k];
-        let solid = |k: usize| &self.traces[self.refinement.sub_faces()[k].second];
-        self.refinement.means(false, |k| star(k).pressure, |f, v| put(RegisterRow::Pressure, f, v));
-        self.refinement.means(false, |k| star(k).velocity, |f, v| put(RegisterRow::NormalVelocity, f, v));
-        let power = |k: usize| star(k).pressure * star(k).velocity;
-        self.refinement.means(false, power, |f, v| put(RegisterRow::Power, f, v));
-        let tangential = |k: usize| solid(k).tangential_velocity;
-        self.refinement.means(false, tangential, |f, v| put(RegisterRow::TangentialVelocity, f, v));
-    }
 }
 
 impl<const N: usize> SolidSolver<N> {
@@ -83,54 +51,62 @@ impl<const N: usize> SolidSolver<N> {
         edges
     }
 
-    /// Meets the fluid: solves the Riemann problem between the two media on every sub-face, with both sides'
-    /// traces at mid-step, and sets the surface's state for the step of length `dt`.
+    /// Writes the traces on the surface at the present time and their rates of change.
     ///
-    /// - `payload`, `count`: a trace frame of the fluid, see [`TraceRow`].
-    pub fn meet_fluid(
-        &mut self,
-        interface: &mut Interface,
-        payload: &[f64],
-        count: usize,
-        dt: f64,
-        solver: StarSolver,
-    ) {
-        self.traces_at_mid_step(dt, &mut interface.traces);
-        self.refine(interface, TraceRow::Edge.of(payload, count));
-        let row = |row: TraceRow| row.of(payload, count);
-        let half_dt = 0.5 * dt;
-        let (p, p_rate) = (row(TraceRow::Pressure), row(TraceRow::PressureRate));
-        let (v, v_rate) = (row(TraceRow::NormalVelocity), row(TraceRow::NormalVelocityRate));
-        let (rho, rho_rate) = (row(TraceRow::Density), row(TraceRow::DensityRate));
-        let (gamma, pi) = (row(TraceRow::Gamma), row(TraceRow::Pi));
-        let (p_slope, v_slope) = (row(TraceRow::PressureSlope), row(TraceRow::NormalVelocitySlope));
-        let rho_slope = row(TraceRow::DensitySlope);
-        interface.stars.clear();
-        for sub in interface.refinement.sub_faces() {
-            // Traces are linear along a face: a face that meets several of the other side shows each its own part.
-            let (f, x) = (sub.first, sub.offset_in_first);
-            let fluid = FluidTrace {
-                pressure: p[f] + half_dt * p_rate[f] + x * p_slope[f],
-                velocity: v[f] + half_dt * v_rate[f] + x * v_slope[f],
-                density: rho[f] + half_dt * rho_rate[f] + x * rho_slope[f],
-                gamma: gamma[f],
-                pi: pi[f],
-            };
-            let own = &interface.traces[sub.second];
-            let y = sub.offset_in_second;
-            let solid = SolidTrace {
-                pressure: own.pressure + y * own.pressure_slope,
-                velocity: own.velocity + y * own.velocity_slope,
-                impedance: self.elasticity.z1,
-            };
-            let star = match solver {
-                StarSolver::Exact => exact_star(&fluid, &solid),
-                StarSolver::Acoustic => acoustic_star(&fluid, &solid),
-            };
-            interface.floored += u64::from(star.floored);
-            interface.stars.push(star);
+    /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the predictor uses; at
+    /// mid-step it is what the face's Riemann problem would see.
+    ///
+    /// - `put`: gets the place and one [`TraceRow`] of a face.
+    pub fn write_trace(&self, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(|_| true, put);
+    }
+
+    /// [`SolidSolver::write_trace`] for the faces of the levels that are about to make a step.
+    pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(|slot| self.levels.group_of(&self.mesh, slot) == step.group, put);
+    }
+
+    /// The group of levels that a face of the surface belongs to.
+    pub fn group_of_face(&self, face: usize) -> usize {
+        self.levels.group_of(&self.mesh, self.surface_blocks[face / N])
+    }
+
+    fn write_trace_of(&self, is_due: impl Fn(usize) -> bool, mut put: impl FnMut(TraceRow, usize, f64)) {
+        for slot in self.surface_blocks.iter().copied().filter(|slot| is_due(*slot)) {
+            let first = self.surface_first[slot];
+            let id = self.mesh.tree().leaves()[slot];
+            let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
+            self.scratch.with(|scratch| {
+                reconstruct(&self.context(0.0), slot, scratch);
+                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
+                for j in 0..N {
+                    let k = Padded::<N>::index(N as isize - 1, j as isize);
+                    let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);
+                    // The hoop stress has no difference: no derivative of it enters.
+                    let of =
+                        |rows: &Padded<N>, c: usize| if c == S_PHIPHI { 0.0 } else { rows.component(c)[k] };
+                    let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
+                    let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
+                    let rate = rates(w, d_z, d_r, inverse_r[k], &self.elasticity);
+                    let trace = |c: usize| w[c] + 0.5 * of(s_z, c);
+                    let face = first + j;
+                    put(TraceRow::Pressure, face, -trace(S_NORMAL[0]));
+                    put(TraceRow::NormalVelocity, face, trace(V_Z));
+                    put(TraceRow::TangentialVelocity, face, trace(V_R));
+                    put(TraceRow::Shear, face, trace(S_ZR));
+                    put(TraceRow::Density, face, self.setup.speeds.density);
+                    put(TraceRow::PressureRate, face, -rate[S_NORMAL[0]]);
+                    put(TraceRow::NormalVelocityRate, face, rate[V_Z]);
+                    put(TraceRow::TangentialVelocityRate, face, rate[V_R]);
+                    put(TraceRow::PressureSlope, face, -of(s_r, S_NORMAL[0]) * inverse_h[1]);
+                    put(TraceRow::NormalVelocitySlope, face, d_r[V_Z]);
+                    put(TraceRow::Impedance, face, self.elasticity.z1);
+                    for row in [TraceRow::DensityRate, TraceRow::DensitySlope, TraceRow::Gamma, TraceRow::Pi] {
+                        put(row, face, 0.0);
+                    }
+                }
+            });
         }
-        self.set_surface_from(interface);
     }
 
     /// The weak scheme's half of a step, paper eq. (37): the fluid's new pressure is the normal traction, while
@@ -185,6 +161,22 @@ impl<const N: usize> SolidSolver<N> {
         &self.surface
     }
 
+    /// Sets the surface's state for the next step from what the fluid returned.
+    pub fn set_surface_register(&mut self, register: &WallRegister<'_>) {
+        for (face, surface) in self.surface.iter_mut().enumerate() {
+            *surface = SurfaceState {
+                pressure: register.pressure[face],
+                velocity: register.velocity[face],
+                power: register.power[face],
+            };
+        }
+    }
+
+    /// Sets the state of one face of the surface for the next step of its level: p*, v*, p*v*.
+    pub fn set_surface_face(&mut self, face: usize, [pressure, velocity, power]: [f64; 3]) {
+        self.surface[face] = SurfaceState { pressure, velocity, power };
+    }
+
     /// Sets the surface's state for the next step, face by face: a load without a fluid.
     pub fn set_surface(&mut self, state: impl Fn(usize) -> SurfaceState) {
         for (face, surface) in self.surface.iter_mut().enumerate() {
@@ -195,33 +187,24 @@ impl<const N: usize> SolidSolver<N> {
     /// The own traces on the surface at the middle of a step of length `dt`, face by face.
     pub fn traces_at_mid_step(&self, dt: f64, traces: &mut Vec<SurfaceTrace>) {
         traces.clear();
-        for &slot in &self.surface_blocks {
-            let id = self.mesh.tree().leaves()[slot];
-            let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
-            self.scratch.with(|scratch| {
-                reconstruct(&self.context(dt), slot, scratch);
-                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
-                for j in 0..N {
-                    let k = Padded::<N>::index(N as isize - 1, j as isize);
-                    let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);
-                    // The hoop stress has no difference: no derivative of it enters.
-                    let of =
-                        |rows: &Padded<N>, c: usize| if c == S_PHIPHI { 0.0 } else { rows.component(c)[k] };
-                    let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
-                    let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
-                    let rate = rates(w, d_z, d_r, inverse_r[k], &self.elasticity);
-                    let trace = |c: usize| w[c] + 0.5 * of(s_z, c) + 0.5 * dt * rate[c];
-                    traces.push(SurfaceTrace {
-                        pressure: -trace(S_NORMAL[0]),
-                        velocity: trace(V_Z),
-                        tangential_velocity: trace(V_R),
-                        shear: trace(S_ZR),
-                        pressure_slope: -of(s_r, S_NORMAL[0]) * inverse_h[1],
-                        velocity_slope: d_r[V_Z],
-                    });
-                }
-            });
+        traces.resize(self.surface.len(), SurfaceTrace::default());
+        if traces.is_empty() {
+            return;
         }
+        let half = 0.5 * dt;
+        self.write_trace(|row, face, value| {
+            let trace = &mut traces[face];
+            match row {
+                TraceRow::Pressure => trace.pressure += value,
+                TraceRow::PressureRate => trace.pressure += half * value,
+                TraceRow::NormalVelocity => trace.velocity += value,
+                TraceRow::NormalVelocityRate => trace.velocity += half * value,
+                TraceRow::TangentialVelocity => trace.tangential_velocity += value,
+                TraceRow::TangentialVelocityRate => trace.tangential_velocity += half * value,
+                TraceRow::Shear => trace.shear = value,
+                _ => {}
+            }
+        });
     }
 
     fn refine(&self, interface: &mut Interface, fluid_edges: &[f64]) {

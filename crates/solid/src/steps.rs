@@ -3,23 +3,12 @@
 //! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
-use mesh::{Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, for_each_block, for_some_blocks};
+use mesh::{Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, Part, for_each_block, for_some_blocks};
 
 use crate::block::{BlockReport, step_block};
 use crate::reflux::{self, Register};
 use crate::state::component::COUNT;
 use crate::{SolidError, SolidSolver};
-
-/// Which blocks a part of a step is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// All of the group.
-    All,
-    /// Those that do not touch the surface under the fluid: they need not know what it does.
-    AwayFromSurface,
-    /// Those that do.
-    AtSurface,
-}
 
 impl<const N: usize> SolidSolver<N> {
     /// The longest step of a level, s: cfl · min(h)/c₁.
@@ -80,18 +69,23 @@ impl<const N: usize> SolidSolver<N> {
     /// - errors: as [`SolidSolver::step`].
     pub fn sub_step(&mut self, cfl: f64) -> Result<(), SolidError> {
         while self.clock().due().is_some() {
-            let step = self.start(cfl);
+            let step = self.start(self.due_limit(cfl));
             self.run(step, Part::All)?;
         }
         self.finish()
     }
 
-    /// Starts the step of the group of levels that is due.
-    pub fn start(&mut self, cfl: f64) -> GroupStep {
-        let group = self.clock().due().unwrap_or(0);
+    /// The longest step of the group of levels that is due, s.
+    pub fn due_limit(&self, cfl: f64) -> f64 {
+        let Some(group) = self.clock().due().filter(|_| cfl.is_finite()) else { return cfl };
         let levels = self.mesh.tree().leaves().iter().map(|id| id.level);
-        let finest = levels.filter(|level| self.clock().group(*level) == group).max().unwrap_or(0);
-        self.levels.start(if cfl == f64::INFINITY { cfl } else { self.limit_of(finest, cfl) })
+        let finest = levels.filter(|level| self.clock().group(*level) == group).max();
+        finest.map_or(f64::INFINITY, |level| self.limit_of(level, cfl))
+    }
+
+    /// Starts the step of the group of levels that is due, of at most `limit`, see [`LevelClock::start`].
+    pub fn start(&mut self, limit: f64) -> GroupStep {
+        self.levels.start(limit)
     }
 
     /// Makes a part of a step that has been started. The parts of group 0 may be made one after the other.
@@ -103,13 +97,8 @@ impl<const N: usize> SolidSolver<N> {
         let mut register = std::mem::replace(&mut self.register, Register::new(0));
         let context = self.context(step.dt);
         let is_due = |slot: usize| {
-            let at_surface = self.surface_first[slot] != usize::MAX;
-            let is_in_part = match part {
-                Part::All => true,
-                Part::AwayFromSurface => !at_surface,
-                Part::AtSurface => at_surface,
-            };
-            is_in_part && self.levels.group_of(&self.mesh, slot) == step.group
+            let at_interface = self.surface_first[slot] != usize::MAX;
+            part.has(at_interface) && self.levels.group_of(&self.mesh, slot) == step.group
         };
         for_each_block(
             &mut target,

@@ -18,7 +18,7 @@ fn run_adaptively<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) -> (
     for _ in 0..steps {
         let dt = fluid.time_step_limit(CFL);
         fluid.step(dt).unwrap();
-        changes += usize::from(fluid.adapt_if_due(dt));
+        changes += usize::from(fluid.adapt_if_due(dt, 1));
         let count = fluid.mesh().cells();
         cells = [cells[0].min(count), cells[1].max(count)];
     }

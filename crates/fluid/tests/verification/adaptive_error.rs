@@ -42,7 +42,7 @@ fn run(problem: &Problem, levels: u8, epsilon: Option<f64>) -> Run {
     while fluid.time() < problem.end * (1.0 - 1e-12) {
         let dt = fluid.time_step_limit(CFL).min(problem.end - fluid.time());
         fluid.step(dt).unwrap();
-        fluid.adapt_if_due(dt);
+        fluid.adapt_if_due(dt, 1);
     }
     let cells = cells(&setup);
     let [h_z, h_r] = fluid.mesh().widths(levels);

@@ -33,7 +33,7 @@ fn bubble_in(ambient: PhaseState, gas: PhaseState, centre: [f64; 2], radius: f64
 fn advance<const N: usize>(fluid: &mut FluidSolver<N>) {
     let dt = fluid.time_step_limit(CFL);
     fluid.step(dt).unwrap();
-    fluid.adapt_if_due(dt);
+    fluid.adapt_if_due(dt, 1);
 }
 
 /// A bubble of radius 0.3 (20 cells across on the finest level) carried at 200 m/s through a periodic 2 × 1 m; the worst

@@ -81,7 +81,7 @@ fn run_adaptively(fluid: &mut FluidSolver<8>, steps: usize) -> usize {
     for _ in 0..steps {
         let dt = fluid.time_step_limit(CFL);
         fluid.step(dt).unwrap();
-        if fluid.adapt_if_due(dt) {
+        if fluid.adapt_if_due(dt, 1) {
             changes += 1;
             check_grading(fluid);
         }

@@ -17,9 +17,9 @@ fn run_adaptively<const N: usize>(solid: &mut SolidSolver<N>, steps: usize) -> (
     let (mut changes, mut cells) = (0, [usize::MAX, 0]);
     for _ in 0..steps {
         let dt = solid.time_step_limit(CFL);
-        let follows = solid.adaptation_follows(dt);
+        let follows = solid.adaptation_follows(dt, 1);
         solid.step(dt).unwrap();
-        changes += usize::from(follows && solid.adapt(dt));
+        changes += usize::from(follows && solid.adapt(dt, 1));
         let count = solid.mesh().cells();
         cells = [cells[0].min(count), cells[1].max(count)];
     }

@@ -67,10 +67,10 @@ fn run(geometry: Geometry, levels: u8, epsilon: Option<f64>) -> Run {
     let end = 5.0 * WIDTH / STEEL.c1;
     while solid.time() < end * (1.0 - 1e-12) {
         let dt = solid.time_step_limit(CFL).min(end - solid.time());
-        let adapts = solid.adaptation_follows(dt);
+        let adapts = solid.adaptation_follows(dt, 1);
         solid.step(dt).unwrap();
         if adapts {
-            solid.adapt(dt);
+            solid.adapt(dt, 1);
         }
     }
     let cells = (CELLS / 8) << levels;

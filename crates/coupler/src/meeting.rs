@@ -1,0 +1,213 @@
+//! The interface during one step of the side with the longer steps, as the other side sees it.
+//!
+//! The interface is a flux register in time: the side with the longer step shows its trace and how it changes, the other
+//! meets it in each of its own steps and returns the means. What one gives the other gets, to round-off, whatever the
+//! ratio of the steps, and also where the faces do not match.
+
+use crate::exchange::{RegisterRow, TraceRow};
+use crate::link::Participant;
+use crate::mapping::{CommonRefinement, SubFace};
+use crate::options::StarSolver;
+use crate::star::{FluidTrace, InterfaceStar, SolidTrace, acoustic_star, exact_star};
+
+/// A short step, or one of some of a side's faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShortStep {
+    /// When it begins, s.
+    pub begin: f64,
+    /// Its length, s.
+    pub dt: f64,
+}
+
+/// Running means over the long step, on one sub-face.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Means {
+    pressure: f64,
+    velocity: f64,
+    power: f64,
+    tangential: f64,
+}
+
+/// Both sides' faces, the other side's trace, and what has come of them so far.
+///
+/// The first side of the refinement is the one with the longer step, the second the own one.
+#[derive(Clone, Debug, Default)]
+pub struct Meeting {
+    refinement: CommonRefinement,
+    edges: Vec<f64>,
+    generation: Option<u64>,
+    trace: Vec<f64>,
+    others: usize,
+    own: Vec<f64>,
+    begin: f64,
+    stars: Vec<InterfaceStar>,
+    means: Vec<Means>,
+    floored: u64,
+}
+
+impl Meeting {
+    /// Begins a long step with the other side's trace frame.
+    ///
+    /// - `payload`: rows of [`TraceRow`], `others` faces long; `begin`: when the step begins, s.
+    /// - `generation`: tells whether the own faces are those of the last time; if not, they are asked for by `edges`.
+    /// - `low`: the radius at which the interface begins, m.
+    pub fn begin(
+        &mut self,
+        (payload, others): (&[f64], usize),
+        begin: f64,
+        (generation, edges): (u64, impl FnOnce() -> Vec<f64>),
+        low: f64,
+        axisymmetric: bool,
+    ) {
+        if self.generation != Some(generation) {
+            self.edges = edges();
+            self.generation = Some(generation);
+            self.own.clear();
+            self.own.resize(TraceRow::COUNT * self.edges.len(), 0.0);
+        }
+        self.trace.clear();
+        self.trace.extend_from_slice(payload);
+        (self.others, self.begin) = (others, begin);
+        self.refinement.update(low, TraceRow::Edge.of(payload, others), &self.edges, axisymmetric);
+        let sub_faces = self.refinement.sub_faces().len();
+        let nothing = InterfaceStar { pressure: 0.0, velocity: 0.0, iterations: 0, floored: false };
+        self.stars.resize(sub_faces, nothing);
+        self.means.resize(sub_faces, Means::default());
+    }
+
+    /// Where the own trace goes, as the payload of a trace frame.
+    pub fn own_trace(&mut self) -> (&mut [f64], usize) {
+        (&mut self.own, self.edges.len())
+    }
+
+    /// Solves the Riemann problem between the two media on all sub-faces of some own faces, at the middle of a step that
+    /// these are about to make. Their own trace must be there.
+    ///
+    /// - `own`: which medium this side is; `is_due`: by number of the own face.
+    pub fn meet(
+        &mut self,
+        own: Participant,
+        step: ShortStep,
+        solver: StarSolver,
+        is_due: impl Fn(usize) -> bool,
+    ) {
+        // Of the other side's trace as much time has passed as its step is old.
+        let (half, age) = (0.5 * step.dt, step.begin - self.begin + 0.5 * step.dt);
+        let weight = if step.begin == self.begin { 1.0 } else { step.dt / (step.begin + step.dt - self.begin) };
+        let Self { refinement, trace, others, own: own_trace, edges, stars, means, .. } = self;
+        for (number, sub) in refinement.sub_faces().iter().enumerate().filter(|(_, sub)| is_due(sub.second)) {
+            let SubFace { first, second, offset_in_first, offset_in_second, .. } = *sub;
+            // Traces are linear along a face: a face that meets several of the other side shows each its own part.
+            let theirs = Seen { rows: trace, count: *others, face: first, after: age, offset: offset_in_first };
+            let ours =
+                Seen { rows: own_trace, count: edges.len(), face: second, after: half, offset: offset_in_second };
+            let (fluid, solid) = match own {
+                Participant::Fluid => (ours.fluid(), theirs.solid()),
+                Participant::Solid => (theirs.fluid(), ours.solid()),
+            };
+            let star = match solver {
+                StarSolver::Exact => exact_star(&fluid, &solid),
+                StarSolver::Acoustic => acoustic_star(&fluid, &solid),
+            };
+            self.floored += u64::from(star.floored);
+            stars[number] = star;
+            // By differences, so that the mean of what stays the same is the same to the last bit.
+            let mean = &mut means[number];
+            let add = |mean: &mut f64, value: f64| {
+                *mean = if weight == 1.0 { value } else { *mean + weight * (value - *mean) };
+            };
+            add(&mut mean.pressure, star.pressure);
+            add(&mut mean.velocity, star.velocity);
+            add(&mut mean.power, star.pressure * star.velocity);
+            let tangential = [TraceRow::TangentialVelocity, TraceRow::TangentialVelocityRate]
+                .map(|row| row.of(own_trace, edges.len())[second]);
+            add(&mut mean.tangential, tangential[0] + half * tangential[1]);
+        }
+    }
+
+    /// The present step's means over the own faces: `put(face, [p*, v*, p*v*])`.
+    pub fn own_means(&self, mut put: impl FnMut(usize, [f64; 3])) {
+        let (map, stars) = (&self.refinement, &self.stars);
+        // A mean is formed by differences to its first value, as in `CommonRefinement::means`.
+        let rows = [
+            |star: &InterfaceStar| star.pressure,
+            |star: &InterfaceStar| star.velocity,
+            |star: &InterfaceStar| star.pressure * star.velocity,
+        ];
+        let mut k = 0;
+        let sub_faces = map.sub_faces();
+        while k < sub_faces.len() {
+            let face = sub_faces[k].second;
+            let first = rows.map(|row| row(&stars[k]));
+            let mut mean = first;
+            k += 1;
+            while k < sub_faces.len() && sub_faces[k].second == face {
+                for (number, row) in rows.iter().enumerate() {
+                    mean[number] += sub_faces[k].share_of_second * (row(&stars[k]) - first[number]);
+                }
+                k += 1;
+            }
+            put(face, mean);
+        }
+    }
+
+    /// Writes the means over the long step on the other side's faces, row by row of a [`RegisterRow`].
+    pub fn write_register(&self, mut put: impl FnMut(RegisterRow, usize, f64)) {
+        let (map, means) = (&self.refinement, &self.means);
+        map.means(false, |k| means[k].pressure, |f, v| put(RegisterRow::Pressure, f, v));
+        map.means(false, |k| means[k].velocity, |f, v| put(RegisterRow::NormalVelocity, f, v));
+        map.means(false, |k| means[k].power, |f, v| put(RegisterRow::Power, f, v));
+        map.means(false, |k| means[k].tangential, |f, v| put(RegisterRow::TangentialVelocity, f, v));
+    }
+
+    /// Star states that had to be lifted to the lowest admissible pressure so far.
+    pub fn floored(&self) -> u64 {
+        self.floored
+    }
+}
+
+/// A place on one side's trace, and how long after it was taken.
+struct Seen<'a> {
+    rows: &'a [f64],
+    count: usize,
+    face: usize,
+    after: f64,
+    offset: f64,
+}
+
+impl Seen<'_> {
+    fn value(&self, row: TraceRow) -> f64 {
+        row.of(self.rows, self.count)[self.face]
+    }
+
+    /// Value, rate and slope at the place and the time.
+    fn moved(&self, row: TraceRow, rate: TraceRow, slope: TraceRow) -> f64 {
+        self.value(row) + self.after * self.value(rate) + self.offset * self.value(slope)
+    }
+
+    fn pressure(&self) -> f64 {
+        self.moved(TraceRow::Pressure, TraceRow::PressureRate, TraceRow::PressureSlope)
+    }
+
+    fn velocity(&self) -> f64 {
+        self.moved(TraceRow::NormalVelocity, TraceRow::NormalVelocityRate, TraceRow::NormalVelocitySlope)
+    }
+
+    fn fluid(&self) -> FluidTrace {
+        FluidTrace {
+            pressure: self.pressure(),
+            velocity: self.velocity(),
+            density: self.moved(TraceRow::Density, TraceRow::DensityRate, TraceRow::DensitySlope),
+            gamma: self.value(TraceRow::Gamma),
+            pi: self.value(TraceRow::Pi),
+        }
+    }
+
+    fn solid(&self) -> SolidTrace {
+        SolidTrace {
+            pressure: self.pressure(),
+            velocity: self.velocity(),
+            impedance: self.value(TraceRow::Impedance),
+        }
+    }
+}
