@@ -292,7 +292,7 @@ impl FluidRecord {
         });
         match value {
             Value::Object(mut map) => {
-                map.extend(self.cells.summary("fluid", solver.cell_updates()));
+                map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
                 map
             }
             _ => unreachable!("an object was written"),

@@ -40,7 +40,7 @@ pub trait Medium {
     fn limit(&self, cfl: f64) -> f64;
     /// The longest step of the whole if levels finer than `base` halve theirs, s.
     fn local_limit(&self, cfl: f64, base: u8) -> f64;
-    /// The coarsest level that local steps may set apart from the finest there is.
+    /// The coarsest level that may step by itself.
     fn coarsest_base(&self) -> u8;
     /// The finest level at the interface.
     fn finest_at_interface(&self) -> u8;
@@ -60,6 +60,8 @@ pub trait Medium {
     fn edges(&self) -> Vec<f64>;
     /// Which levels, as a group, a face belongs to.
     fn group_of_face(&self, face: usize) -> usize;
+    /// Writes the traces on all faces, before a long step of length `dt`.
+    fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64));
     /// Writes the traces on the faces of the levels that are about to step.
     fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64));
     /// Sets p*, v*, p*v* on a face for the next step of its level.
@@ -114,6 +116,9 @@ macro_rules! medium {
             }
             fn group_of_face(&self, face: usize) -> usize {
                 $solver::group_of_face(self, face)
+            }
+            fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
+                $solver::write_trace(self, dt, put);
             }
             fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
                 $solver::write_group_trace(self, step, put);

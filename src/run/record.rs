@@ -44,12 +44,16 @@ impl CellCount {
         self.largest = self.largest.max(cells);
     }
 
-    /// `cells` and `cell_updates` of a side's part of the summary.
-    pub fn summary(&self, side: &str, updates: u64) -> Map<String, Value> {
+    /// `cells`, `cell_updates` and `steps_saved` of a side's part of the summary.
+    ///
+    /// - `common`: the updates if all levels made the steps of the finest.
+    pub fn summary(&self, side: &str, updates: u64, common: u64) -> Map<String, Value> {
+        let saved = if common == 0 { 0.0 } else { 1.0 - updates as f64 / common as f64 };
         let cells = json!({ "final": self.last, "largest": self.largest });
         Map::from_iter([
             ("cells".to_owned(), json!({ side: cells })),
             ("cell_updates".to_owned(), json!({ side: updates })),
+            ("steps_saved".to_owned(), json!({ side: saved })),
         ])
     }
 }
@@ -144,7 +148,8 @@ mod tests {
         let expected = json!({
             "cells": { "solid": { "final": 6, "largest": 10 } },
             "cell_updates": { "solid": 20 },
+            "steps_saved": { "solid": 0.375 },
         });
-        assert_eq!(Value::Object(count.summary("solid", 20)), expected);
+        assert_eq!(Value::Object(count.summary("solid", 20, 32)), expected);
     }
 }

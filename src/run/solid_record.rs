@@ -200,7 +200,7 @@ impl SolidRecord {
         });
         match value {
             Value::Object(mut map) => {
-                map.extend(self.cells.summary("solid", solver.cell_updates()));
+                map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
                 map
             }
             _ => unreachable!("an object was written"),

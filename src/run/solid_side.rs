@@ -149,7 +149,7 @@ impl SolidSide {
         let mut filled = Duration::ZERO;
         link.send(header, |payload| {
             payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(&solver.surface_edges());
-            solver.write_trace(|row, face, value| payload[row as usize * faces + face] = value);
+            solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
             filled = start.elapsed();
         })?;
         let start = Instant::now();

@@ -3,6 +3,7 @@
 use cav::case::Case;
 use cav::run::drive::Side as _;
 use cav::run::fluid_side::{FluidSide, Turn};
+use cav::run::medium::{self, Medium, StepRule};
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;
 use coupler::{
@@ -55,13 +56,14 @@ impl Sides {
         Self { fluid, solid, to_solid, to_fluid, stop }
     }
 
-    /// A round of turns; `look` sees both between their turns: at the same time, in the weak scheme the fluid one
-    /// step ahead.
+    /// A round of turns; `look` sees both between their turns: at the same time.
     ///
     /// - returns: whether the run goes on.
     pub fn round(&mut self, mut look: impl FnMut(&Fluid, &Solid)) -> bool {
-        let turn = self.fluid.turn(&mut self.to_solid, &self.stop).expect("the fluid's turn");
+        self.fluid.complete(&mut self.to_solid).expect("the fluid's step");
+        self.solid.settle(&mut self.to_fluid).expect("the solid's step");
         look(self.fluid.solver(), self.solid.solver());
+        let turn = self.fluid.begin(&mut self.to_solid, &self.stop).expect("the fluid's turn");
         self.solid.turn(&mut self.to_fluid, &self.stop).expect("the solid's turn");
         turn == Turn::Continues
     }
@@ -108,13 +110,39 @@ impl Pair {
         let own = (solid.mesh().generation(), || solid.surface_edges());
         meeting.begin((&*trace, faces), solid.time(), own, domain.r[0], axisymmetric);
         let (rows, count) = meeting.own_trace();
-        solid.write_trace(|row, face, value| rows[row as usize * count + face] = value);
+        solid.write_trace(dt, |row, face, value| rows[row as usize * count + face] = value);
         meeting.meet(Participant::Solid, ShortStep { begin: solid.time(), dt }, *star, |_| true);
         meeting.own_means(|face, state| solid.set_surface_face(face, state));
         meeting.write_register(|row, face, value| register[row as usize * faces + face] = value);
         fluid.set_wall(&WallRegister::of(register, faces));
         solid.step(dt).expect("the solid's step");
         fluid.step(dt).expect("the fluid's step");
+    }
+
+    /// Steps until `end` of which each is a long one of one side and `ratio` short ones of the other.
+    ///
+    /// - `long`: whose steps are the longer ones; `local`: whether levels step by themselves.
+    pub fn run_in_ratio(&mut self, end: f64, cfl: f64, long: Participant, ratio: u32, local: bool) {
+        let Self { fluid, solid, .. } = self;
+        let limits = [fluid.time_step_limit(cfl), solid.time_step_limit(cfl)];
+        // Of the long step, the other side's Courant number allows that many, or more.
+        let (own, others) = if long == Participant::Fluid { (limits[0], limits[1]) } else { (limits[1], limits[0]) };
+        let limit = own.min(f64::from(ratio) * others) / 1.001;
+        let steps = (end / limit).ceil();
+        let dt = end / steps;
+        let rule = |cfl: f64| StepRule { cfl, local, ratio };
+        // So that as many are made as asked for.
+        let short = rule(cfl * dt / (f64::from(ratio) * others));
+        for _ in 0..steps as usize {
+            match long {
+                Participant::Fluid => {
+                    exchange(&mut self.fluid, &mut self.solid, dt, [rule(cfl), short], self.star);
+                }
+                Participant::Solid => {
+                    exchange(&mut self.solid, &mut self.fluid, dt, [rule(cfl), short], self.star);
+                }
+            }
+        }
     }
 
     /// Steps at the Courant number `cfl` until `end`, all of one length.
@@ -127,6 +155,24 @@ impl Pair {
             look(&self.fluid, &self.solid);
         }
     }
+}
+
+/// A long step of one side and the short ones of the other.
+fn exchange<L: Medium, S: Medium>(long: &mut L, short: &mut S, dt: f64, rules: [StepRule; 2], star: StarSolver) {
+    let edges = long.edges();
+    let faces = edges.len();
+    let mut trace = vec![0.0; TraceRow::COUNT * faces];
+    trace[..faces].copy_from_slice(&edges);
+    long.write_trace(dt, |row, face, value| trace[row as usize * faces + face] = value);
+    let step = medium::begin_long(long, dt, &rules[0]).expect("the long step");
+    let mut meeting = Meeting::default();
+    medium::begin_meeting(short, &mut meeting, (&trace, faces));
+    medium::short_steps(short, &mut meeting, (dt, star), &rules[1], |_, _| Ok(()), |_, _| Ok(()))
+        .expect("the short steps");
+    let mut register = vec![0.0; RegisterRow::COUNT * faces];
+    meeting.write_register(|row, face, value| register[row as usize * faces + face] = value);
+    long.set_register(&WallRegister::of(&register, faces));
+    medium::end_long(long, step, &rules[0], |_, _| Ok(())).expect("the long step's end");
 }
 
 /// Water on a grid.

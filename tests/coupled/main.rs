@@ -9,4 +9,5 @@ mod modes;
 mod pulse;
 mod rest;
 mod start;
+mod steps;
 mod weak;

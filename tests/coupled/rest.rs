@@ -71,7 +71,8 @@ fn a_prestress_stays_to_round_off() {
                 let [speed, off] = unrest(&sides, stress == "uniaxial");
                 eprintln!("{geometry}, {stress}, {coupling:?}: {speed:.1e} m/s, {off:.1e} Pa");
                 assert!(
-                    speed < 1e-13 && off < 1e-6,
+                    // In a round the solid makes up to four steps.
+                    speed < 1e-13 && off < 4e-6,
                     "{geometry}, {stress}, {coupling}: {speed:e} m/s, {off:e} Pa"
                 );
                 let state = sides.fluid.solver().state();

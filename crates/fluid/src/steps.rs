@@ -44,10 +44,9 @@ impl<const N: usize> FluidSolver<N> {
         limit.min(shortest * f64::from(1_u32 << MOST_HALVINGS))
     }
 
-    /// The coarsest level that local steps may set apart from the finest there is.
+    /// The coarsest level that may step by itself.
     pub fn coarsest_base(&self) -> u8 {
-        let finest = self.mesh.tree().leaves().iter().map(|id| id.level).max().unwrap_or(0);
-        finest.saturating_sub(MOST_HALVINGS)
+        mesh::coarsest_base(&self.mesh)
     }
 
     /// The finest level at the wall to the solid.
@@ -122,12 +121,19 @@ impl<const N: usize> FluidSolver<N> {
                 *report = self.scratch.with(|scratch| step_block(&context, slot, new, fluxes, scratch));
             },
         );
-        if pending.iter().enumerate().any(|(slot, report)| report.marked > 0 && is_due(slot)) {
-            self.redo_marked(&context, &mut target, &mut register, &mut pending, is_due);
+        // A cell that falls back changes what its neighbours get: first all parts must be there.
+        let is_whole = part != Part::AwayFromInterface;
+        let in_group = |slot: usize| self.levels.group_of(&self.mesh, slot) == step.group;
+        if is_whole && pending.iter().enumerate().any(|(slot, report)| report.marked > 0 && in_group(slot)) {
+            self.redo_marked(&context, &mut target, &mut register, &mut pending, in_group);
         }
         let due = (0..self.mesh.blocks()).filter(|slot| is_due(*slot)).count();
         let end = self.time + step.dt;
-        let checked = check(&self.mesh, &self.mixture, &target, &pending, end, self.steps + 1);
+        let checked = if is_whole {
+            check(&self.mesh, &self.mixture, &target, &pending, end, self.steps + 1)
+        } else {
+            Ok(())
+        };
         self.levels.put_target(step.group, &mut self.next, target);
         (self.pending, self.register) = (pending, register);
         checked?;

@@ -133,7 +133,12 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
                         // Into both: they are exchanged step by step.
                         old.copy_from_slice(ahead.block(slot));
                         new.copy_from_slice(ahead.block(slot));
-                    } else if follows[slot] {
+                    } else if !follows[slot] {
+                        // What the other field holds may be of another mesh.
+                        if clock.is_new(group) {
+                            new.copy_from_slice(old);
+                        }
+                    } else {
                         for ((new, old), end) in new.iter_mut().zip(&mut *old).zip(ahead.block(slot)) {
                             *new = *old + share * (end - *old);
                         }
@@ -143,6 +148,13 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
         std::mem::swap(state, next);
         self.clock.advance();
     }
+}
+
+/// The coarsest level of a mesh that steps by itself: levels below it step with it.
+pub fn coarsest_base<const N: usize>(mesh: &Mesh<N>) -> u8 {
+    let levels = mesh.tree().leaves().iter().map(|id| id.level);
+    let (coarsest, finest) = levels.fold((u8::MAX, 0), |(low, high), level| (level.min(low), level.max(high)));
+    finest.saturating_sub(MOST_HALVINGS).max(coarsest)
 }
 
 /// Which blocks a part of a step is about.

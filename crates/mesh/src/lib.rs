@@ -48,7 +48,7 @@ pub use field::Field;
 pub use geometry::{Geometry, Side};
 pub use horizon::Horizon;
 pub use level_clock::{GroupStep, LevelClock};
-pub use level_steps::{LevelSteps, MOST_HALVINGS, Part};
+pub use level_steps::{LevelSteps, MOST_HALVINGS, Part, coarsest_base};
 pub use limiter::{Limiter, limited_differences};
 pub use multiresolution::{MOST_COMPONENTS, Multiresolution};
 pub use padded::{GHOSTS, Padded};

@@ -57,7 +57,7 @@ impl<const N: usize> SolidSolver<N> {
     /// mid-step it is what the face's Riemann problem would see.
     ///
     /// - `put`: gets the place and one [`TraceRow`] of a face.
-    pub fn write_trace(&self, put: impl FnMut(TraceRow, usize, f64)) {
+    pub fn write_trace(&self, _dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
         self.write_trace_of(|_| true, put);
     }
 
@@ -192,7 +192,7 @@ impl<const N: usize> SolidSolver<N> {
             return;
         }
         let half = 0.5 * dt;
-        self.write_trace(|row, face, value| {
+        self.write_trace(dt, |row, face, value| {
             let trace = &mut traces[face];
             match row {
                 TraceRow::Pressure => trace.pressure += value,

@@ -32,9 +32,9 @@ impl<const N: usize> SolidSolver<N> {
         self.limit_of(base.clamp(self.coarsest_base(), self.finest()), cfl)
     }
 
-    /// The coarsest level that local steps may set apart from the finest there is.
+    /// The coarsest level that may step by itself.
     pub fn coarsest_base(&self) -> u8 {
-        self.finest().saturating_sub(MOST_HALVINGS)
+        mesh::coarsest_base(&self.mesh)
     }
 
     /// The finest level at the surface under the fluid.

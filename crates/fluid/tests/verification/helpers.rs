@@ -54,6 +54,17 @@ pub fn run_steps<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) {
     }
 }
 
+/// A step in which levels make steps of their own; its length, and how many of the finest level it holds.
+pub fn step_locally<const N: usize>(fluid: &mut FluidSolver<N>) -> (f64, u32) {
+    let (base, before) = (fluid.coarsest_base(), fluid.steps());
+    let dt = fluid.local_step_limit(CFL, base);
+    fluid.begin_step(dt, base);
+    while !fluid.clock().is_over() {
+        fluid.sub_step(CFL).unwrap();
+    }
+    (dt, (fluid.steps() - before) as u32)
+}
+
 /// Visits every cell: its place, its global indices, its state.
 pub fn each_cell<const N: usize>(
     fluid: &FluidSolver<N>,
