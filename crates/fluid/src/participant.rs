@@ -115,6 +115,9 @@ impl<const N: usize> FluidSolver<N> {
             FluidTrace { pressure: 0.0, velocity: 0.0, density: 0.0, gamma: 0.0, pi: 0.0 };
         traces.clear();
         traces.resize(self.wall_faces(), NOTHING);
+        if traces.is_empty() {
+            return;
+        }
         let half = 0.5 * dt;
         self.write_trace(dt, |row, face, value| {
             let trace = &mut traces[face];
