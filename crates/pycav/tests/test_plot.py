@@ -88,6 +88,30 @@ def test_a_consistent_run_stands_beside(result):
         pycav.plot.yield_function(result, 95e6, beside=[plain])
 
 
+def test_consistent_runs_are_made_once_and_stand_beside(small, tmp_path):
+    case = small.with_({"time.end": 3e-5, "time.snapshots": [2e-5]})
+    elastic = pycav.run(case, tmp_path / "elastic", threads=1)
+    materials = ["aluminium", 502e6, {"name": "acrylic", "density": 1180.0, "young": 5.3e9, "poisson": 0.35, "yield_strength": 80e6}]
+    made = pycav.consistent_runs(case, materials, tmp_path / "own", threads=1)
+    assert [run.parameters["solid"]["material"]["name"] for run in made] == ["aluminium", "stainless-steel", "acrylic"]
+    figure = pycav.plot.yield_function(elastic, [95e6, 502e6, 80e6], 2e-5, beside=made)
+    shown = [1e6 * np.nanmax(image.get_array()) for image in images(figure)]
+    assert len(shown) == 6
+    for own, strength, panel in zip(made, [95e6, 502e6, 80e6], shown[3:]):
+        assert panel == pytest.approx(own.solid.at(2e-5)["von_mises"].max() - strength)
+    assert abs(shown[3] - shown[0]) > 1e5, "aluminium answers otherwise than steel"
+    assert shown[4] == pytest.approx(shown[1]), "both steels have the same elasticity"
+
+    stamps = [(run.directory / "summary.json").stat().st_mtime_ns for run in made]
+    again = pycav.consistent_runs(case, materials, tmp_path / "own", threads=1)
+    assert [(run.directory / "summary.json").stat().st_mtime_ns for run in again] == stamps, "complete ones are kept"
+    with pytest.raises(pycav.RunError, match="cheese"):
+        pycav.consistent_runs(case, ["aluminium", "cheese"], tmp_path / "own")
+    for strength, told in ((1e6, "no material .* 1 MPa"), (70e6, "more than one material .* copper 70 MPa")):
+        with pytest.raises(ValueError, match=told):
+            pycav.consistent_runs(case, [strength], tmp_path / "own")
+
+
 def test_a_tube_and_a_solid_alone_can_be_drawn(root, tmp_path):
     tube = pycav.run(pycav.Case(root / "cases/shock-tube.toml").with_(
         {"time.snapshots": [], "time.end": 2e-5}), tmp_path / "tube")

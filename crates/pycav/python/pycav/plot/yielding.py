@@ -31,7 +31,8 @@ def yield_function(
     is then only indicated. The line is Φ = 0.
 
     - `names`: of the materials, for the titles.
-    - `beside`: runs with the consistent materials, a panel each with the yield strength that their cases name.
+    - `beside`: runs with the consistent materials, as `pycav.consistent_runs` makes them; a panel each with the yield strength
+      that their cases name.
     """
     first = _solid(run, time, window)
     panels = [(first, float(strength), names[k] if names else "") for k, strength in enumerate(np.atleast_1d(yield_strength))]
