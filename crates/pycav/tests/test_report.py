@@ -12,7 +12,8 @@ from PIL import Image
 
 import pycav
 from pycav.__main__ import main
-from pycav._report import _health, _timings, si
+from pycav._health import health, jumps, si
+from pycav._report import _timings
 
 
 class Page(HTMLParser):
@@ -63,11 +64,31 @@ def test_a_report_has_everything_in_it(result, tmp_path, capsys):
 
 
 def test_a_report_tells_the_conservation_of_the_run(result):
-    rows = {what: value for what, value, _ in _health(result)}
+    rows = {what: value for what, value, _ in health(result)}
     assert float(rows["fluid's mass, balance"]) < 1e-12 and float(rows["fluid's energy, balance"]) < 1e-12
     assert float(rows["impulse given and got at the interface"]) < 1e-12
     assert float(rows["work given and got at the interface"]) < 1e-12
     assert "fluid: computing" in dict((what, value) for what, value, _ in _timings(result))
+
+
+def test_a_report_tells_what_jumps_at_the_interface(result):
+    """Each side's own state at the wall is near the common one of the histories, and nearer to the other side's."""
+    r, velocity, pressure = jumps(result)
+    data = result.histories
+    assert np.allclose(r, data["interface/r"]) and velocity.shape == pressure.shape == (13, len(r), 2)
+    assert np.abs(pressure[0] - 5e7).max() < 1.0 and np.abs(velocity[0]).max() == 0.0
+    for step in (6, 9, 12):
+        there = data.sel({"interface/time": result.fluid.times[step]}, method="nearest")
+        common, moves = there["interface/pressure"].to_numpy(), there["interface/normal_velocity"].to_numpy()
+        assert np.abs(pressure[step].mean(-1) - common).max() < 0.15 * np.ptp(common)
+        assert np.abs(velocity[step].mean(-1) - moves).max() < 0.3 * np.ptp(moves)
+    rows = {what: (value, note) for what, value, note in health(result)}
+    for name, pair in (("ε_k, v_z of the fluid less that of the solid", velocity), ("ε_d, p + σ_zz", pressure)):
+        worst = np.sqrt(((pair[..., 0] - pair[..., 1])**2 * r / r.sum()).sum(1)).max()
+        value, note = rows[name]
+        assert value == si(float(worst), "m/s" if "v_z" in name else "Pa") and "rms over the wall at" in note
+        # On 10 cells per radius; the wall's own velocity is small beside that of the liquid half a cell off.
+        assert float(note.split(",")[1].split("%")[0]) < (80 if "v_z" in name else 10)
 
 
 def test_a_report_on_a_run_that_was_stopped_says_so(small, tmp_path):

@@ -10,12 +10,11 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from . import plot
+from ._health import Rows, health, si
 from .plot.section import Run, default_time
-from .plot.style import number, prefix
 from .result import Result, open_run
 
 STYLE = """
@@ -26,9 +25,6 @@ td.n { text-align: right; font-variant-numeric: tabular-nums; } th { font-weight
 img { max-width: 100%; display: block; margin: 1rem 0; } .quiet { color: #666; } .bad { color: #a33b00; }
 pre { background: #f6f6f4; padding: .8rem; overflow-x: auto; font-size: .8rem; }
 """
-
-Rows = Iterable[tuple[str, str, str]]
-
 
 def report(run: Run, out: str | os.PathLike[str] | None = None) -> Path:
     """Writes an HTML page on a run, with everything in it: what was run, key numbers, pictures, damage, coupling, timings.
@@ -49,23 +45,13 @@ def page(result: Result) -> str:
         "<h2>Key numbers</h2>", _table(_key_numbers(result)), _resolution(result),
         "<h2>Pictures</h2>", *_pictures(result),
         "<h2>Damage</h2>", _table(_damage(result)),
-        "<h2>Health</h2>", _table(_health(result)),
+        "<h2>Health</h2>", _table(health(result)),
         "<h2>Time spent</h2>", _table(_timings(result)),
         "<h2>The case, all defaults filled in</h2>",
         f"<pre>{html.escape((result.directory / 'case.toml').read_text())}</pre>",
     ]
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
             f'<link rel="icon" href="data:,"><style>{STYLE}</style></head><body>{"".join(parts)}</body></html>\n')
-
-
-def si(value: Any, unit: str) -> str:
-    """A number with the prefix that fits it; volumes and pure numbers without one."""
-    if value is None or (isinstance(value, float) and not np.isfinite(value)):
-        return "–"
-    if unit in ("Pa", "s", "m", "m/s", "J/rad"):
-        scale, letter = (1.0, "") if unit == "m/s" else prefix(abs(float(value)))
-        return f"{number(float(f'{value * scale:.4g}'))} {letter}{unit}"
-    return f"{number(float(f'{value:.4g}'))} {unit}".strip()
 
 
 def _table(rows: Rows) -> str:
@@ -167,38 +153,6 @@ def _damage(result: Result) -> Rows:
 def _place(summary: dict[str, Any]) -> str:
     place = summary.get("von_mises_peak_position")
     return "" if place is None else f"at z = {si(place[0], 'm')}, r = {si(place[1], 'm')}"
-
-
-def _health(result: Result) -> Rows:
-    data, summary = result.histories, result.summary
-    fluid, solid = "conservation/fluid/", "conservation/solid/"
-    sides = ("z_min", "z_max", "r_min", "r_max")
-    for quantity in ("mass", "energy"):
-        if fluid + quantity in data:
-            content = data[fluid + quantity].to_numpy()
-            came = sum(data[f"{fluid}{quantity}_in_{side}"].to_numpy() for side in sides)
-            if quantity == "energy":
-                came = came + data[f"{fluid}energy_from_floor"].to_numpy()
-            drift = np.abs(content - came - content[0]).max() / np.abs(content).max()
-            yield f"fluid's {quantity}, balance", f"{drift:.1e}", "relative; content minus what came in"
-    if fluid + "interface_work" in data and solid + "energy_in_z_max" in data:
-        for name, given, got in (("impulse", "interface_impulse", "momentum_in_z_max"),
-                                 ("work", "interface_work", "energy_in_z_max")):
-            one, other = data[fluid + given].to_numpy(), data[solid + got].to_numpy()
-            count = min(len(one), len(other))
-            size = max(np.abs(one).max(), np.abs(other).max())
-            gap = np.abs(one[:count] + other[:count]).max() / size if size else 0.0
-            yield f"{name} given and got at the interface", f"{gap:.1e}", "relative difference"
-    fixups = summary.get("fixups", {})
-    names = {"first_order": "cell-steps at first order", "redone": "mixed cell-steps done again",
-             "floored": "cell-steps lifted to the pressure floor", "floored_stars": "star states lifted"}
-    for key, label in names.items():
-        if key in fixups:
-            yield label, f"{fixups[key]:,}", ""
-    if fixups.get("floor_energy_share") is not None:
-        yield "energy that the floor added", f"{100 * fixups['floor_energy_share']:.3g} %", "of the collapse's"
-    if "exchange_share" in summary.get("coupling", {}):
-        yield "share of the exchange", f"{100 * summary['coupling']['exchange_share']:.2g} %", "of the wall time"
 
 
 def _timings(result: Result) -> Rows:
