@@ -1,7 +1,7 @@
 //! A run in this process, step by step.
 
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use std::time::{Duration, Instant};
 
 use cav::case;
@@ -39,7 +39,7 @@ struct Run {
     session: Session,
     directory: Option<RunDirectory>,
     log: Log,
-    pool: ThreadPool,
+    pool: Arc<ThreadPool>,
     stop: Stop,
     /// What the run came to; `None` while it goes on.
     over: Option<Over>,
@@ -139,8 +139,8 @@ impl Simulation {
                 let mut run = self.run()?;
                 let run = &mut *run;
                 let enough = &mut enough;
-                // Between two words the interpreter is left alone.
-                py.detach(|| -> Result<bool, Failure> {
+                let pool = Arc::clone(&run.pool);
+                let mut turns = || -> Result<bool, Failure> {
                     loop {
                         if enough(run) || !run.step()? {
                             return Ok(false);
@@ -149,7 +149,9 @@ impl Simulation {
                             return Ok(true);
                         }
                     }
-                })?
+                };
+                // Between two words the interpreter is left alone, and the pool's threads do not change.
+                py.detach(|| pool.install(&mut turns))?
             };
             last = Instant::now();
             py.check_signals()?;
@@ -177,7 +179,7 @@ impl Simulation {
         let case = case.case();
         let run = py.detach(|| {
             guarded(|| {
-                let pool = thread_pool(threads)?;
+                let pool = Arc::new(thread_pool(threads)?);
                 let options = Options { out: out.clone(), force, ..Options::default() };
                 let directory = out.is_some().then(|| prepare(case, &options)).transpose()?;
                 let log = Log::of(directory.as_ref().map(RunDirectory::path));
