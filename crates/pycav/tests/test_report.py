@@ -65,9 +65,9 @@ def test_a_report_has_everything_in_it(result, tmp_path, capsys):
 
 def test_a_report_tells_the_conservation_of_the_run(result):
     rows = {what: value for what, value, _ in health(result)}
-    assert float(rows["fluid's mass, balance"]) < 1e-12 and float(rows["fluid's energy, balance"]) < 1e-12
-    assert float(rows["impulse given and got at the interface"]) < 1e-12
-    assert float(rows["work given and got at the interface"]) < 1e-12
+    for what in ("fluid's mass, balance", "fluid's energy, balance", "impulse given and got at the interface",
+                 "work given and got at the interface"):
+        assert float(rows[what].replace("−", "-")) < 1e-12, what
     assert "fluid: computing" in dict((what, value) for what, value, _ in _timings(result))
 
 
@@ -104,7 +104,7 @@ def test_a_report_on_nothing_is_refused(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(("value", "unit", "shown"), [
-    (2.483e8, "Pa", "248.3 MPa"), (5.073e-5, "s", "50.73 µs"), (3.8e-6, "m³", "3.8e−06 m³"), (None, "Pa", "–"),
+    (2.483e8, "Pa", "248.3 MPa"), (5.073e-5, "s", "50.73 µs"), (3.8e-6, "m³", "3800 mm³"), (0.0, "m³", "0 m³"), (1.1e-16, "m³", "110 µm³"), (None, "Pa", "–"),
     (-1.5e5, "Pa", "−150 kPa"), (257.35, "m/s", "257.4 m/s"), (0.0, "Pa", "0 Pa"),
 ])
 def test_numbers_in_si(value, unit, shown):

@@ -15,13 +15,23 @@ Rows = Iterable[tuple[str, str, str]]
 
 
 def si(value: Any, unit: str) -> str:
-    """A number with the prefix that fits it; volumes and pure numbers without one."""
+    """A number with the prefix that fits it; pure numbers without one."""
     if value is None or (isinstance(value, float) and not np.isfinite(value)):
         return "–"
-    if unit in ("Pa", "s", "m", "m/s", "J/rad"):
-        scale, letter = (1.0, "") if unit == "m/s" else prefix(abs(float(value)))
-        return f"{number(float(f'{value * scale:.4g}'))} {letter}{unit}"
-    return f"{number(float(f'{value:.4g}'))} {unit}".strip()
+    size = abs(float(value))
+    if unit == "m³":  # the prefix is of the length whose cube it is
+        scale, letter = prefix(size ** (1 / 3))
+        return f"{_digits(value * scale**3)} {letter}m³"
+    scale, letter = prefix(size) if unit in ("Pa", "s", "m", "J/rad") else (1.0, "")
+    return f"{_digits(value * scale)} {letter}{unit}".strip()
+
+
+def _digits(value: float) -> str:
+    return number(float(f"{value:.4g}"))
+
+
+def _power(value: float) -> str:
+    return f"{value:.1e}".replace("-", "−")
 
 
 def health(result: Result) -> Rows:
@@ -36,7 +46,7 @@ def health(result: Result) -> Rows:
             if quantity == "energy":
                 came = came + data[f"{fluid}energy_from_floor"].to_numpy()
             drift = np.abs(content - came - content[0]).max() / np.abs(content).max()
-            yield f"fluid's {quantity}, balance", f"{drift:.1e}", "relative; content minus what came in"
+            yield f"fluid's {quantity}, balance", _power(drift), "relative; content minus what came in"
     if fluid + "interface_work" in data and solid + "energy_in_z_max" in data:
         for name, given, got in (("impulse", "interface_impulse", "momentum_in_z_max"),
                                  ("work", "interface_work", "energy_in_z_max")):
@@ -44,7 +54,7 @@ def health(result: Result) -> Rows:
             count = min(len(one), len(other))
             size = max(np.abs(one).max(), np.abs(other).max())
             gap = np.abs(one[:count] + other[:count]).max() / size if size else 0.0
-            yield f"{name} given and got at the interface", f"{gap:.1e}", "relative difference"
+            yield f"{name} given and got at the interface", _power(gap), "relative difference"
     yield from _jumps(result)
     fixups = summary.get("fixups", {})
     names = {"first_order": "cell-steps at first order", "redone": "mixed cell-steps done again",
@@ -98,5 +108,5 @@ def _jumps(result: Result) -> Rows:
         jump = np.sqrt(((pair[..., 0] - pair[..., 1])**2 * area).sum(1))
         size = np.sqrt((((pair - rest)**2).mean(-1) * area).sum(1))
         worst = int(np.argmax(jump))
-        share = f", {100 * jump[worst] / size[worst]:.2g} % of {of}" if size[worst] > 0 else ""
+        share = f", {number(float(f'{100 * jump[worst] / size[worst]:.2g}'))} % of {of}" if size[worst] > 0 else ""
         yield name, si(float(jump[worst]), unit), f"rms over the wall at {si(float(result.fluid.times[worst]), 's')}{share}"

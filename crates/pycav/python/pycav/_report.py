@@ -21,8 +21,9 @@ STYLE = """
 body { font: 16px/1.5 Georgia, serif; color: #1a1a1a; max-width: 56rem; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.6rem; margin-bottom: 0; } h2 { font-size: 1.15rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }
 table { border-collapse: collapse; margin: .6rem 0; } td, th { padding: .15rem 1.2rem .15rem 0; text-align: left; }
-td.n { text-align: right; font-variant-numeric: tabular-nums; } th { font-weight: normal; color: #666; }
-img { max-width: 100%; display: block; margin: 1rem 0; } .quiet { color: #666; } .bad { color: #a33b00; }
+td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; } th { font-weight: normal; color: #666; }
+figure { margin: 1.4rem 0; } figcaption { color: #666; font-style: italic; }
+img { max-width: 100%; max-height: 42rem; display: block; } .quiet { color: #666; } .bad { color: #a33b00; }
 pre { background: #f6f6f4; padding: .8rem; overflow-x: auto; font-size: .8rem; }
 """
 
@@ -131,7 +132,8 @@ def picture(figure: Figure, name: str) -> str:
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=150)
     data = base64.b64encode(buffer.getvalue()).decode()
-    return f'<img alt="{html.escape(name)}" src="data:image/png;base64,{data}">'
+    label = html.escape(name)
+    return f'<figure><figcaption>{label}</figcaption><img alt="{label}" src="data:image/png;base64,{data}"></figure>'
 
 
 def _damage(result: Result) -> Rows:
