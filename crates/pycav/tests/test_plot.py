@@ -44,6 +44,25 @@ def test_sections_show_both_media_mirrored(kind, result, tmp_path):
     assert low == pytest.approx(-0.04, abs=0.004) and high == pytest.approx(0.04, abs=0.004)
 
 
+OUTLINED = {
+    "schlieren": {}, "streamlines": {}, "interface_continuity": {}, "yield_function": {"yield_strength": 95e6},
+    "pathlines": {"spacing": 2e-2, "substeps": 1},
+}
+
+
+@pytest.mark.parametrize("kind", OUTLINED)
+def test_outlines_of_the_levels_are_drawn_when_they_are_asked_for(kind, result):
+    draw = getattr(pycav.plot, kind)
+
+    def grey_lines(**more):
+        window = (-0.128, 0.0 if kind == "yield_function" else 0.128, 0.128)
+        figure = draw(result, window=window, **OUTLINED[kind], **more)
+        return [lines for lines in figure.findobj(mpl.contour.ContourSet)
+                if np.allclose(lines.get_edgecolor()[:1], mpl.colors.to_rgba("0.35"))]
+
+    assert not grey_lines() and grey_lines(levels=True)
+
+
 def test_schlieren_of_the_start_show_the_bubble_alone(result):
     figure = pycav.plot.schlieren(result, time=0.0, window=(0.0, 0.04, 0.03))
     (image,) = images(figure)
