@@ -77,6 +77,6 @@ pub fn run_in_processes(
 
 /// Does what a command line of `cav` says; returns the exit code.
 #[pyfunction]
-pub fn main(py: Python<'_>, arguments: Vec<OsString>, program: Vec<OsString>) -> u8 {
-    py.detach(|| cav::command_line::main(arguments, &program))
+pub fn main(py: Python<'_>, arguments: Vec<OsString>, program: Vec<OsString>) -> PyResult<u8> {
+    Ok(py.detach(|| guarded(|| Ok(cav::command_line::main(arguments, &program))))?)
 }
