@@ -48,7 +48,7 @@ pub fn run_in_processes(
         std::thread::scope(|scope| {
             let worker = scope.spawn(move || {
                 let mut guard = None;
-                let on_directory = |path: &Path| guard = Some(Log::of(Some(path)).from_now_on());
+                let on_directory = |path: &Path| guard = Some(Log::of(Some(path)).until_dropped());
                 let result = guarded(|| {
                     let ended = run(case, options, stop, on_directory);
                     ended.inspect_err(log::failed).map_err(Failure::Run)

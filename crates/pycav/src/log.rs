@@ -33,7 +33,7 @@ impl Log {
     }
 
     /// Takes this thread's messages until the guard is dropped.
-    pub fn from_now_on(&self) -> DefaultGuard {
+    pub fn until_dropped(&self) -> DefaultGuard {
         dispatcher::set_default(&self.0)
     }
 
