@@ -17,7 +17,7 @@ def pulse(t):
     return 1e5 + front * 2 * 25e6 * np.exp(-9.1e5 * t) * np.cos(2 * np.pi * 83.3e3 * t + np.pi / 3)
 
 
-case = pycav.Case(CASES / "lithotripter.toml").with_inflow(pulse, np.linspace(0.0, 1.2e-6, 121))
+case = pycav.Case(CASES / "lithotripter.toml").with_inflow(pulse)
 case = coarser(case, options.coarser, fluid=5, solid=4)
 result = pycav.run(case, options.out / "lithotripter", force=True, progress=True)
 incident = result.probes["incident"]["pressure"]

@@ -100,7 +100,7 @@ pub fn prepare(case: &Case, options: &Options) -> Result<RunDirectory, RunError>
 }
 
 /// What the log begins with.
-fn log_case(case: &Case) {
+pub fn log_case(case: &Case) {
     let hash: String = case.hash().iter().map(|byte| format!("{byte:02x}")).collect();
     tracing::info!(version = env!("CARGO_PKG_VERSION"), case = case.name, hash, "run");
 }

@@ -130,7 +130,9 @@ pub struct FluidSolver {
 
 fn wall_traces(solver: &fluid::FluidSolver<BLOCK>, dt: f64) -> Vec<FluidTrace> {
     let mut traces = Vec::new();
-    solver.traces_at_mid_step(dt, &mut traces);
+    if solver.wall_faces() > 0 {
+        solver.traces_at_mid_step(dt, &mut traces);
+    }
     traces
 }
 

@@ -1,7 +1,7 @@
 //! A run in two processes, and the command line.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::time::Duration;
 
@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 
 use crate::case::Case;
 use crate::error::{Failure, guarded};
+use crate::log::{self, Log};
 
 /// How often Python gets a say.
 const SAY: Duration = Duration::from_millis(50);
@@ -46,7 +47,12 @@ pub fn run_in_processes(
     py.detach(move || {
         std::thread::scope(|scope| {
             let worker = scope.spawn(move || {
-                let result = guarded(|| run(case, options, stop, |_| {}).map_err(Failure::Run));
+                let mut guard = None;
+                let on_directory = |path: &Path| guard = Some(Log::of(Some(path)).until_dropped());
+                let result = guarded(|| {
+                    let ended = run(case, options, stop, on_directory);
+                    ended.inspect_err(log::failed).map_err(Failure::Run)
+                });
                 // Closing the channel says that it is done.
                 drop(done);
                 result
@@ -71,6 +77,6 @@ pub fn run_in_processes(
 
 /// Does what a command line of `cav` says; returns the exit code.
 #[pyfunction]
-pub fn main(py: Python<'_>, arguments: Vec<OsString>, program: Vec<OsString>) -> u8 {
-    py.detach(|| cav::command_line::main(arguments, &program))
+pub fn main(py: Python<'_>, arguments: Vec<OsString>, program: Vec<OsString>) -> PyResult<u8> {
+    Ok(py.detach(|| guarded(|| Ok(cav::command_line::main(arguments, &program))))?)
 }

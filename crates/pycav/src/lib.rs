@@ -8,6 +8,7 @@
 //! | `fields` | cells and samples of a solver as arrays |
 //! | `initial` | initial states that Python functions give |
 //! | `launch` | a run in two processes, and the command line |
+//! | `log` | the log of a run directory |
 //! | `error` | errors and panics as exceptions |
 //!
 //! The lock of the interpreter is released while anything computes. Everything that is handed out is a copy.
@@ -18,6 +19,7 @@ mod error;
 mod fields;
 mod initial;
 mod launch;
+mod log;
 mod simulation;
 
 use pyo3::pymodule;

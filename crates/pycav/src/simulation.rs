@@ -1,7 +1,7 @@
 //! A run in this process, step by step.
 
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use std::time::{Duration, Instant};
 
 use cav::case;
@@ -23,6 +23,7 @@ use crate::case::Case;
 use crate::error::{Failure, guarded};
 use crate::fields;
 use crate::initial::{fluid_from, solid_from};
+use crate::log::Log;
 
 /// How often Python gets a say while steps are made.
 const SAY: Duration = Duration::from_millis(20);
@@ -37,7 +38,8 @@ struct Run {
     case: case::Case,
     session: Session,
     directory: Option<RunDirectory>,
-    pool: ThreadPool,
+    log: Log,
+    pool: Arc<ThreadPool>,
     stop: Stop,
     /// What the run came to; `None` while it goes on.
     over: Option<Over>,
@@ -75,17 +77,21 @@ impl Run {
     }
 
     fn turn(&mut self) -> Result<Turn, Failure> {
-        let Self { session, pool, stop, .. } = self;
-        guarded(|| pool.install(|| session.step(stop)).map_err(Failure::Run))
+        let Self { session, pool, stop, log, .. } = self;
+        guarded(|| pool.install(|| log.during(|| session.step(stop))).map_err(Failure::Run))
     }
 
     fn end(&mut self, result: Result<Turn, cav::run::RunError>, over: Over) -> Result<(), Failure> {
         self.over = Some(over);
-        let Self { session, pool, directory, .. } = self;
+        let Self { session, pool, directory, log, .. } = self;
         guarded(|| {
-            let ended = pool.install(|| session.end(directory.as_ref(), result));
+            let ended = pool.install(|| log.during(|| session.end(directory.as_ref(), result)));
             if let Some(directory) = directory.as_ref() {
-                conclude(directory)?;
+                let whole = log.during(|| conclude(directory))?;
+                match &ended {
+                    Ok(()) => log.done(&closing_words(&whole, directory.path())),
+                    Err(error) => log.failed(error),
+                }
             }
             ended.map_err(Failure::Run)
         })
@@ -133,8 +139,8 @@ impl Simulation {
                 let mut run = self.run()?;
                 let run = &mut *run;
                 let enough = &mut enough;
-                // Between two words the interpreter is left alone.
-                py.detach(|| -> Result<bool, Failure> {
+                let pool = Arc::clone(&run.pool);
+                let mut turns = || -> Result<bool, Failure> {
                     loop {
                         if enough(run) || !run.step()? {
                             return Ok(false);
@@ -143,7 +149,9 @@ impl Simulation {
                             return Ok(true);
                         }
                     }
-                })?
+                };
+                // Between two words the interpreter is left alone, and the pool's threads do not change.
+                py.detach(|| pool.install(&mut turns))?
             };
             last = Instant::now();
             py.check_signals()?;
@@ -171,16 +179,23 @@ impl Simulation {
         let case = case.case();
         let run = py.detach(|| {
             guarded(|| {
-                let pool = thread_pool(threads)?;
+                let pool = Arc::new(thread_pool(threads)?);
                 let options = Options { out: out.clone(), force, ..Options::default() };
                 let directory = out.is_some().then(|| prepare(case, &options)).transpose()?;
-                let session = pool.install(|| -> Result<Session, Failure> {
+                let log = Log::of(directory.as_ref().map(RunDirectory::path));
+                log.begun(case);
+                let make = || -> Result<Session, Failure> {
                     let fluid = fluid_initial.as_ref().map(|f| fluid_from(case, f)).transpose()?;
                     let solid = solid_initial.as_ref().map(|f| solid_from(case, f)).transpose()?;
                     Ok(Session::new(case, directory.as_ref(), Solvers { fluid, solid })?)
+                };
+                let session = pool.install(|| log.during(make)).inspect_err(|failure| {
+                    if let Failure::Run(error) = failure {
+                        log.failed(error);
+                    }
                 })?;
                 let (stop, case) = (Stop::default(), case.clone());
-                Ok(Run { case, session, directory, pool, stop, over: None })
+                Ok(Run { case, session, directory, log, pool, stop, over: None })
             })
         })?;
         Ok(Self { run: Mutex::new(run) })

@@ -135,5 +135,47 @@ def test_an_inflow_is_sampled_from_a_function(root):
     assert np.array_equal(pressure, np.column_stack([times, 1e5 + 1e12 * times]))
 
 
+PULSES = {
+    "narrow pulse": lambda t: 1e5 + 4e7 * np.exp(-(((t - 0.6123456e-6) / 2e-11) ** 2)),
+    "front of 20 ns": lambda t: 1e5 + np.clip(t / 20e-9, 0.0, 1.0) * 5e7 * np.exp(-9.1e5 * t) * np.cos(5.2e5 * t + 1.0),
+    "kinks": lambda t: 1e5 + 1e12 * np.abs(t - 7e-7) - 1e12 * np.abs(t - 1.1e-6),
+    "square root": lambda t: 1e9 * np.sqrt(t),
+    "many periods": lambda t: 1e7 * np.sin(2 * np.pi * 20e6 * t),
+}
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+@pytest.mark.parametrize("name", PULSES)
+def test_an_inflow_from_a_function_is_as_close_to_it_as_was_asked(name, tolerance, root):
+    case = pycav.Case(root / "cases/lithotripter.toml")
+    changed = case.with_inflow(PULSES[name], tolerance=tolerance)
+    rows = np.array(_toml.parse(changed.to_toml())["fluid"]["inflow"]["pressure"])
+    assert rows[0, 0] == 0.0 and rows[-1, 0] == case.end and (np.diff(rows[:, 0]) > 0).all()
+    anywhere = np.sort(np.random.default_rng(1).uniform(0.0, case.end, 3_000_000))
+    exact = PULSES[name](anywhere)
+    off = np.abs(np.interp(anywhere, *rows.T) - exact).max() / np.ptp(exact)
+    assert off <= tolerance
+    assert len(rows) < (5000 if name == "many periods" else 300), "no more rows than that takes"
+
+
+@pytest.mark.parametrize(("function", "told"), [
+    (lambda t: np.where(t < 1.0e-6, 1e5, 4e7), r"jumps at t = 1(\.0000\d*)?e-06 s"),
+    (lambda t: 1e5 + np.where(t > 0, t, np.inf), "t = 0 s is not finite"),
+    (lambda t: np.where(t > 1e-6, np.nan, 1e5), "is not finite"),
+    (lambda t: 1e5 * np.random.default_rng(1).normal(size=t.shape), "more than 1,048,576 times"),
+], ids=["jump", "pole", "nan", "noise"])
+def test_a_function_that_no_table_holds_is_refused(function, told, root):
+    case = pycav.Case(root / "cases/lithotripter.toml")
+    with pytest.raises(ValueError, match=told):
+        case.with_inflow(function)
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        case.with_inflow(PULSES["kinks"], tolerance=0.0)
+
+
+def test_a_constant_inflow_needs_two_rows(root):
+    changed = pycav.Case(root / "cases/lithotripter.toml").with_inflow(lambda t: 2e5)
+    assert _toml.parse(changed.to_toml())["fluid"]["inflow"]["pressure"] == [[0.0, 2e5], [changed.end, 2e5]]
+
+
 def test_paths_may_be_of_any_kind(root):
     assert pycav.Case(str(root / COARSE)) == pycav.Case(Path(root / COARSE))

@@ -44,6 +44,25 @@ def test_sections_show_both_media_mirrored(kind, result, tmp_path):
     assert low == pytest.approx(-0.04, abs=0.004) and high == pytest.approx(0.04, abs=0.004)
 
 
+OUTLINED = {
+    "schlieren": {}, "streamlines": {}, "interface_continuity": {}, "yield_function": {"yield_strength": 95e6},
+    "pathlines": {"spacing": 2e-2, "substeps": 1},
+}
+
+
+@pytest.mark.parametrize("kind", OUTLINED)
+def test_outlines_of_the_levels_are_drawn_when_they_are_asked_for(kind, result):
+    draw = getattr(pycav.plot, kind)
+
+    def grey_lines(**more):
+        window = (-0.128, 0.0 if kind == "yield_function" else 0.128, 0.128)
+        figure = draw(result, window=window, **OUTLINED[kind], **more)
+        return [lines for lines in figure.findobj(mpl.contour.ContourSet)
+                if np.allclose(lines.get_edgecolor()[:1], mpl.colors.to_rgba("0.35"))]
+
+    assert not grey_lines() and grey_lines(levels=True)
+
+
 def test_schlieren_of_the_start_show_the_bubble_alone(result):
     figure = pycav.plot.schlieren(result, time=0.0, window=(0.0, 0.04, 0.03))
     (image,) = images(figure)
@@ -86,6 +105,30 @@ def test_a_consistent_run_stands_beside(result):
                                   "time.snapshots": []}), result.directory.with_name("plain"), force=True)
     with pytest.raises(ValueError, match="no yield strength"):
         pycav.plot.yield_function(result, 95e6, beside=[plain])
+
+
+def test_consistent_runs_are_made_once_and_stand_beside(small, tmp_path):
+    case = small.with_({"time.end": 3e-5, "time.snapshots": [2e-5]})
+    elastic = pycav.run(case, tmp_path / "elastic", threads=1)
+    materials = ["aluminium", 502e6, {"name": "acrylic", "density": 1180.0, "young": 5.3e9, "poisson": 0.35, "yield_strength": 80e6}]
+    made = pycav.consistent_runs(case, materials, tmp_path / "own", threads=1)
+    assert [run.parameters["solid"]["material"]["name"] for run in made] == ["aluminium", "stainless-steel", "acrylic"]
+    figure = pycav.plot.yield_function(elastic, [95e6, 502e6, 80e6], 2e-5, beside=made)
+    shown = [1e6 * np.nanmax(image.get_array()) for image in images(figure)]
+    assert len(shown) == 6
+    for own, strength, panel in zip(made, [95e6, 502e6, 80e6], shown[3:]):
+        assert panel == pytest.approx(own.solid.at(2e-5)["von_mises"].max() - strength)
+    assert abs(shown[3] - shown[0]) > 1e5, "aluminium answers otherwise than steel"
+    assert shown[4] == pytest.approx(shown[1]), "both steels have the same elasticity"
+
+    stamps = [(run.directory / "summary.json").stat().st_mtime_ns for run in made]
+    again = pycav.consistent_runs(case, materials, tmp_path / "own", threads=1)
+    assert [(run.directory / "summary.json").stat().st_mtime_ns for run in again] == stamps, "complete ones are kept"
+    with pytest.raises(pycav.RunError, match="cheese"):
+        pycav.consistent_runs(case, ["aluminium", "cheese"], tmp_path / "own")
+    for strength, told in ((1e6, "no material .* 1 MPa"), (70e6, "more than one material .* copper 70 MPa")):
+        with pytest.raises(ValueError, match=told):
+            pycav.consistent_runs(case, [strength], tmp_path / "own")
 
 
 def test_a_tube_and_a_solid_alone_can_be_drawn(root, tmp_path):

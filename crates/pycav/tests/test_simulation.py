@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import gc
 import os
+import re
 import signal
 import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import h5py
 import numpy as np
@@ -53,6 +55,29 @@ def test_a_run_has_the_command_lines_numbers_to_the_last_bit(processes, small, c
     result = pycav.run(small, tmp_path / "run", processes=processes)
     assert_same_numbers(result.directory, commanded)
     assert result.summary["completed"] and pycav.open(commanded).summary["steps"] == result.summary["steps"]
+
+
+def told(directory):
+    """The log without what differs between any two runs."""
+    text = (directory / "log").read_text().replace(str(directory), "DIR")
+    return re.sub(r"in \d+\.\d s", "in S", re.sub(r"(?m)^\S+Z +(\w+) [\w:]+: ", r"\1 ", text)).splitlines()
+
+
+def test_a_run_leaves_the_log_that_the_command_line_leaves(small, commanded, cav, tmp_path):
+    """Two at a time, each its own."""
+    with ThreadPoolExecutor(2) as pool:
+        ran = list(pool.map(lambda k: pycav.run(small, tmp_path / str(k), threads=1), range(2)))
+    expected = told(commanded)
+    assert expected[0].startswith("INFO run ") and expected[1].startswith("INFO done") and expected[-1] == "see DIR"
+    for result in ran:
+        assert told(result.directory) == expected
+    cav("run", "cases/dickopp2012-coarse.toml", *CHANGES, "--out", tmp_path / "two", "-q")
+    # Two processes and their launcher write to it in any order.
+    assert sorted(told(pycav.run(small, tmp_path / "both", processes=True).directory)) == sorted(told(tmp_path / "two"))
+    with pycav.Simulation(small, out=tmp_path / "stopped") as simulation:
+        simulation.step()
+    (_, ended) = told(tmp_path / "stopped")
+    assert ended.startswith("ERROR interrupted")
 
 
 def test_an_adaptive_run_has_the_command_lines_numbers(cav, result, tmp_path, root):
@@ -314,6 +339,7 @@ def test_a_numerical_failure_is_an_exception_and_the_files_are_kept(small, tmp_p
         pycav.run(case, tmp_path / "run")
     summary = pycav.open(tmp_path / "run").summary
     assert summary["completed"] is False and "t = " in summary["error"]
+    assert "ERROR" in (tmp_path / "run" / "log").read_text()
 
 
 def test_a_finished_run_is_refused_without_force(small, tmp_path):

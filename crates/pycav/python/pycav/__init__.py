@@ -27,19 +27,19 @@ if TYPE_CHECKING:
     from ._run import run
     from .simulation import Simulation
     from .solvers import FluidSolver, SolidSolver
-    from ._sweep import stand_off_map, sweep
+    from ._sweep import consistent_runs, stand_off_map, sweep
 
 __all__ = [
     "Case", "CaseError", "Cells", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
-    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "materials", "open", "plot",
-    "report", "run", "stand_off_map", "sweep", "theory",
+    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "consistent_runs", "materials",
+    "open", "plot", "report", "run", "stand_off_map", "sweep", "theory",
 ]
 
 # Where names live. They are fetched when they are first used: the processes of a run need none of them.
 _PLACES = {
     "Case": "case", "Cells": "cells", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
-    "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
+    "consistent_runs": "_sweep", "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
 }
 
 

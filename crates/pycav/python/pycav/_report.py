@@ -10,25 +10,22 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from . import plot
+from ._health import Rows, health, si
 from .plot.section import Run, default_time
-from .plot.style import number, prefix
 from .result import Result, open_run
 
 STYLE = """
 body { font: 16px/1.5 Georgia, serif; color: #1a1a1a; max-width: 56rem; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.6rem; margin-bottom: 0; } h2 { font-size: 1.15rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }
 table { border-collapse: collapse; margin: .6rem 0; } td, th { padding: .15rem 1.2rem .15rem 0; text-align: left; }
-td.n { text-align: right; font-variant-numeric: tabular-nums; } th { font-weight: normal; color: #666; }
-img { max-width: 100%; display: block; margin: 1rem 0; } .quiet { color: #666; } .bad { color: #a33b00; }
+td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; } th { font-weight: normal; color: #666; }
+figure { margin: 1.4rem 0; } figcaption { color: #666; font-style: italic; }
+img { max-width: 100%; max-height: 42rem; display: block; } .quiet { color: #666; } .bad { color: #a33b00; }
 pre { background: #f6f6f4; padding: .8rem; overflow-x: auto; font-size: .8rem; }
 """
-
-Rows = Iterable[tuple[str, str, str]]
-
 
 def report(run: Run, out: str | os.PathLike[str] | None = None) -> Path:
     """Writes an HTML page on a run, with everything in it: what was run, key numbers, pictures, damage, coupling, timings.
@@ -49,23 +46,13 @@ def page(result: Result) -> str:
         "<h2>Key numbers</h2>", _table(_key_numbers(result)), _resolution(result),
         "<h2>Pictures</h2>", *_pictures(result),
         "<h2>Damage</h2>", _table(_damage(result)),
-        "<h2>Health</h2>", _table(_health(result)),
+        "<h2>Health</h2>", _table(health(result)),
         "<h2>Time spent</h2>", _table(_timings(result)),
         "<h2>The case, all defaults filled in</h2>",
         f"<pre>{html.escape((result.directory / 'case.toml').read_text())}</pre>",
     ]
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
             f'<link rel="icon" href="data:,"><style>{STYLE}</style></head><body>{"".join(parts)}</body></html>\n')
-
-
-def si(value: Any, unit: str) -> str:
-    """A number with the prefix that fits it; volumes and pure numbers without one."""
-    if value is None or (isinstance(value, float) and not np.isfinite(value)):
-        return "–"
-    if unit in ("Pa", "s", "m", "m/s", "J/rad"):
-        scale, letter = (1.0, "") if unit == "m/s" else prefix(abs(float(value)))
-        return f"{number(float(f'{value * scale:.4g}'))} {letter}{unit}"
-    return f"{number(float(f'{value:.4g}'))} {unit}".strip()
 
 
 def _table(rows: Rows) -> str:
@@ -145,7 +132,8 @@ def picture(figure: Figure, name: str) -> str:
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=150)
     data = base64.b64encode(buffer.getvalue()).decode()
-    return f'<img alt="{html.escape(name)}" src="data:image/png;base64,{data}">'
+    label = html.escape(name)
+    return f'<figure><figcaption>{label}</figcaption><img alt="{label}" src="data:image/png;base64,{data}"></figure>'
 
 
 def _damage(result: Result) -> Rows:
@@ -167,38 +155,6 @@ def _damage(result: Result) -> Rows:
 def _place(summary: dict[str, Any]) -> str:
     place = summary.get("von_mises_peak_position")
     return "" if place is None else f"at z = {si(place[0], 'm')}, r = {si(place[1], 'm')}"
-
-
-def _health(result: Result) -> Rows:
-    data, summary = result.histories, result.summary
-    fluid, solid = "conservation/fluid/", "conservation/solid/"
-    sides = ("z_min", "z_max", "r_min", "r_max")
-    for quantity in ("mass", "energy"):
-        if fluid + quantity in data:
-            content = data[fluid + quantity].to_numpy()
-            came = sum(data[f"{fluid}{quantity}_in_{side}"].to_numpy() for side in sides)
-            if quantity == "energy":
-                came = came + data[f"{fluid}energy_from_floor"].to_numpy()
-            drift = np.abs(content - came - content[0]).max() / np.abs(content).max()
-            yield f"fluid's {quantity}, balance", f"{drift:.1e}", "relative; content minus what came in"
-    if fluid + "interface_work" in data and solid + "energy_in_z_max" in data:
-        for name, given, got in (("impulse", "interface_impulse", "momentum_in_z_max"),
-                                 ("work", "interface_work", "energy_in_z_max")):
-            one, other = data[fluid + given].to_numpy(), data[solid + got].to_numpy()
-            count = min(len(one), len(other))
-            size = max(np.abs(one).max(), np.abs(other).max())
-            gap = np.abs(one[:count] + other[:count]).max() / size if size else 0.0
-            yield f"{name} given and got at the interface", f"{gap:.1e}", "relative difference"
-    fixups = summary.get("fixups", {})
-    names = {"first_order": "cell-steps at first order", "redone": "mixed cell-steps done again",
-             "floored": "cell-steps lifted to the pressure floor", "floored_stars": "star states lifted"}
-    for key, label in names.items():
-        if key in fixups:
-            yield label, f"{fixups[key]:,}", ""
-    if fixups.get("floor_energy_share") is not None:
-        yield "energy that the floor added", f"{100 * fixups['floor_energy_share']:.3g} %", "of the collapse's"
-    if "exchange_share" in summary.get("coupling", {}):
-        yield "share of the exchange", f"{100 * summary['coupling']['exchange_share']:.2g} %", "of the wall time"
 
 
 def _timings(result: Result) -> Rows:

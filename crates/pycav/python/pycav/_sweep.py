@@ -15,7 +15,9 @@ import numpy as np
 import xarray
 
 from . import _toml
-from .case import Case
+from ._pycav import RunError
+from .case import Case, Material
+from .case import materials as library
 from .result import Result
 from ._run import run
 
@@ -183,3 +185,41 @@ def stand_off_map(
     `options` are those of `sweep`; `pycav.plot.stand_off_map` draws what comes back.
     """
     return sweep(case, {STAND_OFF: stand_off, "solid.material": materials}, out, **options)
+
+
+def consistent_runs(
+    case: Case,
+    materials: Sequence[Any],
+    out: str | os.PathLike[str],
+    **options: Any,
+) -> list[Result]:
+    """Runs a case once with each of several materials of its solid and returns what they left, in that order.
+
+    `pycav.plot.yield_function(run, beside=...)` draws them beside the yield functions of a single elastic run.
+
+    - `materials`: names of the library, a `pycav.Material`, tables as in a case file, or yield strengths in Pa, which stand
+      for the material of the library that has just this one.
+    - `out`, `options`: those of `sweep`: every material has a run directory, and what is complete is not run again.
+
+    Raises `pycav.RunError` with the errors of those that failed, when all have ended.
+    """
+    chosen = [_material(material) for material in materials]
+    data = sweep(case, {"solid.material": chosen}, out, **options)
+    errors = [str(error) for error in data["error"].to_numpy() if error]
+    if errors:
+        raise RunError("; ".join(errors))
+    return [Result(directory) for directory in data["directory"].to_numpy()]
+
+
+def _material(given: Any) -> Any:
+    """A material as a case file names it."""
+    if isinstance(given, Material):
+        return given.name
+    if isinstance(given, (str, Mapping)):
+        return given
+    found = [material.name for material in library() if material.yield_strength == float(given)]
+    if len(found) != 1:
+        has = ", ".join(f"{m.name} {m.yield_strength * 1e-6:g} MPa" for m in library() if m.yield_strength is not None)
+        many = "no material" if not found else "more than one material"
+        raise ValueError(f"{many} of the library has a yield strength of {float(given) * 1e-6:g} MPa; they are: {has}")
+    return found[0]

@@ -27,7 +27,7 @@ InitialState = Callable[[Array, Array], Mapping[str, ArrayLike]]
 class Simulation:
     """A case that is run in this process, at the speed of the command line.
 
-    - `out`: a run directory, which is then written as `cav run` writes it (but for the log); without one nothing is written and
+    - `out`: a run directory, which is then written as `cav run` writes it; without one nothing is written and
       histories stay in memory. `force` replaces a finished run.
     - `threads`: of the solvers; all processors if `None`.
     - `fluid_initial`, `solid_initial`: functions of arrays z, r (cell centres, m, one dimension) that take the place of the

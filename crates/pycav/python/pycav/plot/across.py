@@ -74,7 +74,8 @@ def _below(figure: Figure, section: Section, axes: Axes, fields: dict[str, tuple
     """A small panel below another one: the quantity along the axis through the interface."""
     wall = section.wall or 0.0
     place, inch = axes.get_position(), 1 / figure.get_figheight()
-    below = figure.add_axes((place.x0, 0.42 * inch, place.width, 1.1 * inch))
+    aside = 0.02 if place.x0 > 0.5 else 0.0  # so that its numbers are not over the panel to the left
+    below = figure.add_axes((place.x0 + aside, 0.42 * inch, place.width - aside, 1.1 * inch))
     reach = 0.2 * (section.box[1] - section.box[0])
     scale, letter = prefix(reach)
     for (medium, (name, factor)), colour in zip(fields.items(), (BLUE, ORANGE)):

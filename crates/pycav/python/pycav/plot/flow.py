@@ -102,6 +102,7 @@ def pathlines(
     until: float | None = None,
     spacing: float | None = None,
     substeps: int = 8,
+    levels: bool = False,
 ) -> Figure:
     """Where particles of a regular grid have gone from t = 0 on, advected through the snapshots by Heun's method.
 
@@ -110,6 +111,7 @@ def pathlines(
 
     - `until`: the last time, s; else the last snapshot.
     - `spacing`: of the grid, m; else a thirtieth of the window.
+    - `levels`: outlines of the levels of refinement at the last time.
     """
     result = open_run(run)
     last = float(result.snapshots(result.media[0]).times[-1]) if until is None else until
@@ -137,6 +139,8 @@ def pathlines(
                 axes.add_collection(LineCollection(list(lines * [1, sign]), colors=colour, linewidths=0.5))
                 if len(lines):
                     axes.plot(*(lines[:, -1] * [1, sign]).T, ".", color=colour, markersize=1.6, markeredgewidth=0)
+    if levels:
+        section.levels(axes)
     section.names(axes, "Pathlines up to")
     axes.set_title(axes.get_title(loc="left").replace("to, ", "to "), loc="left", fontsize=9, pad=4)
     figure.text(0.1, 0.15 / figure.get_figheight(), " ".join(foot), fontsize=8, linespacing=1.4)

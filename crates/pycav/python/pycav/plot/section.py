@@ -84,8 +84,9 @@ class Section:
         left, gap, head, across = 0.62, 0.25, 0.34, 0.32
         width = (WIDTH - left - 0.2 - (columns - 1) * gap) / columns
         height = width * (top - bottom) / (high - low)
-        if rows * height > 7.5:  # a page is not taller
-            width, height = width * 7.5 / (rows * height), 7.5 / rows
+        tallest = 5.2 if rows == 1 else 7.5  # what a page has room for
+        if rows * height > tallest:
+            width, height = width * tallest / (rows * height), tallest / rows
         size = (left + columns * width + (columns - 1) * gap + 0.2, foot + rows * height + (rows - 1) * across + head)
         figure = Figure(figsize=size)
         scale, letter = self.length_scale

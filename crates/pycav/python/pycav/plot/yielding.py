@@ -24,6 +24,7 @@ def yield_function(
     *,
     names: Sequence[str] | None = None,
     beside: Sequence[Run] = (),
+    levels: bool = False,
 ) -> Figure:
     """The yield function Φ = σ_vM − Y₀ of the solid for one or several yield strengths in Pa, a panel each.
 
@@ -31,7 +32,9 @@ def yield_function(
     is then only indicated. The line is Φ = 0.
 
     - `names`: of the materials, for the titles.
-    - `beside`: runs with the consistent materials, a panel each with the yield strength that their cases name.
+    - `beside`: runs with the consistent materials, as `pycav.consistent_runs` makes them; a panel each with the yield strength
+      that their cases name.
+    - `levels`: outlines of the levels of refinement.
     """
     first = _solid(run, time, window)
     panels = [(first, float(strength), names[k] if names else "") for k, strength in enumerate(np.atleast_1d(yield_strength))]
@@ -54,6 +57,8 @@ def yield_function(
         assert raster is not None
         drawn = section.show(axes, raster, (image - strength) * MEGA, cmap="PuOr_r", norm=norm)
         section.contour(axes, raster, smooth - strength, 0.0, colors=INK, linewidths=1.0)
+        if levels:
+            section.levels(axes)
         section.names(axes, "")
         what = f"$Y_0$ = {number(strength * MEGA)} MPa"
         axes.set_title(f"{name}, {what}" if name else what, loc="left", fontsize=9, pad=4)
