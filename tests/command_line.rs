@@ -426,7 +426,10 @@ fn complete_directory(workshop: &Workshop, out: &str) {
     for side in ["fluid", "solid"] {
         let cells = &summary["cells"][side];
         assert_eq!((&cells["final"], &cells["largest"]), (&256.into(), &256.into()));
-        assert_eq!(summary["cell_updates"][side], 256 * steps);
+        // The solid makes several steps in one of the fluid's.
+        let least = if side == "fluid" { 256 * steps } else { 3 * 256 * steps };
+        let updates = summary["cell_updates"][side].as_u64().expect("updates") as usize;
+        assert!(updates >= least && updates % 256 == 0 && (side == "solid" || updates == least), "{summary}");
         assert!(summary["compute_seconds"][side].as_f64().is_some_and(|seconds| seconds > 0.0), "{summary}");
         assert_eq!(summary["compute_seconds"][side], summary["coupling"][side]["seconds_computing"]);
     }
@@ -464,7 +467,10 @@ fn complete_directory(workshop: &Workshop, out: &str) {
         assert!(!units.is_empty(), "{name}");
         let rows = dataset.shape()[0];
         if EVERY_STEP.contains(name) {
-            assert_eq!(rows, steps + 1, "{out}: {name}");
+            // The solid has steps of its own, several in one of the fluid's.
+            let is_solids = name.starts_with("/solid/") || name.starts_with("/probes/steel/");
+            let is_right = if is_solids { rows > 3 * steps } else { rows == steps + 1 };
+            assert!(is_right, "{out}: {name} has {rows} rows in {steps} steps");
         } else {
             assert!(rows > 1, "{out}: {name} has {rows} rows");
         }
@@ -548,7 +554,7 @@ fn progress_is_plain_where_nobody_watches_and_absent_when_quiet() {
     let said = String::from_utf8_lossy(&run.stderr).into_owned();
     assert!(!said.contains(['\u{1b}', '\r']), "{said:?}");
     let progress = said.lines().find(|line| line.contains(" %  t = ")).unwrap_or_else(|| panic!("{said}"));
-    for fragment in ["step", "Δt = ", "(solid)", "512 cells", "left"] {
+    for fragment in ["step", "Δt = ", "(fluid)", "512 cells", "left"] {
         assert!(progress.contains(fragment), "{progress}");
     }
     assert!(said.contains("done: "), "{said}");

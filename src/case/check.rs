@@ -260,17 +260,24 @@ fn solid_step(solid: &SolidCase, cfl: f64) -> f64 {
 fn steps(text: &mut String, case: &Case) {
     let fluid = case.fluid.as_ref().map(|fluid| fluid_step(fluid, case.time.cfl));
     let solid = case.solid.as_ref().map(|solid| solid_step(solid, case.time.cfl));
-    let (step, limiting) = match (fluid, solid) {
-        (Some(fluid), Some(solid)) if solid < fluid => (solid, "the solid limits"),
-        (Some(fluid), Some(_)) => (fluid, "the fluid limits"),
-        (Some(fluid), None) => (fluid, "fluid"),
-        (None, Some(solid)) => (solid, "solid"),
-        (None, None) => return,
+    // Each side keeps its own step, as far as the other can follow.
+    let ratio = f64::from(case.coupling.step_ratio);
+    let beside = |own: Option<f64>, other: Option<f64>| {
+        own.map(|own| other.map_or(own, |other| own.min(ratio * other)))
     };
-    if let (Some(fluid), Some(solid)) = (fluid, solid) {
-        line(text, "time step", &format!("fluid {}, solid {}: {limiting}", si(fluid, "s"), si(solid, "s")));
-    } else {
-        line(text, "time step", &format!("{limiting} {}", si(step, "s")));
+    let [fluid, solid] = [beside(fluid, solid), beside(solid, fluid)];
+    match (fluid, solid) {
+        (Some(fluid), Some(solid)) => {
+            let (most, longer) = if fluid >= solid { (fluid / solid, "fluid") } else { (solid / fluid, "solid") };
+            let words = match most.ceil() {
+                1.0 => "the same".to_owned(),
+                most => format!("{most:.0} in one of the {longer}'s"),
+            };
+            line(text, "time step", &format!("fluid {}, solid {}: {words}", si(fluid, "s"), si(solid, "s")));
+        }
+        (Some(step), None) => line(text, "time step", &format!("fluid {}", si(step, "s"))),
+        (None, Some(step)) => line(text, "time step", &format!("solid {}", si(step, "s"))),
+        (None, None) => return,
     }
     line(
         text,
@@ -280,16 +287,17 @@ fn steps(text: &mut String, case: &Case) {
             case.time.cfl
         ),
     );
-    let count = (case.time.end / step).ceil();
+    let count = |step: Option<f64>| step.map_or(0.0, |step| (case.time.end / step).ceil());
     let grids = [
-        (case.fluid.as_ref().map(|side| &side.grid), FLUID_NS),
-        (case.solid.as_ref().map(|side| &side.grid), SOLID_NS),
+        (case.fluid.as_ref().map(|side| &side.grid), FLUID_NS * count(fluid)),
+        (case.solid.as_ref().map(|side| &side.grid), SOLID_NS * count(solid)),
     ];
     let seconds = |cells: fn(&GridCase) -> f64| {
-        let per_step: f64 = grids.iter().filter_map(|(grid, ns)| grid.map(|grid| cells(grid) * ns)).sum();
-        count * per_step * 1e-9 / THREADS
+        let all_steps: f64 = grids.iter().filter_map(|(grid, ns)| grid.map(|grid| cells(grid) * ns)).sum();
+        all_steps * 1e-9 / THREADS
     };
-    line(text, "steps", &format!("about {count:.0} of the first one's size; a collapse shortens them"));
+    let most = count(fluid).max(count(solid));
+    line(text, "steps", &format!("about {most:.0} of the first one's size; a collapse shortens them"));
     let most = duration(seconds(|grid| grid.cell_count() as f64));
     let assumed = format!("with {THREADS:.0} threads, release build, output aside");
     if grids.iter().any(|(grid, _)| grid.is_some_and(|grid| grid.adaptation.is_some())) {

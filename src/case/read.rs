@@ -154,7 +154,7 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
     Some(Time {
         end,
         cfl: cfl.map_or(0.45, |given| given.value),
-        local_steps: local_steps.is_none_or(|given| given.value),
+        local_steps: local_steps.is_some_and(|given| given.value),
         snapshots: resolve(times, end),
     })
 }
@@ -208,8 +208,15 @@ fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCase, Option<
             faults.of(&kappa, "only scheme = \"weak\" has factors kappa", "remove it, or take that scheme");
         }
     }
+    if coupling.scheme == Scheme::Weak {
+        coupling.step_ratio = 1;
+    }
     if let Some(ratio) = table.whole("step_ratio", 1..=MOST_STEPS_IN_ONE as usize, faults) {
         coupling.step_ratio = ratio.value as u32;
+        if ratio.value > 1 && scheme.as_ref().is_some_and(|given| given.value == Scheme::Weak) {
+            let help = "remove it, or take scheme = \"riemann\"";
+            faults.of(&ratio, "with scheme = \"weak\" both sides make the same steps", help);
+        }
     }
     if let Some(seconds) = table.positive("connect_timeout", "s", faults) {
         coupling.connect_timeout = seconds;

@@ -143,7 +143,7 @@ impl StepRule {
         Self {
             cfl: case.time.cfl,
             local: case.time.local_steps && !weak,
-            ratio: if weak { 1 } else { case.coupling.step_ratio },
+            ratio: case.coupling.step_ratio,
         }
     }
 

@@ -35,7 +35,8 @@ pub struct SolidSide {
     star: StarSolver,
     kappa: Kappa,
     factor: KappaFactor,
-    /// Outer radii of the fluid's faces on the interface; none before the first trace.
+    /// Outer radii of the own faces on the interface, and of the fluid's; none before the first trace.
+    edges: Vec<f64>,
     fluid_edges: Vec<f64>,
     /// The long step that waits for what the fluid made of it.
     pending: Option<(Plan, GroupStep)>,
@@ -57,6 +58,7 @@ impl SolidSide {
             solver.watch(probe.position);
         }
         Self {
+            edges: solver.surface_edges(),
             solver,
             record,
             interface: Interface::default(),
@@ -145,10 +147,10 @@ impl SolidSide {
         let faces = self.solver.surface_faces();
         let header =
             FrameHeader { count: faces as u64, ..self.header(FrameKind::Trace, TraceRow::COUNT, stop) };
-        let (solver, start) = (&self.solver, Instant::now());
+        let (solver, edges, start) = (&self.solver, &self.edges, Instant::now());
         let mut filled = Duration::ZERO;
         link.send(header, |payload| {
-            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(&solver.surface_edges());
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
             solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
             filled = start.elapsed();
         })?;
@@ -250,7 +252,9 @@ impl SolidSide {
             return;
         }
         let start = Instant::now();
-        self.solver.adapt(dt, self.rule.steps_in(dt, &self.solver));
+        if self.solver.adapt(dt, self.rule.steps_in(dt, &self.solver)) {
+            self.edges = self.solver.surface_edges();
+        }
         let elapsed = start.elapsed();
         self.clock.computing += elapsed;
         self.clock.adapting += elapsed;

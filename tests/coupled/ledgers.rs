@@ -11,7 +11,9 @@ const ADAPTIVE: [&str; 2] = [
 ];
 
 /// A gas bubble that collapses in a closed box over steel.
-fn closed_box(geometry: &str, grids: [&str; 2]) -> Sides {
+///
+/// - `local`: whether levels step by themselves.
+fn closed_box(geometry: &str, grids: [&str; 2], local: bool) -> Sides {
     let (centre, sides) = match geometry {
         "planar" => ("[0.004, 0.005]", ["r_min = \"wall\"", "r_min = \"symmetry\""]),
         _ => ("[0.004, 0.0]", [""; 2]),
@@ -21,6 +23,7 @@ fn closed_box(geometry: &str, grids: [&str; 2]) -> Sides {
 geometry = "{geometry}"
 [time]
 end = 8e-6
+local_steps = {local}
 [fluid]
 z = [0.0, 0.01]
 r = [0.0, 0.01]
@@ -63,10 +66,14 @@ const ROUND_OFF: f64 = 1e-13;
 
 #[test]
 fn a_coupled_box_keeps_its_ledgers() {
-    for (geometry, grids) in
-        [("planar", UNIFORM), ("axisymmetric", UNIFORM), ("planar", ADAPTIVE), ("axisymmetric", ADAPTIVE)]
-    {
-        let mut sides = closed_box(geometry, grids);
+    for (geometry, grids, local) in [
+        ("planar", UNIFORM, false),
+        ("axisymmetric", UNIFORM, false),
+        ("planar", ADAPTIVE, false),
+        ("planar", ADAPTIVE, true),
+        ("axisymmetric", ADAPTIVE, true),
+    ] {
+        let mut sides = closed_box(geometry, grids, local);
         let mut faces = [Vec::new(), Vec::new()];
         let before = (sides.fluid.solver().totals(), sides.solid.solver().totals());
         // Sums of absolute values that the round-off is to be measured by: impulse, work, both at the wall.

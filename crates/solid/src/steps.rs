@@ -3,7 +3,7 @@
 //! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
-use mesh::{Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, Part, for_each_block, for_some_blocks};
+use mesh::{Field, GroupStep, LevelClock, Mesh, Part, for_each_block, for_some_blocks};
 
 use crate::block::{BlockReport, step_block};
 use crate::reflux::{self, Register};

@@ -207,12 +207,21 @@ class Result:
 
     @property
     def table(self) -> pandas.DataFrame:
-        """The histories of every step (bubble, wall, solid, fix-ups) as a table over time in s."""
-        rows = self.histories["time"].size
-        names = [str(name) for name, data in self.histories.data_vars.items() if data.shape == (rows,)
-                 and str(name).partition("/")[0] in ("time_step", "bubble", "bubbles", "wall", "solid", "fixups")]
-        columns = {name: self.histories[name].to_numpy() for name in names}
-        return pandas.DataFrame(columns, pandas.Index(self.histories["time"].to_numpy(), name="time"))
+        """The histories of every step (bubble, wall, solid, fix-ups) as a table over time in s.
+
+        The solid has steps of its own; its columns are linear in between.
+        """
+        times = self.histories["time"].to_numpy()
+        columns = {}
+        for name, data in self.histories.data_vars.items():
+            group = str(name).partition("/")[0]
+            if group not in ("time_step", "bubble", "bubbles", "wall", "solid", "fixups") or data.ndim != 1:
+                continue
+            values = data.to_numpy()
+            if data.dims != ("time",):
+                values = np.interp(times, self.histories[str(data.dims[0])].to_numpy(), values)
+            columns[str(name)] = values
+        return pandas.DataFrame(columns, pandas.Index(times, name="time"))
 
     @property
     def key_numbers(self) -> pandas.DataFrame:
