@@ -83,7 +83,14 @@ fn a_coupled_step_allocates_nothing_of_a_rows_size() {
     let common = "coupling.step_ratio=1";
     // Of gelatine, whose steps are the longer ones.
     let soft = ["solid.material={ density = 1100.0, c1 = 1550.0, c2 = 20.0 }", "time.cfl=0.4"];
-    let weak_too = [&[][..], &[common], &soft, &[weak], &[weak, "coupling.kappa=printed"], &[weak, "coupling.kappa=jump"]];
+    let weak_too = [
+        &[][..],
+        &[common],
+        &soft,
+        &[weak],
+        &[weak, "coupling.kappa=printed"],
+        &[weak, "coupling.kappa=jump"],
+    ];
     for sets in weak_too {
         let count = threads.install(|| allocations(sets));
         assert_eq!(count, 0, "{sets:?}");

@@ -268,7 +268,8 @@ fn steps(text: &mut String, case: &Case) {
     let [fluid, solid] = [beside(fluid, solid), beside(solid, fluid)];
     match (fluid, solid) {
         (Some(fluid), Some(solid)) => {
-            let (most, longer) = if fluid >= solid { (fluid / solid, "fluid") } else { (solid / fluid, "solid") };
+            let (most, longer) =
+                if fluid >= solid { (fluid / solid, "fluid") } else { (solid / fluid, "solid") };
             let words = match most.ceil() {
                 1.0 => "the same".to_owned(),
                 most => format!("{most:.0} in one of the {longer}'s"),

@@ -8,8 +8,8 @@
 use std::time::{Duration, Instant};
 
 use coupler::{
-    CommonRefinement, FluidTrace, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme,
-    StarSolver, TraceRow, WallRegister,
+    CommonRefinement, FluidTrace, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow,
+    Scheme, StarSolver, TraceRow, WallRegister,
 };
 use fluid::{FluidSolver, WallState};
 use mesh::{BLOCK, GroupStep};
@@ -178,7 +178,11 @@ impl FluidSide {
         let Some(plan) = self.plan(if is_long { own } else { f64::INFINITY }, limit)? else {
             return Ok(Turn::Over(0));
         };
-        if is_long { self.begin_long(link, plan)? } else { self.ask_for_trace(link, plan)? }
+        if is_long {
+            self.begin_long(link, plan)?
+        } else {
+            self.ask_for_trace(link, plan)?
+        }
         Ok(Turn::Continues)
     }
 

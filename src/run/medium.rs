@@ -140,11 +140,7 @@ impl StepRule {
     /// A case's rule. The weak scheme is made for one step of both sides.
     pub fn of(case: &Case) -> Self {
         let weak = case.coupling.scheme == Scheme::Weak;
-        Self {
-            cfl: case.time.cfl,
-            local: case.time.local_steps && !weak,
-            ratio: case.coupling.step_ratio,
-        }
+        Self { cfl: case.time.cfl, local: case.time.local_steps && !weak, ratio: case.coupling.step_ratio }
     }
 
     /// About how many steps of the finest level a step of length `dt` holds.
@@ -283,7 +279,9 @@ pub fn short_steps<M: Medium>(
                     medium.set_face(face, state);
                 }
             });
-            if !is_answered && (0..faces).step_by(BLOCK).all(|face| medium.clock().is_last(medium.group_of_face(face))) {
+            if !is_answered
+                && (0..faces).step_by(BLOCK).all(|face| medium.clock().is_last(medium.group_of_face(face)))
+            {
                 answer(medium, meeting)?;
                 is_answered = true;
             }

@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 
 use coupler::{
-    Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme, StarSolver, TraceRow,
-    WallRegister,
+    Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme, StarSolver,
+    TraceRow, WallRegister,
 };
 use mesh::{BLOCK, GroupStep};
 use serde_json::{Map, Value, json};
@@ -142,7 +142,8 @@ impl SolidSide {
     /// Begins a long step: shows the trace and does what does not depend on the fluid.
     fn begin_long(&mut self, link: &mut impl Link, asked: Plan, stop: &Stop) -> Result<(), RunError> {
         let limit = self.rule.long(&self.solver).limit;
-        let plan = if asked.dt <= limit * (1.0 + 1e-10) { asked } else { Plan { dt: limit, snapshot: false } };
+        let plan =
+            if asked.dt <= limit * (1.0 + 1e-10) { asked } else { Plan { dt: limit, snapshot: false } };
         self.last_dt = plan.dt;
         let faces = self.solver.surface_faces();
         let header =

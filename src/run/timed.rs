@@ -56,14 +56,11 @@ impl<'a> Timed<'a> {
 
     /// What is to be called after each step of the finest level: it is recorded, the last one with the snapshot that
     /// `plan` asks for.
-    pub fn recorded<M: Medium, R: Records<M>>(
+    pub fn recorded<M: Medium + 'a, R: Records<M>>(
         mut self,
         record: &'a mut Option<R>,
         plan: Plan,
-    ) -> impl FnMut(&M, f64) -> Result<(), RunError> + 'a
-    where
-        M: 'a,
-    {
+    ) -> impl FnMut(&M, f64) -> Result<(), RunError> + 'a {
         move |solver, dt| {
             self.clock.computing += self.since.elapsed();
             let start = Instant::now();

@@ -126,7 +126,8 @@ impl Pair {
         let Self { fluid, solid, .. } = self;
         let limits = [fluid.time_step_limit(cfl), solid.time_step_limit(cfl)];
         // Of the long step, the other side's Courant number allows that many, or more.
-        let (own, others) = if long == Participant::Fluid { (limits[0], limits[1]) } else { (limits[1], limits[0]) };
+        let (own, others) =
+            if long == Participant::Fluid { (limits[0], limits[1]) } else { (limits[1], limits[0]) };
         let limit = own.min(f64::from(ratio) * others) / 1.001;
         let steps = (end / limit).ceil();
         let dt = end / steps;
@@ -158,7 +159,13 @@ impl Pair {
 }
 
 /// A long step of one side and the short ones of the other.
-fn exchange<L: Medium, S: Medium>(long: &mut L, short: &mut S, dt: f64, rules: [StepRule; 2], star: StarSolver) {
+fn exchange<L: Medium, S: Medium>(
+    long: &mut L,
+    short: &mut S,
+    dt: f64,
+    rules: [StepRule; 2],
+    star: StarSolver,
+) {
     let edges = long.edges();
     let faces = edges.len();
     let mut trace = vec![0.0; TraceRow::COUNT * faces];

@@ -93,14 +93,21 @@ impl Meeting {
     ) {
         // Of the other side's trace as much time has passed as its step is old.
         let (half, age) = (0.5 * step.dt, step.begin - self.begin + 0.5 * step.dt);
-        let weight = if step.begin == self.begin { 1.0 } else { step.dt / (step.begin + step.dt - self.begin) };
+        let weight =
+            if step.begin == self.begin { 1.0 } else { step.dt / (step.begin + step.dt - self.begin) };
         let Self { refinement, trace, others, own: own_trace, edges, stars, means, .. } = self;
         for (number, sub) in refinement.sub_faces().iter().enumerate().filter(|(_, sub)| is_due(sub.second)) {
             let SubFace { first, second, offset_in_first, offset_in_second, .. } = *sub;
             // Traces are linear along a face: a face that meets several of the other side shows each its own part.
-            let theirs = Seen { rows: trace, count: *others, face: first, after: age, offset: offset_in_first };
-            let ours =
-                Seen { rows: own_trace, count: edges.len(), face: second, after: half, offset: offset_in_second };
+            let theirs =
+                Seen { rows: trace, count: *others, face: first, after: age, offset: offset_in_first };
+            let ours = Seen {
+                rows: own_trace,
+                count: edges.len(),
+                face: second,
+                after: half,
+                offset: offset_in_second,
+            };
             let (fluid, solid) = match own {
                 Participant::Fluid => (ours.fluid(), theirs.solid()),
                 Participant::Solid => (theirs.fluid(), ours.solid()),

@@ -12,8 +12,9 @@ use crate::{FluidSolver, Mixture, WallState};
 fn put_steady(w: [f64; 5], mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
     let at = mixture.at(w[4]);
     use TraceRow::{
-        Density, DensityRate, DensitySlope, Gamma, Impedance, NormalVelocity, NormalVelocityRate, NormalVelocitySlope,
-        Pi, Pressure, PressureRate, PressureSlope, Shear, TangentialVelocity, TangentialVelocityRate,
+        Density, DensityRate, DensitySlope, Gamma, Impedance, NormalVelocity, NormalVelocityRate,
+        NormalVelocitySlope, Pi, Pressure, PressureRate, PressureSlope, Shear, TangentialVelocity,
+        TangentialVelocityRate,
     };
     let state = [(Density, w[0]), (NormalVelocity, w[1]), (TangentialVelocity, w[2]), (Pressure, w[3])];
     let law = [(Gamma, at.gamma), (Pi, at.pi), (Impedance, impedance(w, mixture))];

@@ -1,7 +1,8 @@
 //! `FluidSolver`: owns the mesh and the fields, and advances them.
 
 use mesh::{
-    Adaptation, Domain, Field, Horizon, LevelSteps, Limiter, Mesh, Patch, ScratchPool, Side, SideStates, maximum,
+    Adaptation, Domain, Field, Horizon, LevelSteps, Limiter, Mesh, Patch, ScratchPool, Side, SideStates,
+    maximum,
 };
 
 use crate::analysis::{Analysis, Scales};
@@ -10,8 +11,8 @@ use crate::boundary::{Boundaries, PressureHistory, WallState};
 use crate::options::TwoPhaseOptions;
 use crate::reflux::{QUANTITIES, Register};
 use crate::state::Contents;
-use crate::steps::check;
 use crate::state::conserved::{COUNT, GAS, PHI};
+use crate::steps::check;
 use crate::update::Extremes;
 use crate::{
     Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RayleighField, RiemannSolver,

@@ -262,9 +262,8 @@ pub(crate) fn check<const N: usize>(
     time: f64,
     step: u64,
 ) -> Result<(), FluidError> {
-    let is_sane = |report: &BlockReport<N>| {
-        report.extremes.speed_z.is_finite() && report.extremes.speed_r.is_finite()
-    };
+    let is_sane =
+        |report: &BlockReport<N>| report.extremes.speed_z.is_finite() && report.extremes.speed_r.is_finite();
     for (slot, id) in mesh.tree().leaves().iter().enumerate().filter(|(slot, _)| !is_sane(&reports[*slot])) {
         for j in 0..N {
             for i in 0..N {

@@ -88,7 +88,8 @@ impl LevelClock {
         let around = if group == 0 { self.whole.expect("a step has begun") } else { self.spans[group - 1] };
         let left = if around.begin == self.now { around.dt } else { around.end - self.now };
         let steps = (left / (TOLERANCE * limit)).ceil().max(1.0);
-        let (dt, end) = if steps == 1.0 { (left, around.end) } else { (left / steps, self.now + left / steps) };
+        let (dt, end) =
+            if steps == 1.0 { (left, around.end) } else { (left / steps, self.now + left / steps) };
         self.spans[group] = Span { begin: self.now, dt, end };
         GroupStep { group, begin: self.now, dt }
     }
@@ -184,7 +185,15 @@ mod tests {
     #[test]
     fn limits_that_shrink_on_the_way_make_more_steps() {
         // After the first fine step speeds double.
-        let made = steps(0, 1, 2.0, |group, made| if group == 0 { 2.0 } else if made < 2 { 1.0 } else { 0.4 });
+        let made = steps(0, 1, 2.0, |group, made| {
+            if group == 0 {
+                2.0
+            } else if made < 2 {
+                1.0
+            } else {
+                0.4
+            }
+        });
         let fine: Vec<f64> = made.iter().filter(|step| step.group == 1).map(|step| step.dt).collect();
         assert_eq!(fine.len(), 4);
         assert_eq!(fine[0], 1.0);

@@ -153,7 +153,8 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
 /// The coarsest level of a mesh that steps by itself: levels below it step with it.
 pub fn coarsest_base<const N: usize>(mesh: &Mesh<N>) -> u8 {
     let levels = mesh.tree().leaves().iter().map(|id| id.level);
-    let (coarsest, finest) = levels.fold((u8::MAX, 0), |(low, high), level| (level.min(low), level.max(high)));
+    let (coarsest, finest) =
+        levels.fold((u8::MAX, 0), |(low, high), level| (level.min(low), level.max(high)));
     finest.saturating_sub(MOST_HALVINGS).max(coarsest)
 }
 

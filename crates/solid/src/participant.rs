@@ -101,7 +101,8 @@ impl<const N: usize> SolidSolver<N> {
                     put(TraceRow::PressureSlope, face, -of(s_r, S_NORMAL[0]) * inverse_h[1]);
                     put(TraceRow::NormalVelocitySlope, face, d_r[V_Z]);
                     put(TraceRow::Impedance, face, self.elasticity.z1);
-                    for row in [TraceRow::DensityRate, TraceRow::DensitySlope, TraceRow::Gamma, TraceRow::Pi] {
+                    for row in [TraceRow::DensityRate, TraceRow::DensitySlope, TraceRow::Gamma, TraceRow::Pi]
+                    {
                         put(row, face, 0.0);
                     }
                 }
