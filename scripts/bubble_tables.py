@@ -32,6 +32,7 @@ def main():
     parser.add_argument("--cells", type=int, nargs="+", help="cells per radius")
     parser.add_argument("--cav", type=Path, default=root / "target/release/cav")
     parser.add_argument("--out", type=Path, default=Path("bubble-tables"))
+    parser.add_argument("--picture", type=Path, help="of stand-off: draws the curves, too")
     options = parser.parse_args()
     TABLES[options.table](options)
 

@@ -1,5 +1,7 @@
 """Collapse time and jet against the stand-off: a sweep, beside what is known of incompressible liquid."""
 
+from pathlib import Path
+
 import numpy as np
 
 from .runs import rayleigh_time, run, wide_enough
@@ -9,12 +11,15 @@ STAND_OFFS = [1.1, 1.3, 1.5, 2.0, 2.5, 3.0]
 FREE = 1e9
 # Ambient pressure, gas pressure, start.
 SERIES = [(5e7, 2118.0, "uniform"), (1e5, 2118.0, "rayleigh")]
+# Stand-off and jet speed over √(Δp/ρ) of incompressible liquid: 130 and 170 m/s at 1e5 Pa (Plesset & Chapman 1971).
+PLESSET_CHAPMAN = [(1.0, 13.0), (1.5, 17.0)]
 
 
 def table(options):
     cells = (options.cells or [40])[0]
     print(f"{cells} cells per radius; T(d)/T(free) beside 1 + 0.205 R/d; jet beside 0.9 √(Δp/ρ)/ζ, ζ = 0.195 (R/d)².\n")
     print("| ambient, start | d/R | collapse time | T(d)/T(free) | 1 + 0.205 R/d | jet | Supponen et al. |\n|---|---|---|---|---|---|---|")
+    curves = {}
     for pressure, gas, start in SERIES:
         density = 0.0266 * gas / 2118.0
         scale = rayleigh_time(RADIUS, pressure, gas)
@@ -37,7 +42,36 @@ def table(options):
                 continue
             # The jet is the fastest liquid before it hits the proximal wall: until the collapse.
             jet = np.nanmax(result.jet[result.time <= time])
+            curves.setdefault((pressure, start), []).append((stand_off, time / free, jet / np.sqrt((pressure - gas) / 1000)))
             zeta = 0.195 / stand_off**2
             print(f"| {pressure:.0e} Pa, {start} | {stand_off} | {time * 1e6:.3f} µs | {time / free:.4f} "
                   f"| {1 + 0.205 / stand_off:.4f} | {jet:.0f} m/s | {0.9 * np.sqrt((pressure - gas) / 1000) / zeta:.0f} m/s |",
                   flush=True)
+    if options.picture:
+        picture(curves, options.picture)
+
+
+def picture(curves, path: Path):
+    """Both ratios over the stand-off, with what is known of incompressible liquid."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, (times, jets) = plt.subplots(1, 2, figsize=(7.2, 3.0), layout="constrained")
+    known = np.linspace(1.0, 3.1, 100)
+    times.plot(known, 1 + 0.205 / known, color="0.5", label="incompressible, 1 + 0.205 R/d")
+    beyond = known[known >= 1.5]
+    jets.plot(beyond, 0.9 / (0.195 / beyond**2), color="0.5", label="Supponen et al. (2016)")
+    jets.plot(*zip(*PLESSET_CHAPMAN), "k+", label="Plesset & Chapman (1971)")
+    for ((pressure, start), rows), colour, marker in zip(curves.items(), ("#d55e00", "#0072b2"), "os"):
+        d, ratio, speed = zip(*rows)
+        label = f"{pressure:.0e} Pa, {start}"
+        times.plot(d, ratio, marker, color=colour, label=label, markersize=4)
+        jets.plot(d, speed, marker, color=colour, label=label, markersize=4)
+    times.set(xlabel="stand-off d/R", ylabel="collapse time T(d)/T(free)")
+    jets.set(xlabel="stand-off d/R", ylabel="jet / √(Δp/ρ)", ylim=(0, 50))
+    for axes in (times, jets):
+        axes.legend(fontsize=7, frameon=False)
+        axes.spines[["top", "right"]].set_visible(False)
+    figure.savefig(path, dpi=140)
