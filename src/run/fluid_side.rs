@@ -189,6 +189,7 @@ impl FluidSide {
     /// Asks the solid, whose step is the longer one, for its trace.
     fn ask_for_trace(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
         let mut header = self.header(FrameKind::Yours, 0, plan.dt);
+        header.dt_max = self.solver.time_step_limit(self.rule.cfl);
         if plan.snapshot {
             header.flags |= FrameHeader::SNAPSHOT;
         }

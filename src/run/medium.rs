@@ -232,9 +232,9 @@ fn step_to_end<M: Medium>(
             let step = medium.start(medium.due_limit(rule.cfl));
             medium.run(step, Part::All)?;
         }
-        let begin = medium.reached();
+        let dt = medium.clock().length(medium.clock().finest());
         medium.finish()?;
-        after(medium, medium.reached() - begin)?;
+        after(medium, dt)?;
         if medium.clock().is_over() {
             return Ok(());
         }
@@ -287,9 +287,9 @@ pub fn short_steps<M: Medium>(
             }
             medium.run(step, Part::All)?;
         }
-        let begin = medium.reached();
+        let dt = medium.clock().length(medium.clock().finest());
         medium.finish()?;
-        after(medium, medium.reached() - begin)?;
+        after(medium, dt)?;
         if medium.clock().is_over() {
             return Ok(());
         }

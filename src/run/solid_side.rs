@@ -40,6 +40,10 @@ pub struct SolidSide {
     fluid_edges: Vec<f64>,
     /// The long step that waits for what the fluid made of it.
     pending: Option<(Plan, GroupStep)>,
+    /// The fluid's steps within the last long one; infinite after short ones.
+    fluids_step: f64,
+    /// When the run ends: nothing adapts for what does not come.
+    end: f64,
     last_dt: f64,
     clock: Clock,
 }
@@ -71,6 +75,8 @@ impl SolidSide {
             factor: KappaFactor::default(),
             fluid_edges: Vec::new(),
             pending: None,
+            fluids_step: f64::INFINITY,
+            end: case.time.end * (1.0 - 1e-12),
             last_dt: 0.0,
             clock: Clock::default(),
         }
@@ -245,7 +251,15 @@ impl SolidSide {
 
     /// Whether the grid adapts after a step of length `dt`; to be asked once for each.
     fn adapts(&mut self, dt: f64) -> bool {
-        self.solver.adaptation_follows(dt, self.rule.steps_in(dt, &self.solver))
+        let steps = self.steps_in(dt);
+        self.solver.time() + dt < self.end && self.solver.adaptation_follows(dt, steps)
+    }
+
+    /// About how many steps, the own or the fluid's, a step of length `dt` holds. What comes through the interface comes in
+    /// the fluid's: while the solid's cells are still too wide for it, adaptation must not wait for its long steps.
+    fn steps_in(&self, dt: f64) -> u32 {
+        let fluids = (dt / self.fluids_step).ceil() as u32;
+        self.rule.steps_in(dt, &self.solver).max(fluids)
     }
 
     fn adapt_if(&mut self, adapts: bool, dt: f64) {
@@ -253,7 +267,7 @@ impl SolidSide {
             return;
         }
         let start = Instant::now();
-        if self.solver.adapt(dt, self.rule.steps_in(dt, &self.solver)) {
+        if self.solver.adapt(dt, self.steps_in(dt)) {
             self.edges = self.solver.surface_edges();
         }
         let elapsed = start.elapsed();
@@ -302,10 +316,12 @@ impl Side for SolidSide {
         }
         let plan = Plan { dt: header.dt, snapshot: header.has(FrameHeader::SNAPSHOT) };
         if header.kind == FrameKind::Yours as u32 {
+            self.fluids_step = header.dt_max;
             self.begin_long(link, plan, stop)?;
             return Ok(Turn::Continues);
         }
         self.last_dt = plan.dt;
+        self.fluids_step = f64::INFINITY;
         if self.scheme == Scheme::Weak {
             self.step_weakly(link, plan, stop)?;
         } else {

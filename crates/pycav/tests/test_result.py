@@ -19,7 +19,8 @@ def test_histories_have_units_and_coordinates(result):
     pressure = data["interface/pressure"]
     assert pressure.dims == ("interface/time", "interface/r") and pressure.attrs["units"] == "Pa"
     assert data["bubble/volume"].dims == ("time",) and data["bubble/volume"].attrs["units"] == "m3"
-    assert data["solid/von_mises_max_position"].shape == (data["time"].size, 2)
+    assert data["solid/von_mises_max_position"].shape == (data["solid/time"].size, 2)
+    assert data["solid/time"].size > data["time"].size, "the solid has steps of its own"
     with h5py.File(result.directory / "history.h5") as file:
         compared = []
         file.visititems(lambda name, item: compared.append(
@@ -73,7 +74,10 @@ def test_summary_table_and_case(result):
     assert numbers.loc["wall_pressure_peak", "value"] == result.histories["wall/pressure_axis"].max()
     assert list(numbers.columns) == ["value", "unit", "time"]
     table = result.table
-    assert table.index.name == "time" and table["solid/von_mises_max"].max() == numbers.loc["von_mises_peak", "value"]
+    peak = numbers.loc["von_mises_peak", "value"]
+    assert peak == result.histories["solid/von_mises_max"].max()
+    # In the table it is at the fluid's times, between which the peak may lie.
+    assert table.index.name == "time" and 0.99 * peak < table["solid/von_mises_max"].max() <= peak
     assert result.case.hash == result.histories.attrs["case_hash"]
 
 

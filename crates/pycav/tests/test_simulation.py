@@ -242,7 +242,7 @@ def test_arrays_are_copies_and_outlive_the_simulation(small):
 
 def test_cells_are_the_leaves_and_fill_the_domain(result):
     with pycav.Simulation(result.case) as simulation:
-        simulation.advance_to(1e-5)
+        simulation.advance_to(2e-5)
         for medium, area in (("fluid", 0.128**2), ("solid", 0.128**2)):
             cells = simulation.fields(medium)
             assert cells.area.sum() == pytest.approx(area, rel=1e-12)

@@ -10,7 +10,7 @@ import pycav
 
 def test_a_coupling_of_ones_own_gives_what_the_programs_does(small):
     """The acoustic Riemann problem between the media, written here, against `coupling.star = "acoustic"`."""
-    case = small.with_({"coupling.star": "acoustic", "time.snapshots": []})
+    case = small.with_({"coupling.star": "acoustic", "coupling.step_ratio": 1, "time.snapshots": []})
     whole = pycav.Simulation(case)
     fluid, solid = pycav.FluidSolver(case), pycav.SolidSolver(case)
     assert np.array_equal(fluid.surface_edges, solid.surface_edges)
