@@ -203,6 +203,8 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("scheme = \"riemann\"", "scheme = \"reimann\""), &["coupling.scheme", "did you mean `riemann`?"]),
     (Replace("scheme = \"riemann\"", "scheme = \"none\""), &["coupling.scheme", "one medium alone", "remove [fluid] or [solid]"]),
     (Replace("scheme = \"riemann\"", "kappa = \"printed\""), &["coupling.kappa", "only scheme = \"weak\""]),
+    (Replace("scheme = \"riemann\"", "step_ratio = 17"), &["coupling.step_ratio", "17", "1 to 16"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"weak\"\nstep_ratio = 4"), &["coupling.step_ratio", "both sides make the same steps", "\"riemann\""]),
     (Replace("scheme = \"riemann\"", "patience = -1"), &["coupling.patience: must be positive"]),
     (Whole("[time]\nend = 1\n[coupling]\nscheme = \"none\""), &["neither a [fluid] nor a [solid]", "write one"]),
     (Whole("[time]\nend = 1\n[coupling]\nscheme = \"rigid\""), &["scheme = \"rigid\" needs a [fluid]", "write [fluid]"]),

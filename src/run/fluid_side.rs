@@ -165,12 +165,9 @@ impl FluidSide {
             self.adapt_if_due();
         }
         let (own, others) = (self.rule.long(&self.solver).limit, self.answer.dt_max);
-        let common = self.rule.ratio == 1 || self.scheme == Scheme::Weak;
-        let is_long = own >= others || common;
+        let is_long = own >= others || self.rule.ratio == 1;
         // No longer than the side with the longer steps allows, and than the other one can follow.
-        let limit = if common {
-            others
-        } else if is_long {
+        let limit = if is_long {
             self.rule.longest(others)
         } else {
             others.min(self.rule.longest(self.rule.counted(&self.solver)))
@@ -260,9 +257,7 @@ impl FluidSide {
             (plan.dt, self.star),
             &self.rule,
             |_, meeting| {
-                link.send(header, |payload| {
-                    meeting.write_register(|row, face, value| payload[row as usize * faces + face] = value);
-                })?;
+                link.send(header, |payload| meeting.write_register(payload))?;
                 Ok(())
             },
             timed.recorded(&mut self.record, plan),

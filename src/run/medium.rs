@@ -40,8 +40,6 @@ pub trait Medium {
     fn limit(&self, cfl: f64) -> f64;
     /// The longest step of the whole if levels finer than `base` halve theirs, s.
     fn local_limit(&self, cfl: f64, base: u8) -> f64;
-    /// The coarsest level that may step by itself.
-    fn coarsest_base(&self) -> u8;
     /// The finest level at the interface.
     fn finest_at_interface(&self) -> u8;
 
@@ -90,9 +88,6 @@ macro_rules! medium {
             fn local_limit(&self, cfl: f64, base: u8) -> f64 {
                 self.local_step_limit(cfl, base)
             }
-            fn coarsest_base(&self) -> u8 {
-                $solver::coarsest_base(self)
-            }
             fn finest_at_interface(&self) -> u8 {
                 self.$finest()
             }
@@ -136,20 +131,6 @@ macro_rules! medium {
 medium!(FluidSolver, Fluid, wall_edges, finest_at_wall, set_wall_face, set_wall);
 medium!(SolidSolver, Solid, surface_edges, finest_at_surface, set_surface_face, set_surface_register);
 
-impl StepRule {
-    /// A case's rule. The weak scheme is made for one step of both sides.
-    pub fn of(case: &Case) -> Self {
-        let weak = case.coupling.scheme == Scheme::Weak;
-        Self { cfl: case.time.cfl, local: case.time.local_steps && !weak, ratio: case.coupling.step_ratio }
-    }
-
-    /// About how many steps of the finest level a step of length `dt` holds.
-    pub fn steps_in(&self, dt: f64, medium: &impl Medium) -> u32 {
-        // With the tolerance that the clock has.
-        ((dt / (1.05 * medium.limit(self.cfl))).ceil() as u32).max(1)
-    }
-}
-
 /// How a side's steps may be, and which of its levels step by themselves.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps {
@@ -160,16 +141,27 @@ pub struct Steps {
 }
 
 impl StepRule {
+    /// A case's rule. The weak scheme is made for one step of both sides.
+    pub fn of(case: &Case) -> Self {
+        let weak = case.coupling.scheme == Scheme::Weak;
+        Self { cfl: case.time.cfl, local: case.time.local_steps && !weak, ratio: case.coupling.step_ratio }
+    }
+
+    /// About how many steps of the finest level a step of length `dt` holds.
+    pub fn steps_in(&self, dt: f64, medium: &impl Medium) -> u32 {
+        mesh::steps_in(dt, medium.limit(self.cfl)) as u32
+    }
+
     /// Steps alone, or short ones within a long one of the other side.
     pub fn alone(&self, medium: &impl Medium) -> Steps {
-        let base = if self.local { medium.coarsest_base() } else { u8::MAX };
+        let base = if self.local { medium.grid().coarsest_base() } else { u8::MAX };
         self.steps(medium, base)
     }
 
     /// Steps that are long ones for the other side: no level at the interface may have shorter ones.
     pub fn long(&self, medium: &impl Medium) -> Steps {
         let finest = medium.finest_at_interface();
-        let base = if self.local { medium.coarsest_base().max(finest) } else { u8::MAX };
+        let base = if self.local { medium.grid().coarsest_base().max(finest) } else { u8::MAX };
         self.steps(medium, base)
     }
 
@@ -232,13 +224,21 @@ fn step_to_end<M: Medium>(
             let step = medium.start(medium.due_limit(rule.cfl));
             medium.run(step, Part::All)?;
         }
-        let dt = medium.clock().length(medium.clock().finest());
-        medium.finish()?;
-        after(medium, dt)?;
-        if medium.clock().is_over() {
+        if end_sub_step(medium, &mut after)? {
             return Ok(());
         }
     }
+}
+
+/// Ends the step of the finest level and tells of it; whether the whole step is over.
+fn end_sub_step<M: Medium>(
+    medium: &mut M,
+    after: &mut impl FnMut(&M, f64) -> Result<(), RunError>,
+) -> Result<bool, RunError> {
+    let dt = medium.clock().length(medium.clock().finest());
+    medium.finish()?;
+    after(medium, dt)?;
+    Ok(medium.clock().is_over())
 }
 
 /// Begins to meet the other side's trace.
@@ -287,10 +287,7 @@ pub fn short_steps<M: Medium>(
             }
             medium.run(step, Part::All)?;
         }
-        let dt = medium.clock().length(medium.clock().finest());
-        medium.finish()?;
-        after(medium, dt)?;
-        if medium.clock().is_over() {
+        if end_sub_step(medium, &mut after)? {
             return Ok(());
         }
     }

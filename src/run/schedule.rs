@@ -57,9 +57,7 @@ impl Schedule {
             Some(Plan { dt: limit, snapshot: false })
         }
     }
-}
 
-impl Schedule {
     /// The plan that takes the place of one which turns out to be too long: shorter, and with nothing due at its end.
     pub fn shorten(&mut self, plan: Plan, dt: f64) -> Plan {
         self.next -= usize::from(plan.snapshot);

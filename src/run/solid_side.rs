@@ -181,9 +181,7 @@ impl SolidSide {
             ..self.header(FrameKind::Register, RegisterRow::COUNT, stop)
         };
         let mut send = |meeting: &Meeting, header: FrameHeader| -> Result<(), RunError> {
-            link.send(header, |payload| {
-                meeting.write_register(|row, face, value| payload[row as usize * faces + face] = value);
-            })?;
+            link.send(header, |payload| meeting.write_register(payload))?;
             Ok(())
         };
         let timed = Timed::new(&mut self.clock);

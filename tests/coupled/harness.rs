@@ -113,7 +113,7 @@ impl Pair {
         solid.write_trace(dt, |row, face, value| rows[row as usize * count + face] = value);
         meeting.meet(Participant::Solid, ShortStep { begin: solid.time(), dt }, *star, |_| true);
         meeting.own_means(|face, state| solid.set_surface_face(face, state));
-        meeting.write_register(|row, face, value| register[row as usize * faces + face] = value);
+        meeting.write_register(register);
         fluid.set_wall(&WallRegister::of(register, faces));
         solid.step(dt).expect("the solid's step");
         fluid.step(dt).expect("the fluid's step");
@@ -177,7 +177,7 @@ fn exchange<L: Medium, S: Medium>(
     medium::short_steps(short, &mut meeting, (dt, star), &rules[1], |_, _| Ok(()), |_, _| Ok(()))
         .expect("the short steps");
     let mut register = vec![0.0; RegisterRow::COUNT * faces];
-    meeting.write_register(|row, face, value| register[row as usize * faces + face] = value);
+    meeting.write_register(&mut register);
     long.set_register(&WallRegister::of(&register, faces));
     medium::end_long(long, step, &rules[0], |_, _| Ok(())).expect("the long step's end");
 }

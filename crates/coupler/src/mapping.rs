@@ -106,6 +106,16 @@ impl CommonRefinement {
     /// - `second`: whether the means are over the second side's faces; `value`: by number of the sub-face.
     /// - `put`: gets (face, mean) for each face in order.
     pub fn means(&self, second: bool, value: impl Fn(usize) -> f64, mut put: impl FnMut(usize, f64)) {
+        self.means_of(second, |k| [value(k)], |face, [mean]| put(face, mean));
+    }
+
+    /// [`CommonRefinement::means`] of several quantities at once.
+    pub fn means_of<const K: usize>(
+        &self,
+        second: bool,
+        value: impl Fn(usize) -> [f64; K],
+        mut put: impl FnMut(usize, [f64; K]),
+    ) {
         let key = |s: &SubFace| if second { s.second } else { s.first };
         let share = |s: &SubFace| if second { s.share_of_second } else { s.share_of_first };
         let mut k = 0;
@@ -115,7 +125,9 @@ impl CommonRefinement {
             let mut mean = base;
             k += 1;
             while k < self.sub_faces.len() && key(&self.sub_faces[k]) == face {
-                mean += share(&self.sub_faces[k]) * (value(k) - base);
+                for ((mean, value), base) in mean.iter_mut().zip(value(k)).zip(base) {
+                    *mean += share(&self.sub_faces[k]) * (value - base);
+                }
                 k += 1;
             }
             put(face, mean);

@@ -133,38 +133,32 @@ impl Meeting {
     }
 
     /// The present step's means over the own faces: `put(face, [p*, v*, p*v*])`.
-    pub fn own_means(&self, mut put: impl FnMut(usize, [f64; 3])) {
-        let (map, stars) = (&self.refinement, &self.stars);
-        // A mean is formed by differences to its first value, as in `CommonRefinement::means`.
-        let rows = [
-            |star: &InterfaceStar| star.pressure,
-            |star: &InterfaceStar| star.velocity,
-            |star: &InterfaceStar| star.pressure * star.velocity,
-        ];
-        let mut k = 0;
-        let sub_faces = map.sub_faces();
-        while k < sub_faces.len() {
-            let face = sub_faces[k].second;
-            let first = rows.map(|row| row(&stars[k]));
-            let mut mean = first;
-            k += 1;
-            while k < sub_faces.len() && sub_faces[k].second == face {
-                for (number, row) in rows.iter().enumerate() {
-                    mean[number] += sub_faces[k].share_of_second * (row(&stars[k]) - first[number]);
-                }
-                k += 1;
-            }
-            put(face, mean);
-        }
+    pub fn own_means(&self, put: impl FnMut(usize, [f64; 3])) {
+        let state = |k: usize| {
+            let InterfaceStar { pressure, velocity, .. } = self.stars[k];
+            [pressure, velocity, pressure * velocity]
+        };
+        self.refinement.means_of(true, state, put);
     }
 
-    /// Writes the means over the long step on the other side's faces, row by row of a [`RegisterRow`].
-    pub fn write_register(&self, mut put: impl FnMut(RegisterRow, usize, f64)) {
-        let (map, means) = (&self.refinement, &self.means);
-        map.means(false, |k| means[k].pressure, |f, v| put(RegisterRow::Pressure, f, v));
-        map.means(false, |k| means[k].velocity, |f, v| put(RegisterRow::NormalVelocity, f, v));
-        map.means(false, |k| means[k].power, |f, v| put(RegisterRow::Power, f, v));
-        map.means(false, |k| means[k].tangential, |f, v| put(RegisterRow::TangentialVelocity, f, v));
+    /// Writes the payload of the register frame that answers the trace: the means over the long step on the other side's
+    /// faces.
+    pub fn write_register(&self, payload: &mut [f64]) {
+        let rows = [
+            RegisterRow::Pressure,
+            RegisterRow::NormalVelocity,
+            RegisterRow::Power,
+            RegisterRow::TangentialVelocity,
+        ];
+        let state = |k: usize| {
+            let Means { pressure, velocity, power, tangential } = self.means[k];
+            [pressure, velocity, power, tangential]
+        };
+        self.refinement.means_of(false, state, |face, means| {
+            for (row, mean) in rows.into_iter().zip(means) {
+                payload[row as usize * self.others + face] = mean;
+            }
+        });
     }
 
     /// Star states that had to be lifted to the lowest admissible pressure so far.

@@ -121,9 +121,6 @@ pub struct FluidSolver<const N: usize> {
     /// Slots of the blocks along z_min and along r_min, in order.
     pub(crate) wall_blocks: Vec<usize>,
     pub(crate) axis_blocks: Vec<usize>,
-    /// Points at which the state is asked for at all times, and the blocks that are for this or that reason.
-    pub(crate) watched_points: Vec<[f64; 2]>,
-    pub(crate) is_watched: Vec<bool>,
     pub(crate) time: f64,
     pub(crate) steps: u64,
     pub(crate) cell_updates: u64,
@@ -204,8 +201,6 @@ impl<const N: usize> FluidSolver<N> {
             wall_first: Vec::new(),
             wall_blocks: Vec::new(),
             axis_blocks: Vec::new(),
-            watched_points: Vec::new(),
-            is_watched: Vec::new(),
             time: 0.0,
             steps: 0,
             cell_updates: 0,
@@ -238,23 +233,11 @@ impl<const N: usize> FluidSolver<N> {
             }
         }
         self.wall = vec![WallState::default(); faces];
-        self.index_watched();
     }
 
     /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
     pub fn watch(&mut self, point: [f64; 2]) {
-        self.watched_points.push(point);
-        self.index_watched();
-    }
-
-    fn index_watched(&mut self) {
-        self.is_watched.clear();
-        self.is_watched.resize(self.mesh.blocks(), false);
-        let points = self.watched_points.iter().filter_map(|point| self.mesh.locate(*point));
-        let at_points = points.map(|(slot, ..)| slot);
-        for slot in self.wall_blocks.iter().chain(&self.axis_blocks).copied().chain(at_points) {
-            self.is_watched[slot] = true;
-        }
+        self.levels.watch(point);
     }
 
     /// The mesh.

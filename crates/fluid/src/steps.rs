@@ -44,15 +44,9 @@ impl<const N: usize> FluidSolver<N> {
         limit.min(shortest * f64::from(1_u32 << MOST_HALVINGS))
     }
 
-    /// The coarsest level that may step by itself.
-    pub fn coarsest_base(&self) -> u8 {
-        mesh::coarsest_base(&self.mesh)
-    }
-
     /// The finest level at the wall to the solid.
     pub fn finest_at_wall(&self) -> u8 {
-        let levels = self.wall_blocks.iter().map(|slot| self.mesh.tree().leaves()[*slot].level);
-        levels.max().unwrap_or(0)
+        self.mesh.finest_among(&self.wall_blocks)
     }
 
     /// Which levels step when.
@@ -71,8 +65,8 @@ impl<const N: usize> FluidSolver<N> {
 
     /// Begins a step of length `dt` in which levels finer than `base` make steps of their own.
     pub fn begin_step(&mut self, dt: f64, base: u8) {
-        let is_watched = &self.is_watched;
-        self.levels.begin(&self.mesh, base, self.time, dt, |slot| is_watched[slot]);
+        let watched = self.wall_blocks.iter().chain(&self.axis_blocks);
+        self.levels.begin(&self.mesh, base, self.time, dt, watched);
     }
 
     /// Makes the next step of the finest level, and what coarser ones have to do before and after it.

@@ -13,7 +13,7 @@ pub struct Horizon {
 impl Horizon {
     /// Takes notice of `made` steps; whether to adapt before the next ones, which take `dt` from `time`.
     pub fn is_due(&mut self, every: u32, made: u32, time: f64, dt: f64) -> bool {
-        self.steps += made;
+        self.steps = self.steps.saturating_add(made);
         self.steps >= every || time + dt > self.until * (1.0 + 1e-12)
     }
 

@@ -35,6 +35,11 @@ pub struct LevelClock {
 /// width the limits hardly ever differ by exactly two.
 const TOLERANCE: f64 = 1.05;
 
+/// Into how many equal steps a time is divided if none may be longer than `limit`, but for a tolerance of 5 %; at least one.
+pub fn steps_in(time: f64, limit: f64) -> f64 {
+    (time / (TOLERANCE * limit)).ceil().max(1.0)
+}
+
 impl LevelClock {
     /// Begins a step of length `dt` of levels up to `finest`.
     pub fn begin(&mut self, base: u8, finest: u8, now: f64, dt: f64) {
@@ -87,7 +92,7 @@ impl LevelClock {
         let group = self.due().expect("a group is due");
         let around = if group == 0 { self.whole.expect("a step has begun") } else { self.spans[group - 1] };
         let left = if around.begin == self.now { around.dt } else { around.end - self.now };
-        let steps = (left / (TOLERANCE * limit)).ceil().max(1.0);
+        let steps = steps_in(left, limit);
         let (dt, end) =
             if steps == 1.0 { (left, around.end) } else { (left / steps, self.now + left / steps) };
         self.spans[group] = Span { begin: self.now, dt, end };

@@ -16,6 +16,7 @@ pub struct LevelSteps<const N: usize, const K: usize> {
     ahead: Field,
     means: FluxRegister<N, K>,
     follows: Vec<bool>,
+    points: Vec<[f64; 2]>,
 }
 
 impl<const N: usize, const K: usize> LevelSteps<N, K> {
@@ -26,16 +27,28 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
             ahead: Field::zeros(0, N * N, components),
             means: FluxRegister::new(0),
             follows: Vec::new(),
+            points: Vec::new(),
         }
+    }
+
+    /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
+    pub fn watch(&mut self, point: [f64; 2]) {
+        self.points.push(point);
     }
 
     /// Begins a step of length `dt`, in which levels coarser than `base` step like `base`.
     ///
-    /// - `watched`: whether a block's state is asked for at all times, whatever its level.
-    pub fn begin(&mut self, mesh: &Mesh<N>, base: u8, now: f64, dt: f64, watched: impl Fn(usize) -> bool) {
-        let levels = mesh.tree().leaves().iter().map(|id| id.level);
-        let (coarsest, finest) =
-            levels.fold((u8::MAX, 0), |(low, high), level| (level.min(low), level.max(high)));
+    /// - `watched`: slots of blocks whose state is asked for at all times, whatever their level, besides those at watched
+    ///   points.
+    pub fn begin<'a>(
+        &mut self,
+        mesh: &Mesh<N>,
+        base: u8,
+        now: f64,
+        dt: f64,
+        watched: impl IntoIterator<Item = &'a usize>,
+    ) {
+        let [coarsest, finest] = mesh.levels_present();
         self.clock.begin(base.max(coarsest).min(finest), finest, now, dt);
         if self.clock.groups() == 1 {
             return;
@@ -46,7 +59,11 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
             mesh.tree().neighbours(slot).iter().any(|neighbour| matches!(neighbour, Neighbour::Finer(_)))
         };
         self.follows.clear();
-        self.follows.extend((0..mesh.blocks()).map(|slot| is_read(slot) || watched(slot)));
+        self.follows.extend((0..mesh.blocks()).map(is_read));
+        let at_points = self.points.iter().filter_map(|point| mesh.locate(*point)).map(|(slot, ..)| slot);
+        for slot in watched.into_iter().copied().chain(at_points) {
+            self.follows[slot] = true;
+        }
     }
 
     /// Which levels step when.
@@ -150,12 +167,23 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
     }
 }
 
-/// The coarsest level of a mesh that steps by itself: levels below it step with it.
-pub fn coarsest_base<const N: usize>(mesh: &Mesh<N>) -> u8 {
-    let levels = mesh.tree().leaves().iter().map(|id| id.level);
-    let (coarsest, finest) =
-        levels.fold((u8::MAX, 0), |(low, high), level| (level.min(low), level.max(high)));
-    finest.saturating_sub(MOST_HALVINGS).max(coarsest)
+impl<const N: usize> Mesh<N> {
+    /// The coarsest and the finest level that there are leaves of.
+    pub fn levels_present(&self) -> [u8; 2] {
+        let levels = self.tree().leaves().iter().map(|id| id.level);
+        levels.fold([u8::MAX, 0], |[low, high], level| [level.min(low), level.max(high)])
+    }
+
+    /// The coarsest level that steps by itself: levels below it step with it.
+    pub fn coarsest_base(&self) -> u8 {
+        let [coarsest, finest] = self.levels_present();
+        finest.saturating_sub(MOST_HALVINGS).max(coarsest)
+    }
+
+    /// The finest level of some blocks, 0 of none.
+    pub fn finest_among(&self, slots: &[usize]) -> u8 {
+        slots.iter().map(|slot| self.tree().leaves()[*slot].level).max().unwrap_or(0)
+    }
 }
 
 /// Which blocks a part of a step is about.

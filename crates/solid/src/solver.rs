@@ -70,9 +70,6 @@ pub struct SolidSolver<const N: usize> {
     pub(crate) surface_first: Vec<usize>,
     /// Slots of the blocks along z_max, in order.
     pub(crate) surface_blocks: Vec<usize>,
-    /// Points at which the state is asked for at all times, and the blocks that are for this or that reason.
-    pub(crate) watched_points: Vec<[f64; 2]>,
-    pub(crate) is_watched: Vec<bool>,
     pub(crate) time: f64,
     pub(crate) steps: u64,
     pub(crate) cell_updates: u64,
@@ -110,8 +107,6 @@ impl<const N: usize> SolidSolver<N> {
             surface: Vec::new(),
             surface_first: Vec::new(),
             surface_blocks: Vec::new(),
-            watched_points: Vec::new(),
-            is_watched: Vec::new(),
             time: 0.0,
             steps: 0,
             cell_updates: 0,
@@ -141,22 +136,11 @@ impl<const N: usize> SolidSolver<N> {
             }
         }
         self.surface = vec![SurfaceState::default(); faces];
-        self.index_watched();
     }
 
     /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
     pub fn watch(&mut self, point: [f64; 2]) {
-        self.watched_points.push(point);
-        self.index_watched();
-    }
-
-    fn index_watched(&mut self) {
-        self.is_watched.clear();
-        self.is_watched.resize(self.mesh.blocks(), false);
-        let points = self.watched_points.iter().filter_map(|point| self.mesh.locate(*point));
-        for slot in self.surface_blocks.iter().copied().chain(points.map(|(slot, ..)| slot)) {
-            self.is_watched[slot] = true;
-        }
+        self.levels.watch(point);
     }
 
     /// The mesh.

@@ -19,7 +19,7 @@ impl<const N: usize> SolidSolver<N> {
 
     /// The finest level there is.
     fn finest(&self) -> u8 {
-        self.mesh.tree().leaves().iter().map(|id| id.level).max().unwrap_or(0)
+        self.mesh.levels_present()[1]
     }
 
     /// The largest step that the Courant number allows all cells, s: cfl · min(h)/c₁.
@@ -29,18 +29,12 @@ impl<const N: usize> SolidSolver<N> {
 
     /// The largest step of the whole that the Courant number allows if each level finer than `base` halves it once more, s.
     pub fn local_step_limit(&self, cfl: f64, base: u8) -> f64 {
-        self.limit_of(base.clamp(self.coarsest_base(), self.finest()), cfl)
-    }
-
-    /// The coarsest level that may step by itself.
-    pub fn coarsest_base(&self) -> u8 {
-        mesh::coarsest_base(&self.mesh)
+        self.limit_of(base.clamp(self.mesh.coarsest_base(), self.finest()), cfl)
     }
 
     /// The finest level at the surface under the fluid.
     pub fn finest_at_surface(&self) -> u8 {
-        let levels = self.surface_blocks.iter().map(|slot| self.mesh.tree().leaves()[*slot].level);
-        levels.max().unwrap_or(0)
+        self.mesh.finest_among(&self.surface_blocks)
     }
 
     /// Which levels step when.
@@ -59,8 +53,7 @@ impl<const N: usize> SolidSolver<N> {
 
     /// Begins a step of length `dt` in which levels finer than `base` make steps of their own.
     pub fn begin_step(&mut self, dt: f64, base: u8) {
-        let is_watched = &self.is_watched;
-        self.levels.begin(&self.mesh, base, self.time, dt, |slot| is_watched[slot]);
+        self.levels.begin(&self.mesh, base, self.time, dt, &self.surface_blocks);
     }
 
     /// Makes the next step of the finest level, and what coarser ones have to do before and after it.

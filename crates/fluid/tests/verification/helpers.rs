@@ -56,7 +56,7 @@ pub fn run_steps<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) {
 
 /// A step in which levels make steps of their own; its length, and how many of the finest level it holds.
 pub fn step_locally<const N: usize>(fluid: &mut FluidSolver<N>) -> (f64, u32) {
-    let (base, before) = (fluid.coarsest_base(), fluid.steps());
+    let (base, before) = (fluid.mesh().coarsest_base(), fluid.steps());
     let dt = fluid.local_step_limit(CFL, base);
     fluid.begin_step(dt, base);
     while !fluid.clock().is_over() {
