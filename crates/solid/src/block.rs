@@ -8,7 +8,7 @@ use crate::boundary::{Boundaries, SurfaceState};
 use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::reflux::register_stars;
 use crate::rows::{self, Elasticity, FaceRows, Reconstruction};
-use crate::state::component::{COUNT, S_PHIPHI};
+use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R};
 use crate::update::{Metric, update};
 
 /// What all blocks of a step share.
@@ -156,7 +156,7 @@ pub(crate) fn step_block<const N: usize>(
         std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
         &scratch.z_faces,
         &scratch.r_faces,
-        scratch.half.component(S_PHIPHI),
+        [V_R, S_NORMAL[1], S_PHIPHI].map(|c| scratch.half.component(c)),
         ctx.dt,
         &metric,
         ctx.elasticity,
