@@ -145,7 +145,7 @@ impl SolidRecord {
             }
             history.push(self.conservation, &row)?;
         }
-        for probe in &self.probes {
+        for probe in &mut self.probes {
             let Some(state) = solver.sample(probe.probe.position) else { continue };
             let mut row = [
                 time,
@@ -158,8 +158,9 @@ impl SolidRecord {
             ];
             if probe.on_interface && dt > 0.0 {
                 let r = probe.probe.position[1];
-                row[1] = self.faces.at(r, |k| solver.surface()[k].velocity);
-                row[3] = self.faces.at(r, |k| -solver.surface()[k].pressure);
+                let velocity = self.faces.at(r, |k| solver.surface()[k].velocity);
+                let stress = self.faces.at(r, |k| -solver.surface()[k].pressure);
+                [row[1], row[3]] = probe.star.at_end([velocity, stress], dt);
                 // No shear is passed to the fluid.
                 row[4] = 0.0;
             }
@@ -238,13 +239,9 @@ const CONSERVATION_COLUMNS: [Column<'static>; 15] = [
 
 const PROBE_COLUMNS: [Column<'static>; 7] = [
     column("time", "s", "time after the step"),
-    column(
-        "velocity_z",
-        "m/s",
-        "axial velocity; on the interface that of the star state, mean over the step",
-    ),
+    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
     column("velocity_r", "m/s", "radial velocity"),
-    column("stress_zz", "Pa", "axial stress; on the interface that of the star state, mean over the step"),
+    column("stress_zz", "Pa", "axial stress; on the interface that of the star state"),
     column("stress_zr", "Pa", "shear stress"),
     column("stress_rr", "Pa", "radial stress"),
     column("stress_phiphi", "Pa", "hoop stress"),
