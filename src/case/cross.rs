@@ -32,6 +32,19 @@ pub(super) fn media(scheme: &Given<Scheme>, has_fluid: bool, has_solid: bool, fa
                 faults.of(scheme, "scheme = \"rigid\" needs a [fluid]", help);
             }
         }
+        Scheme::Load => {
+            if has_fluid {
+                let help = "remove [fluid], or couple it with scheme = \"riemann\"";
+                faults.of(scheme, "scheme = \"load\" is for a solid alone, but there is a [fluid]", help);
+            }
+            if !has_solid {
+                faults.of(
+                    scheme,
+                    "scheme = \"load\" needs a [solid]",
+                    "write [solid], or take another scheme",
+                );
+            }
+        }
         Scheme::None => match (has_fluid, has_solid) {
             (true, true) => {
                 let help = "remove [fluid] or [solid], or couple them with scheme = \"riemann\"";

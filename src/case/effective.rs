@@ -59,6 +59,12 @@ impl Case {
             text.number("connect_timeout", self.coupling.connect_timeout);
             text.number("patience", self.coupling.patience);
         }
+        if let Some(load) = &self.coupling.load {
+            text.head("[coupling.load]");
+            text.number("amplitude", load.amplitude);
+            text.number("radius", load.radius);
+            text.rows("history", &load.history);
+        }
         for probe in &self.probes {
             text.head("[[probe]]");
             text.key("name", quoted(&probe.name));
@@ -124,8 +130,7 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     write_sides(text, fluid.boundary, &fluid::Boundary::NAMES, first);
     if let Some(inflow) = &fluid.inflow {
         text.head("[fluid.inflow]");
-        let rows: Vec<String> = inflow.pressure.iter().map(|[t, p]| format!("[{t:?}, {p:?}]")).collect();
-        text.key("pressure", format!("[{}]", rows.join(", ")));
+        text.rows("pressure", &inflow.pressure);
     }
 }
 
@@ -232,6 +237,11 @@ impl Lines {
 
     fn list(&mut self, key: &str, values: &[f64]) {
         self.key(key, format_args!("{values:?}"));
+    }
+
+    fn rows(&mut self, key: &str, rows: &[[f64; 2]]) {
+        let rows: Vec<String> = rows.iter().map(|[t, value]| format!("[{t:?}, {value:?}]")).collect();
+        self.key(key, format!("[{}]", rows.join(", ")));
     }
 
     fn name<T: Copy + PartialEq>(&mut self, key: &str, names: &[(&'static str, T)], value: T) {

@@ -8,6 +8,7 @@ mod format;
 mod initial_pressure;
 mod read;
 mod read_adaptation;
+mod read_coupling;
 mod read_fluid;
 mod read_grid;
 mod read_solid;
@@ -218,10 +219,23 @@ pub struct CouplingCase {
     pub star: StarSolver,
     /// The paper's factors of the weak scheme.
     pub kappa: Kappa,
+    /// What presses on a solid without a fluid; present if the scheme is [`Scheme::Load`].
+    pub load: Option<LoadCase>,
     /// How long a side waits for the other to appear, s.
     pub connect_timeout: f64,
     /// How long a side waits for the other within a step, s.
     pub patience: f64,
+}
+
+/// `[coupling.load]`: the pressure A exp(−r²/b²) f(t) on the surface of a solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadCase {
+    /// A, Pa.
+    pub amplitude: f64,
+    /// b, m.
+    pub radius: f64,
+    /// Times (s, ascending) and factors f, linear in between, constant before and after.
+    pub history: Vec<[f64; 2]>,
 }
 
 /// One of the two media.

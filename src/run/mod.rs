@@ -7,6 +7,7 @@
 //! | [`fluid_side`], [`solid_side`] | one side's part of the step loop |
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
 //! | [`side_files`] | into which files |
+//! | [`load`] | a given pressure on a solid without a fluid |
 //! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`session`] | a run in one process, step by step |
 //! | [`drive`] | the step loop of a run in one process, of one of two processes |
@@ -23,6 +24,7 @@ pub mod fluid_record;
 pub mod fluid_side;
 pub mod interface_history;
 pub mod launch;
+pub mod load;
 pub mod record;
 pub mod schedule;
 pub mod session;

@@ -61,7 +61,9 @@ impl SolidRecord {
             None => Some(history.add_series("", &[column("time", "s", "time after the step")])?),
         };
         let conservation = history.add_series("/conservation/solid", &CONSERVATION_COLUMNS)?;
-        let interface_z = case.fluid.as_ref().map(|_| mesh.domain().z[1]);
+        // A load has a star state, too; a boundary has not.
+        let covered = case.coupling.scheme != coupler::Scheme::None;
+        let interface_z = covered.then(|| mesh.domain().z[1]);
         let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, history)?;
         let totals = solver.totals();
         let mut record = Self {

@@ -10,6 +10,7 @@ use solid::{Interface, SolidSolver};
 use super::RunError;
 use super::drive::Side;
 use super::fluid_side::{Clock, Turn};
+use super::load::Load;
 use super::schedule::{Plan, Schedule};
 use super::setup::solid_solver;
 use super::solid_record::SolidRecord;
@@ -23,6 +24,8 @@ pub struct SolidSide {
     solver: SolidSolver<BLOCK>,
     record: Option<SolidRecord>,
     interface: Interface,
+    /// What presses on the surface where there is no fluid.
+    load: Option<Load>,
     schedule: Schedule,
     cfl: f64,
     scheme: Scheme,
@@ -46,6 +49,7 @@ impl SolidSide {
     /// A solid that has been made already, in its initial state.
     pub fn with(case: &Case, solver: SolidSolver<BLOCK>, record: Option<SolidRecord>) -> Self {
         Self {
+            load: case.coupling.load.as_ref().and_then(|load| Load::new(load, &solver)),
             solver,
             record,
             interface: Interface::default(),
@@ -152,6 +156,9 @@ impl Side for SolidSide {
         let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(false) };
         self.last_dt = plan.dt;
         let adapts = self.solver.adaptation_follows(plan.dt);
+        if let Some(load) = &mut self.load {
+            load.press(&mut self.solver, plan.dt);
+        }
         self.solver.step(plan.dt)?;
         self.clock.computing += start.elapsed();
         self.recorded(plan)?;

@@ -9,14 +9,21 @@ pub enum Scheme {
     Weak,
     /// No solid: z_min of the fluid is a rigid wall.
     Rigid,
+    /// No fluid: a given pressure on z_max of the solid.
+    Load,
     /// One medium alone; every side has a boundary of its own.
     None,
 }
 
 impl Scheme {
     /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 4] =
-        [("riemann", Self::Riemann), ("weak", Self::Weak), ("rigid", Self::Rigid), ("none", Self::None)];
+    pub const NAMES: [(&'static str, Self); 5] = [
+        ("riemann", Self::Riemann),
+        ("weak", Self::Weak),
+        ("rigid", Self::Rigid),
+        ("load", Self::Load),
+        ("none", Self::None),
+    ];
 }
 
 /// How the fluid's side of the interface Riemann problem is described.
