@@ -97,18 +97,18 @@ def sound(pressure=1e5, liquid=LIQUID):
 
 
 class Run:
-    """What a run left: its summary, and the histories of its probes without their values at the start."""
+    """What a run left: its summary, and the histories of its probes."""
 
     def __init__(self, directory):
         self.directory = directory
         self.summary = json.loads((directory / "summary.json").read_text())
 
-    def probe(self, name, *columns):
-        """Times and the columns, one row each."""
+    def probe(self, name, *columns, absolute=False):
+        """Times and the columns, one row each, without their values at the start unless `absolute`."""
         with h5py.File(self.directory / "history.h5") as file:
             group = file[f"probes/{name}"]
             rows = np.array([group[column][:] for column in columns])
-            return group["time"][:], rows - rows[:, :1]
+            return group["time"][:], rows if absolute else rows - rows[:, :1]
 
     def updates(self):
         return sum(self.summary["cell_updates"].values())

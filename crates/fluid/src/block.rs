@@ -1,6 +1,6 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
-use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
+use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, curvature_share, limited_differences};
 
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
@@ -9,7 +9,7 @@ use crate::five_equation::{GasBlock, GasScratch};
 use crate::options::TwoPhaseOptions;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
-use crate::rows::{self, FaceRows, Reconstruction};
+use crate::rows::{self, Curvature, FaceRows, Reconstruction};
 use crate::state::conserved::{COUNT, PHI};
 use crate::update::{Extremes, Metric, update};
 use crate::{Boundary, Mixture, RiemannSolver};
@@ -36,9 +36,19 @@ pub(crate) struct StepContext<'a, const N: usize> {
     /// Time at the beginning of the step, s.
     pub time: f64,
     pub dt: f64,
+    /// The largest |v| + c along z and r, m/s.
+    pub fastest: [f64; 2],
     /// The faces of the wall to the solid in the order of r, and each block's first one.
     pub wall: &'a [WallState],
     pub wall_first: &'a [usize],
+}
+
+impl<const N: usize> StepContext<'_, N> {
+    /// For the faces normal to an axis (0: z, 1: r) of a block of a level.
+    pub fn curvature(&self, level: u8, axis: usize) -> Curvature {
+        let courant = self.fastest[axis] * self.dt / self.mesh.widths(level)[axis];
+        Curvature { share: curvature_share(courant), liquid_pi: self.mixture.at(0.0).pi }
+    }
 }
 
 /// Scratch of one thread.
@@ -205,6 +215,7 @@ pub(crate) fn step_block<const N: usize>(
         half: [rho, v_z, v_r, p, phi],
         differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
         keep: &scratch.keep,
+        curvature: ctx.curvature(id.level, 0),
     };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_z, 1, z_range, &mut scratch.z_faces);
@@ -226,6 +237,7 @@ pub(crate) fn step_block<const N: usize>(
         half: [rho, v_r, v_z, p, phi],
         differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
         keep: &scratch.keep,
+        curvature: ctx.curvature(id.level, 1),
     };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_r, stride, r_range, &mut scratch.r_faces);

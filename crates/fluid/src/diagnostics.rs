@@ -201,6 +201,7 @@ impl<const N: usize> FluidSolver<N> {
             old: &self.state,
             time: self.time,
             dt,
+            fastest: self.largest_speeds(),
             wall: &self.wall,
             wall_first: &self.wall_first,
         }

@@ -288,10 +288,11 @@ impl<const N: usize> FluidSolver<N> {
     ///
     /// - errors: [`FluidError::NonPhysical`]; the state before the step is then kept.
     pub fn step(&mut self, dt: f64) -> Result<(), FluidError> {
+        let fastest = self.largest_speeds();
         let mut next = std::mem::replace(&mut self.next, Field::zeros(0, 0, 0));
         let mut reports = std::mem::take(&mut self.reports);
         let mut register = std::mem::replace(&mut self.register, Register::new(0));
-        let context = self.context(dt);
+        let context = StepContext { fastest, ..self.context(dt) };
         for_each_block(&mut next, register.values_mut(), &mut reports, |slot, new, fluxes, report| {
             *report = self.scratch.with(|scratch| step_block(&context, slot, new, fluxes, scratch));
         });

@@ -199,7 +199,9 @@ impl<const N: usize> SolidSolver<N> {
             let id = self.mesh.tree().leaves()[slot];
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
             self.scratch.with(|scratch| {
-                reconstruct(&self.context(dt), slot, scratch);
+                let context = self.context(dt);
+                let [share, _] = context.curvature(id.level, 0);
+                reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
                 for j in 0..N {
                     let k = Padded::<N>::index(N as isize - 1, j as isize);
@@ -211,9 +213,11 @@ impl<const N: usize> SolidSolver<N> {
                     let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
                     let rate = rates(w, d_z, d_r, inverse_r[k], &self.elasticity);
                     let trace = |c: usize| w[c] + 0.5 * of(s_z, c) + 0.5 * dt * rate[c];
+                    // What face states within get besides, with the differences continued in a line beyond the surface.
+                    let more = |c: usize| share * (of(s_z, c) - s_z.component(c)[k - 1]);
                     traces.push(SurfaceTrace {
-                        pressure: -trace(S_NORMAL[0]),
-                        velocity: trace(V_Z),
+                        pressure: -(trace(S_NORMAL[0]) + more(S_NORMAL[0])),
+                        velocity: trace(V_Z) + more(V_Z),
                         tangential_velocity: trace(V_R),
                         shear: trace(S_ZR),
                         pressure_slope: -of(s_r, S_NORMAL[0]) * inverse_h[1],
