@@ -1,37 +1,48 @@
 #!/usr/bin/env python3
-"""Tables of runs against exact solutions of the coupled problem, as docs/verification.md shows them."""
+"""Tables of runs against exact solutions of the coupled problem, as docs/verification.md shows them.
+
+    python3 scripts/reference_tables.py plane [--cells 10 20 40]       plane pulses at normal incidence
+    python3 scripts/reference_tables.py materials [--cells 40]         the same on soft, hard and matched materials
+    python3 scripts/reference_tables.py pulse [--cells 10 20 40]       a spherical pulse above steel, near receivers
+    python3 scripts/reference_tables.py pulse --far [--cells 10 20]    the same, all receivers
+    python3 scripts/reference_tables.py arrivals [--far]               head waves of the pulse
+    python3 scripts/reference_tables.py grids [--cells 20]             adaptation, cells that do not match, limiters
+    python3 scripts/reference_tables.py solid [--cells 10 20 40]       the solid alone: spherical wave, Lamb's problem
+    python3 scripts/reference_tables.py pictures [--cells 20]          the pulse's fields against the exact ones
+
+Runs `cav` (target/release/cav, or --cav) in a directory of its own (--out), with changes of the cases given by --set, and
+prints Markdown. The exact solutions are CSV files in --data. Needs scripts/requirements.txt.
+"""
 
 import argparse
 from pathlib import Path
 
-from reference import pulse
+from reference import lamb, pictures, plane, pulse
 
-
-def try_pulse(options):
-    places = pulse.receivers(options.data, options.farthest)
-    result = pulse.run(options, options.name, pulse.problem(places, pulse.box_for(options.cells[0], options.size, options.adapt), options.end, limiter=options.limiter))
-    for place in places:
-        print(place[0], {k: f"{100*v:.2f}" for k, v in pulse.misfits(options, result, place).items()})
-    print(result.updates(), result.summary["wall_seconds"], result.summary["cells"])
+TABLES = {
+    "plane": plane.table,
+    "materials": plane.materials,
+    "pulse": pulse.refinement,
+    "arrivals": pulse.arrivals,
+    "grids": pulse.grids,
+    "solid": lamb.table,
+    "pictures": pictures.draw,
+}
 
 
 def main():
     root = Path(__file__).resolve().parent.parent
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", type=int, nargs="+")
+    parser.add_argument("table", choices=TABLES)
+    parser.add_argument("--cells", type=int, nargs="+", help="cells per width of the pulse or the load")
+    parser.add_argument("--far", action="store_true", help="all receivers, to 16 mm and 16 µs")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a change of every case")
     parser.add_argument("--data", type=Path, default=root.parent / "shared/reference/data")
-    parser.add_argument("--set", action="append", default=[])
-    parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--cav", type=Path, default=root / "target/release/cav")
     parser.add_argument("--out", type=Path, default=Path("reference-tables"))
-    parser.add_argument("--farthest", type=float, default=4e-3)
-    parser.add_argument("--size", type=float, default=12e-3)
-    parser.add_argument("--end", type=float, default=6e-6)
-    parser.add_argument("--limiter", default="")
-    parser.add_argument("--name")
-    parser.add_argument("--uniform", dest="adapt", action="store_false")
+    parser.add_argument("--threads", type=int, default=1)
     options = parser.parse_args()
-    try_pulse(options)
+    TABLES[options.table](options)
 
 
 if __name__ == "__main__":

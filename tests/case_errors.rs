@@ -204,6 +204,11 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("scheme = \"riemann\"", "scheme = \"none\""), &["coupling.scheme", "one medium alone", "remove [fluid] or [solid]"]),
     (Replace("scheme = \"riemann\"", "kappa = \"printed\""), &["coupling.kappa", "only scheme = \"weak\""]),
     (Replace("scheme = \"riemann\"", "patience = -1"), &["coupling.patience: must be positive"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"load\""), &["coupling.scheme", "for a solid alone", "remove [fluid]", "needs a load", "[coupling.load]"]),
+    (Append("[coupling.load]\namplitude = 1e6\nradius = 1e-3\nhistory = [[0.0, 1.0]]"), &["coupling.load: only scheme = \"load\" has a load", "remove it"]),
+    (Sets(&["coupling.scheme=load", "coupling.load={ amplitude = \"x\", radius = -1, histroy = [] }"]), &["coupling.load.amplitude: must be a number", "in Pa", "coupling.load.radius: must be positive, got -1.0", "in m", "unknown key `histroy`", "did you mean `history`?", "`history = [[t, value], ...]` in s and 1"]),
+    (Sets(&["coupling.scheme=load", "coupling.load={ amplitude = 1, radius = 1, history = [[1, 0], [0, 1]] }"]), &["coupling.load.history: times must ascend"]),
+    (Whole("[time]\nend = 1\n[coupling]\nscheme = \"load\""), &["scheme = \"load\" needs a [solid]", "write [solid]", "needs a load"]),
     (Whole("[time]\nend = 1\n[coupling]\nscheme = \"none\""), &["neither a [fluid] nor a [solid]", "write one"]),
     (Whole("[time]\nend = 1\n[coupling]\nscheme = \"rigid\""), &["scheme = \"rigid\" needs a [fluid]", "write [fluid]"]),
     (Whole("[time]\nend = 1\n[fluid]"), &["there is no [solid]", "\"rigid\"", "fluid.liquid: `liquid` is missing", "fluid.ambient", "fluid.cells"]),
@@ -436,6 +441,24 @@ fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
     {
         assert!(text.contains(part), "no `{part}` in:\n{text}");
     }
+}
+
+#[test]
+fn a_load_on_a_solid_alone_survives_being_written_out() {
+    let text = "[time]\nend = 1e-6\n[solid]\nz = [-0.01, 0]\nr = [0, 0.01]\ncells = [16, 16]\nmaterial = \"copper\"\n\
+        [coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = -2e6\nradius = 1e-3\n\
+        history = [[0, 0], [1e-7, 1.5]]\n[[probe]]\nname = \"s\"\nposition = [0, 0]\nmedium = \"solid\"\n";
+    let case = Case::from_toml(text, "load", &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    round_trip(&case);
+    let load = case.coupling.load.as_ref().expect("the load");
+    assert_eq!((load.amplitude, load.radius, load.history.len()), (-2e6, 1e-3, 2));
+    let solid = case.solid.as_ref().expect("the solid");
+    // Thresholds are relative to the largest pressure of the history.
+    assert_eq!(solid.scale_stress, 3e6);
+    assert_eq!(solid.boundary[1], solid::Boundary::Interface);
+    let stronger =
+        Case::from_toml(text, "load", &["coupling.load.amplitude=3e6".to_owned()]).expect("a case");
+    assert_ne!(stronger.hash(), case.hash());
 }
 
 #[test]

@@ -69,5 +69,76 @@ def misfits(options, result, place, until=np.inf):
     return found
 
 
-def box_for(cells, size, adapt=True, ratio=(1, 1)):
-    return Box(WIDTH / cells, size, size, size, adapt, ratio)
+def solve(options, cells, farthest, end, size, adapt=True, ratio=(1, 1), **more):
+    """Runs the problem and yields (receiver, misfits)."""
+    places = receivers(options.data, farthest)
+    box = Box(WIDTH / cells * min(ratio), size, size, size, adapt, ratio)
+    label = "-".join(str(part) for part in (
+        "pulse", cells, f"{farthest:g}", "adaptive" if adapt else "uniform", *ratio, *more.values()))
+    result = run(options, label, problem(places, box, end, **more))
+    return result, [(place, misfits(options, result, place, end)) for place in places]
+
+
+def worst(readings, medium):
+    """The largest misfit of the receivers in the fluid, or of those in the solid and on the interface."""
+    in_fluid = [place[1] == "fluid" for place, _ in readings]
+    chosen = [found for (_, found), fluid in zip(readings, in_fluid) if fluid == (medium == "fluid")]
+    return max(max(found.values()) for found in chosen)
+
+
+def refinement(options):
+    """Misfits and orders, receiver by receiver."""
+    far = options.far
+    farthest, end, size = (1.0, 16e-6, 40e-3) if far else (4e-3, 6e-6, 20e-3)
+    grids = options.cells or ([10, 20] if far else [10, 20, 40])
+    tables = [solve(options, cells, farthest, end, size)[1] for cells in grids]
+    print("| receiver | quantity | " + " | ".join(f"{cells} cells" for cells in grids) + " | order |")
+    print("|---|---|" + "---|" * (len(grids) + 1))
+    for rows in zip(*tables):
+        for label in rows[0][1]:
+            values = [found[label] for _, found in rows]
+            orders = ", ".join(f"{order(a, b, n / m):.1f}"
+                               for a, b, m, n in zip(values, values[1:], grids, grids[1:]))
+            name = rows[0][0][0].replace("_", " ")
+            print(f"| {name} | {label} | " + " | ".join(f"{100 * value:.2f} %" for value in values) + f" | {orders} |")
+
+
+GRIDS = [
+    ("all on the finest level, 1:1", {"adapt": False}),
+    ("adaptive, 1:1", {}),
+    ("adaptive, the solid twice as fine", {"ratio": (1, 2)}),
+    ("adaptive, the fluid twice as fine", {"ratio": (2, 1)}),
+    ("adaptive, the solid four times as fine", {"ratio": (1, 4)}),
+    ("adaptive, 2:3", {"ratio": (2, 3)}),
+    ("adaptive, no limiter", {"limiter": "none"}),
+    ("adaptive, minmod", {"limiter": "minmod"}),
+]
+
+
+def grids(options):
+    """Adaptation, cells that do not match, limiters."""
+    cells = (options.cells or [20])[0]
+    print(f"| {cells} cells per width | largest misfit in the fluid | in the solid and on the interface | cell updates |")
+    print("|---|---|---|---|")
+    for what, settings in GRIDS:
+        result, readings = solve(options, cells, 2e-3, 3e-6, 11e-3, **settings)
+        print(f"| {what} | {100 * worst(readings, 'fluid'):.2f} % | {100 * worst(readings, 'solid'):.2f} % "
+              f"| {result.updates():.2e} |", flush=True)
+
+
+def arrivals(options):
+    """Head waves: when the precursor passes half of its first extremum."""
+    cells = (options.cells or [20])[0]
+    result, _ = solve(options, cells, 1.0 if options.far else 4e-3, *((16e-6, 40e-3) if options.far else (6e-6, 20e-3)))
+    centres = read(options.data / "D/steel/arrivals.csv")
+    print("| receiver | exact | ours | difference |\n|---|---|---|---|")
+    for r, z, direct, head in zip(*(centres[key] for key in ("r_m", "z_m", "t_direct_s", "t_head_P_s"))):
+        stem = f"fluid_r{r * 1e3:g}_z{z * 1e3:g}mm"
+        before = direct - 4.0 * WIDTH / 1464.8
+        if not np.isfinite(head) or before < head or (not options.far and r > 4e-3):
+            continue
+        exact = read(options.data / f"D/steel/{stem}.csv")
+        times, values = result.probe(stem.replace(".", "p"), "pressure")
+        wanted = first_half(exact["t_s"], exact["p_Pa"], before)
+        found = first_half(times, values[0], before)
+        print(f"| {stem.replace('_', ' ')} | {wanted * 1e6:.4f} µs | {found * 1e6:.4f} µs | {100 * (found / wanted - 1):+.3f} % |")

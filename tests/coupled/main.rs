@@ -5,6 +5,7 @@ mod collapse;
 mod hammer;
 mod harness;
 mod ledgers;
+mod load;
 mod modes;
 mod pulse;
 mod rest;

@@ -113,7 +113,7 @@ impl Boundaries {
     ) {
         for (j, state) in surface.iter().enumerate() {
             let k = Padded::<N>::index(N as isize - 1, j as isize);
-            let trace = cells.face_state(k, 1.0);
+            let trace = cells.shear_at_surface(k);
             let face = star_interface(trace, Outward::High, state.velocity, -state.pressure, elasticity.z2);
             faces.v_n[k] = face.v_n;
             faces.s_nn[k] = face.sigma_nn;

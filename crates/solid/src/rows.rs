@@ -98,6 +98,20 @@ impl Reconstruction<'_> {
     }
 }
 
+impl Reconstruction<'_> {
+    /// The state on the upper face of cell `k`, beyond which there is no cell, with the tangential velocity and the shear
+    /// of the parabola through three cells.
+    ///
+    /// Under a load that stays all waves have gone and no Courant number counts: what the trace of the shear lacks then
+    /// lets the surface creep.
+    pub fn shear_at_surface(&self, k: usize) -> FaceState {
+        let more =
+            |c: usize| mesh::curvature_share(0.0) * (self.differences[c][k] - self.differences[c][k - 1]);
+        let state = self.face_state(k, 1.0);
+        FaceState { v_t: state.v_t + more(1), sigma_nt: state.sigma_nt + more(3), ..state }
+    }
+}
+
 /// The states on both sides of the face between cells `k` of `lower` and of `upper`.
 #[inline(always)]
 fn states_at_face(lower: &Reconstruction<'_>, upper: &Reconstruction<'_>, k: usize) -> [FaceState; 2] {
