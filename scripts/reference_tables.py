@@ -5,7 +5,7 @@
     python3 scripts/reference_tables.py materials [--cells 40]         the same on soft, hard and matched materials
     python3 scripts/reference_tables.py pulse [--cells 10 20 40]       a spherical pulse above steel, near receivers
     python3 scripts/reference_tables.py pulse --far [--cells 10 20]    the same, all receivers
-    python3 scripts/reference_tables.py arrivals [--far]               head waves of the pulse
+    python3 scripts/reference_tables.py arrivals [--cells 20]          head waves of the pulse
     python3 scripts/reference_tables.py grids [--cells 20]             adaptation, cells that do not match, limiters
     python3 scripts/reference_tables.py solid [--cells 10 20 40]       the solid alone: spherical wave, Lamb's problem
     python3 scripts/reference_tables.py pictures [--cells 20]          the pulse's fields against the exact ones
@@ -35,7 +35,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("table", choices=TABLES)
     parser.add_argument("--cells", type=int, nargs="+", help="cells per width of the pulse or the load")
-    parser.add_argument("--far", action="store_true", help="all receivers, to 16 mm and 16 µs")
+    parser.add_argument("--far", action="store_true", help="all receivers, to 16 mm and 16 µs, instead of 2 mm and 3 µs")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a change of every case")
     parser.add_argument("--data", type=Path, default=root.parent / "shared/reference/data")
     parser.add_argument("--cav", type=Path, default=root / "target/release/cav")

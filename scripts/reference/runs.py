@@ -93,7 +93,7 @@ def elastic(material=STEEL):
 
 def sound(pressure=1e5, liquid=LIQUID):
     density, gamma, pi = liquid
-    return np.sqrt(gamma * (pressure + pi) / density)
+    return float(np.sqrt(gamma * (pressure + pi) / density))
 
 
 class Run:

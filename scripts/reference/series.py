@@ -31,13 +31,13 @@ def order(coarse, fine, ratio=2.0):
 def first_half(times, values, before):
     """When a series first passes half of its first extremum, after scaling with its largest value before `before`.
 
-    The first extremum is the first local one of more than a twentieth of the largest value.
+    The first extremum is the first local one of more than a tenth of the largest value.
     """
     early = times < before
     t, y = times[early], values[early]
     y = y / np.max(np.abs(y))
     turns = np.flatnonzero((np.abs(y[1:-1]) >= np.abs(y[:-2])) & (np.abs(y[1:-1]) > np.abs(y[2:]))) + 1
-    turns = turns[np.abs(y[turns]) > 0.05]
+    turns = turns[np.abs(y[turns]) > 0.1]
     if not len(turns):
         return np.nan
     half = 0.5 * y[turns[0]]

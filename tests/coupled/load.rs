@@ -59,7 +59,7 @@ fn a_load_makes_the_waves_of_lambs_problem() {
         zz_below.push([time, inside.stress_zz]);
     });
     // Every 0.2 µs from 2 µs on; the Rayleigh wave passes at 2.9 µs.
-    let exact = [
+    let exact: [(_, [f64; 7]); 4] = [
         (
             &v_surface,
             [-5.060087e-4, -1.534778e-3, -2.141837e-3, -9.030532e-4, 1.277905e-3, 2.042569e-3, 1.276858e-3],
