@@ -3,6 +3,7 @@
 
     python3 scripts/reference_tables.py plane [--cells 10 20 40]       plane pulses at normal incidence
     python3 scripts/reference_tables.py materials [--cells 40]         the same on soft, hard and matched materials
+    python3 scripts/reference_tables.py rest                           100,000 steps under 5e7 Pa
     python3 scripts/reference_tables.py pulse [--cells 10 20 40]       a spherical pulse above steel, near receivers
     python3 scripts/reference_tables.py pulse --far [--cells 10 20]    the same, all receivers
     python3 scripts/reference_tables.py arrivals [--cells 20]          head waves of the pulse
@@ -22,6 +23,7 @@ from reference import lamb, pictures, plane, pulse
 TABLES = {
     "plane": plane.table,
     "materials": plane.materials,
+    "rest": plane.rest,
     "pulse": pulse.refinement,
     "arrivals": pulse.arrivals,
     "grids": pulse.grids,

@@ -50,7 +50,7 @@ def draw(options):
 
 
 def snapshot(options, result):
-    figure, axes = plt.subplots(1, 2, figsize=(10, 8), sharey=True, layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(10, 5), sharey=True, layout="constrained")
     for medium, column, name, rest in (("fluid", "p_Pa", "pressure", 1e5), ("solid", "sigma_zz_Pa", "stress_zz", -1e5)):
         exact = read(options.data / f"D/steel/snap2d_{medium}.csv")
         z, r = np.abs(exact["z_m"]), exact["r_m"]
