@@ -1,6 +1,6 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
-use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, curvature_share, limited_differences};
+use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
 
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
@@ -9,7 +9,7 @@ use crate::five_equation::{GasBlock, GasScratch};
 use crate::options::TwoPhaseOptions;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
-use crate::rows::{self, Curvature, FaceRows, Reconstruction};
+use crate::rows::{self, FaceRows, Reconstruction};
 use crate::state::conserved::{COUNT, PHI};
 use crate::update::{Extremes, Metric, update};
 use crate::{Boundary, Mixture, RiemannSolver};
@@ -41,14 +41,6 @@ pub(crate) struct StepContext<'a, const N: usize> {
     /// The faces of the wall to the solid in the order of r, and each block's first one.
     pub wall: &'a [WallState],
     pub wall_first: &'a [usize],
-}
-
-impl<const N: usize> StepContext<'_, N> {
-    /// For the faces normal to an axis (0: z, 1: r) of a block of a level.
-    pub fn curvature(&self, level: u8, axis: usize) -> Curvature {
-        let courant = self.fastest[axis] * self.dt / self.mesh.widths(level)[axis];
-        Curvature { share: curvature_share(courant), liquid_pi: self.mixture.at(0.0).pi }
-    }
 }
 
 /// Scratch of one thread.

@@ -10,9 +10,10 @@ mod listed;
 use mesh::whole_lines;
 
 use crate::Mixture;
+use crate::curvature::states_at_face;
 use crate::elementary::{exp_and_less_one, ln_of};
 use crate::godunov::flux_exact;
-use crate::rows::{FaceRows, Reconstruction, states_at_face};
+use crate::rows::{FaceRows, Reconstruction};
 
 pub(crate) use listed::exact_fluxes;
 

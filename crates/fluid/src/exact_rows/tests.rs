@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::StiffenedGas;
+use crate::curvature::Curvature;
 use crate::exact_riemann::tests::{EXTREME, REFERENCE, Random};
 use crate::exact_riemann::{Side, sample, star_state};
 use crate::hllc::Face;
-use crate::rows::Curvature;
 
 /// The first lane of a chunk solved: pressure, velocity of the contact, flux; and whether it counts.
 fn solve_one(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> (f64, f64, Face, bool) {
