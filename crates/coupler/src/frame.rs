@@ -7,7 +7,7 @@ use iceoryx2::prelude::ZeroCopySend;
 use crate::error::CouplerError;
 
 /// Layout and meaning of [`FrameHeader`]; a change of either counts it up.
-pub const FRAME_VERSION: u32 = 3;
+pub const FRAME_VERSION: u32 = 4;
 
 /// What a frame is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -139,6 +139,10 @@ impl FrameHeader {
     pub const LAST: u32 = 4;
     /// Both sides write a snapshot at the end of this step.
     pub const SNAPSHOT: u32 = 8;
+    /// Strong scheme: the values are an iterate's; the step is to be tried, not yet made.
+    pub const TRIAL: u32 = 16;
+    /// Strong scheme: the last iterate counts; there is no payload.
+    pub const SETTLED: u32 = 32;
     /// Set by the link: longer than all before, so its memory is new and the sender wants to know that it was read.
     pub(crate) const GROWN: u32 = 1 << 31;
 

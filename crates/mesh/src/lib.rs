@@ -18,6 +18,7 @@
 mod adaptation;
 mod ahead;
 mod aligned;
+mod curvature;
 mod details;
 mod domain;
 mod field;
@@ -43,6 +44,7 @@ mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use aligned::{AlignedRow, whole_lines};
+pub use curvature::curvature_share;
 pub use domain::{Domain, Mesh, MeshError};
 pub use field::Field;
 pub use geometry::{Geometry, Side};
