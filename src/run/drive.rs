@@ -86,9 +86,6 @@ pub fn joined(
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {
-    let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) else {
-        unreachable!("only coupled cases run in two processes");
-    };
     let connected = Arc::new(AtomicBool::new(false));
     let mut endpoint = Endpoint::new(joining.run_id, joining.participant, case.hash());
     endpoint.connect_timeout = Duration::from_secs_f64(case.coupling.connect_timeout);
@@ -104,8 +101,10 @@ pub fn joined(
     connected.store(true, Ordering::Relaxed);
     let directory = directory()?;
     let begin = Instant::now();
+    let side = joining.participant.name();
     match joining.participant {
         Participant::Fluid => {
+            let fluid = case.fluid.as_ref().ok_or(RunError::NoPeer { side })?;
             let mut side = told(FluidSide::new(case, fluid, Some(&directory)), &mut link)?;
             let result = loop {
                 match side.turn(&mut link, stop) {
@@ -117,6 +116,7 @@ pub fn joined(
             end(&mut side, Some(&directory), result, link.counters(), begin)
         }
         Participant::Solid => {
+            let solid = case.solid.as_ref().ok_or(RunError::NoPeer { side })?;
             let mut side = told(SolidSide::new(case, solid, Some(&directory)), &mut link)?;
             let mut rounds = || -> Result<Turn, RunError> {
                 side.open(&mut link, stop)?;

@@ -41,6 +41,15 @@ pub enum RunError {
         /// "fluid" or "solid".
         side: &'static str,
     },
+    /// The other side is another program's, which the launcher cannot start.
+    #[error(
+        "coupling.scheme = \"external\": the other side is another program's; \
+         start this one with `cav {side} CASE --run ID` and that one under the same ID"
+    )]
+    PeerIsElsewhere {
+        /// "fluid" or "solid", the side that is ours.
+        side: &'static str,
+    },
     /// The peer or the way to it failed.
     #[error(transparent)]
     Coupler(#[from] CouplerError),
@@ -81,7 +90,7 @@ impl RunError {
     /// The process's exit code, see `docs/command-line.md`.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Directory(_) | Self::NoPeer { .. } => 2,
+            Self::Case(_) | Self::Directory(_) | Self::NoPeer { .. } | Self::PeerIsElsewhere { .. } => 2,
             Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
             Self::Coupler(_) | Self::Start { .. } => 4,
@@ -99,7 +108,11 @@ impl RunError {
             Self::Output(_) | Self::Directory(_) => Fault::Output,
             Self::Coupler(_) => Fault::Protocol,
             Self::Interrupted | Self::Terminated => Fault::Stopped,
-            Self::Case(_) | Self::NoPeer { .. } | Self::Child { .. } | Self::Start { .. } => Fault::Other,
+            Self::Case(_)
+            | Self::NoPeer { .. }
+            | Self::PeerIsElsewhere { .. }
+            | Self::Child { .. }
+            | Self::Start { .. } => Fault::Other,
         }
     }
 }
