@@ -2,6 +2,7 @@
 """Tables of runs against exact solutions of the coupled problem, as docs/verification.md shows them.
 
     python3 scripts/reference_tables.py plane [--cells 10 20 40]       plane pulses at normal incidence
+    python3 scripts/reference_tables.py oblique [--cells 10 20]        plane pulses at oblique incidence
     python3 scripts/reference_tables.py materials [--cells 40]         the same on soft, hard and matched materials
     python3 scripts/reference_tables.py rest                           100,000 steps under 5e7 Pa
     python3 scripts/reference_tables.py pulse [--cells 10 20 40]       a spherical pulse above steel, near receivers
@@ -22,6 +23,7 @@ from reference import lamb, pictures, plane, pulse
 
 TABLES = {
     "plane": plane.table,
+    "oblique": plane.oblique,
     "materials": plane.materials,
     "rest": plane.rest,
     "pulse": pulse.refinement,

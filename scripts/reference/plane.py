@@ -74,6 +74,44 @@ def materials(options):
             print(f"| {name} | {pressure:.0e} Pa | {back:.4f} ({exact:.4f}) | {on:.4f} ({1 + exact:.4f}) |", flush=True)
 
 
+# Angles below the first critical one of steel, 14.2 degrees: V is real, and nothing in the solid runs ahead of the contact.
+ANGLES, REACH, NARROW = (5.0, 10.0), 32e-3, 3e-4
+
+
+def oblique(options):
+    """Plane pulses at oblique incidence: what is measured above the wall, against incident and reflected wave."""
+    grids = options.cells or [10, 20]
+    angles, reflected, *_ = np.loadtxt(options.data / "C/oblique_steel.csv", delimiter=",", skiprows=2, unpack=True)
+    c = sound(1e5)
+    print("| angle | V | quantity | " + " | ".join(f"{n} cells" for n in grids) + " |")
+    print("|---|---|---|" + "---|" * len(grids))
+    for angle in ANGLES:
+        factor = np.interp(angle, angles, reflected)
+        along, across = float(np.cos(np.radians(angle))), float(np.sin(np.radians(angle)))
+        # The pulse begins above the wall everywhere; where the box begins it is lowest.
+        start, z, r = 5 * NARROW, 1e-3, 0.8 * REACH
+        arrival = (along * (start + z) + across * r) / c
+        end = arrival + 4 * NARROW / c
+        found = []
+        for cells in grids:
+            box = Box(NARROW / cells, REACH, start + REACH * across / along + 8 * NARROW, 12e-3)
+            pulse = (f'[[fluid.pulse]]\nshape = "plane"\ncentre = [{start}, 0.0]\ndirection = [{-along!r}, {across!r}]\n'
+                     f'width = {NARROW}\namplitude = {AMPLITUDE}\n[fluid.boundary]\nr_min = "non-reflecting"\n')
+            solid = elastic(STEEL) + '[solid.boundary]\nr_min = "non-reflecting"\n'
+            result = run(options, f"oblique-{angle:g}-{cells}",
+                         Problem(box, float(end), fluid=water() + pulse, solid=solid, geometry="planar",
+                                 probes=[("above", "fluid", z, r)]))
+            times, values = result.probe("above", "pressure", "velocity_z", "velocity_r")
+            wave = lambda path: AMPLITUDE * np.exp(-((path + across * r - c * times) / NARROW) ** 2)
+            down, up = wave(along * (start - z)), factor * wave(along * (start + z))
+            impedance = 1000.0 * c
+            exact = np.array([down + up, along * (up - down) / impedance, across * (up + down) / impedance])
+            found.append([misfit(times, values[:1], times, exact[:1], end), misfit(times, values[1:], times, exact[1:], end)])
+        for k, label in enumerate("pv"):
+            print(f"| {angle:g}° | {factor:.4f} | {label} | " + " | ".join(f"{100 * one[k]:.2f} %" for one in found) + " |",
+                  flush=True)
+
+
 def rest(options):
     """A hundred thousand steps at rest under 5e7 Pa: the largest change of pressure and stress anywhere looked at."""
     print("| material | steps | largest change of p and σ, relative |\n|---|---|---|")
