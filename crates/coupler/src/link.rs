@@ -3,6 +3,8 @@
 use std::fmt;
 use std::time::{Duration, SystemTime};
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::CouplerError;
 use crate::frame::{Expected, Fault, Frame, FrameHeader, FrameKind};
 
@@ -40,7 +42,7 @@ impl fmt::Display for Participant {
 }
 
 /// What a link has done so far. Greetings and goodbyes count, too.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct LinkCounters {
     /// Frames sent.
     pub sent: u64,
@@ -53,6 +55,32 @@ pub struct LinkCounters {
     /// What the exchange itself cost: from the moment when a frame was complete and its reader asked for it, to
     /// the moment when the reader had it.
     pub exchanging: Duration,
+}
+
+impl LinkCounters {
+    /// What was done here and in `other`.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            sent: self.sent + other.sent,
+            received: self.received + other.received,
+            bytes: self.bytes + other.bytes,
+            waited: self.waited + other.waited,
+            exchanging: self.exchanging + other.exchanging,
+        }
+    }
+
+    /// What was done since these counters stood at `earlier`.
+    #[must_use]
+    pub fn since(self, earlier: Self) -> Self {
+        Self {
+            sent: self.sent - earlier.sent,
+            received: self.received - earlier.received,
+            bytes: self.bytes - earlier.bytes,
+            waited: self.waited.saturating_sub(earlier.waited),
+            exchanging: self.exchanging.saturating_sub(earlier.exchanging),
+        }
+    }
 }
 
 /// One end of the way between two participants.

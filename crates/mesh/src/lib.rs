@@ -18,6 +18,7 @@
 mod adaptation;
 mod ahead;
 mod aligned;
+pub mod array;
 mod details;
 mod domain;
 mod field;
@@ -43,7 +44,7 @@ mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use aligned::{AlignedRow, whole_lines};
-pub use domain::{Domain, Mesh, MeshError};
+pub use domain::{Domain, Mesh, MeshError, Misfit};
 pub use field::Field;
 pub use geometry::{Geometry, Side};
 pub use horizon::Horizon;
