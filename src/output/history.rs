@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use hdf5::{Dataset, File};
 use ndarray::ArrayView2;
 
-use super::hdf5_attributes::{set_text, set_texts};
+use super::hdf5_attributes::{set_text, set_texts, text};
 use super::{OutputError, safe_file};
 
 /// Shortest time between two batches that [`HistoryFile::flush_if_due`] writes.
@@ -210,6 +210,28 @@ impl HistoryFile {
         series.written + series.buffered_rows()
     }
 
+    /// Rows of all series, in the order in which they were added.
+    pub fn all_rows(&self) -> Vec<u64> {
+        (0..self.series.len()).map(|number| self.rows(SeriesId(number)) as u64).collect()
+    }
+
+    /// Forgets what was added to any series since [`all_rows`](Self::all_rows) were these; the file follows with the next batch.
+    ///
+    /// - errors: there are other series, or fewer rows.
+    pub fn truncate_all(&mut self, rows: &[u64]) -> Result<(), OutputError> {
+        let found = self.all_rows();
+        let are_there =
+            found.len() == rows.len() && found.iter().zip(rows).all(|(found, wanted)| found >= wanted);
+        if !are_there {
+            let what = format!("its series have {found:?} rows where {rows:?} are looked for");
+            return Err(OutputError::Mismatch { path: self.path.clone(), what });
+        }
+        for (number, rows) in rows.iter().enumerate() {
+            self.truncate(SeriesId(number), *rows as usize);
+        }
+        Ok(())
+    }
+
     /// Forgets the rows from `rows` on, as a restart from an earlier time needs; the file follows with the next batch.
     pub fn truncate(&mut self, id: SeriesId, rows: usize) {
         let series = &mut self.series[id.0];
@@ -363,6 +385,11 @@ impl OwnedColumn {
         describe(&dataset, &self.unit, &self.description)?;
         Ok(dataset)
     }
+}
+
+/// The name of the case that a file was written for, if it says so.
+pub fn case_name(path: &Path) -> Option<String> {
+    path.exists().then(|| File::open(path).ok().and_then(|file| text(&file, "case_name")))?
 }
 
 /// The path from the root of `name` in `group`.

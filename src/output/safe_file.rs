@@ -51,6 +51,12 @@ pub fn update<T>(
     })
 }
 
+/// Waits until a file or directory is on the disk as it is now.
+pub fn sync(path: &Path) -> Result<(), OutputError> {
+    let synced = fs::File::open(path).and_then(|file| file.sync_all());
+    synced.map_err(OutputError::io(path, "bring to the disk"))
+}
+
 /// Writes `bytes` as the whole content of `path`, on the disk before the name points to it.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     replace(path, |temporary| {

@@ -154,20 +154,29 @@ impl SeriesWriter {
         self.end.steps
     }
 
-    /// Forgets the snapshots from number `steps` on, as a restart from an earlier time needs.
+    /// Which mesh the last snapshot is on, where another writer has written it: the next one on the same mesh does not store it
+    /// again.
+    #[must_use]
+    pub fn with_mesh(mut self, mesh_id: Option<u64>) -> Self {
+        self.mesh_id = mesh_id;
+        self
+    }
+
+    /// Forgets the snapshots from number `steps` on, as a restart from an earlier time needs; nothing of them is left.
+    ///
+    /// - errors: there are fewer, or the file cannot be changed.
     pub fn truncate(&mut self, steps: usize) -> Result<(), OutputError> {
-        if steps >= self.end.steps {
-            return Ok(());
+        if steps > self.end.steps {
+            let what = format!("it has {} snapshots where {steps} are looked for", self.end.steps);
+            return Err(OutputError::Mismatch { path: self.path.clone(), what });
         }
         let end = self.update(|path| {
             let shorten = || -> hdf5::Result<End> {
                 let file = File::open_rw(path)?;
                 let root = file.group("VTKHDF")?;
                 let end = End::read(&root, steps)?;
-                for name in STEP_DATASETS {
-                    set_rows(&root.group("Steps")?.dataset(name)?, steps)?;
-                }
                 write_step_count(&root, steps)?;
+                end.cut(&root)?;
                 drop(root);
                 file.close()?;
                 Ok(end)
@@ -279,6 +288,32 @@ impl End {
             end.next.connectivity += 4 * mesh.quads.len();
         }
         end
+    }
+
+    /// Cuts all datasets down to this end.
+    fn cut(&self, root: &Group) -> hdf5::Result<()> {
+        let of_steps = root.group("Steps")?;
+        for name in STEP_DATASETS {
+            set_rows(&of_steps.dataset(name)?, self.steps)?;
+        }
+        for offsets in of_steps.group("CellDataOffsets")?.datasets()? {
+            set_rows(&offsets, self.steps)?;
+        }
+        let Offsets { meshes, points, cells, connectivity } = self.next;
+        for name in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"] {
+            set_rows(&root.dataset(name)?, meshes)?;
+        }
+        let per_mesh = [
+            ("Points", points),
+            ("Connectivity", connectivity),
+            // One offset more than cells for each mesh.
+            ("Offsets", cells + meshes),
+            ("Types", cells),
+        ];
+        for (name, rows) in per_mesh {
+            set_rows(&root.dataset(name)?, rows)?;
+        }
+        root.group("CellData")?.datasets()?.iter().try_for_each(|field| set_rows(field, self.field_rows))
     }
 
     /// The end of the first `steps` snapshots of a file, from what the last of them points to.

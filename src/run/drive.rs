@@ -5,13 +5,15 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use coupler::{Endpoint, Link, LinkCounters, Participant, ProcessLink};
 use serde_json::{Map, Value, json};
 
 use super::RunError;
+use super::checkpoints::{Checkpoints, Keeper};
 use super::fluid_side::{FluidSide, Turn};
+use super::past::Past;
 use super::session::{Session, Solvers};
 use super::solid_side::SolidSide;
 use super::stop::Stop;
@@ -41,24 +43,35 @@ pub trait Side {
     fn reached(&self) -> (f64, u64);
     /// Where the wall time went.
     fn clock(&self) -> Clock;
+    /// Since when, and what was done before.
+    fn past(&self) -> &Past;
+    /// Keeps a checkpoint of a side that steps alone, if it is time to or the run is stopped.
+    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError>;
     /// What a progress line says of it; `cells` are its own and those of the other side that it knows of, `wall` is
     /// left at 0.
     fn line(&self) -> ProgressLine;
 }
 
-/// A side's progress since `begin`.
-pub(super) fn line(side: &impl Side, begin: Instant) -> ProgressLine {
-    ProgressLine { wall: begin.elapsed().as_secs_f64(), ..side.line() }
+/// A side's progress.
+pub(super) fn line(side: &impl Side) -> ProgressLine {
+    ProgressLine { wall: side.past().wall().as_secs_f64(), ..side.line() }
 }
 
 /// All media of a case in this process, turn by turn through the same frames.
 pub fn in_process(
     case: &Case,
     directory: &RunDirectory,
+    keeping: Keeping,
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {
-    let mut session = Session::new(case, Some(directory), Solvers::default())?;
+    let mut session = match keeping.from {
+        Some(step) => Session::resume(case, directory, step)?,
+        None => Session::new(case, Some(directory), Solvers::default())?,
+    };
+    if let Some(every) = keeping.every {
+        session.keep_checkpoints(case, directory, every);
+    }
     let result = loop {
         match session.step(stop) {
             Ok(Turn::Continues) => on_step(&session.line()),
@@ -66,6 +79,15 @@ pub fn in_process(
         }
     };
     session.end(Some(directory), result)
+}
+
+/// Where a run begins, and how often it keeps a checkpoint.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Keeping {
+    /// The step of the checkpoint to go on from; `None` at t = 0.
+    pub from: Option<u64>,
+    /// After how much wall time each; `None` for none at all.
+    pub every: Option<Duration>,
 }
 
 /// How a side of a two-process run is called and who it is.
@@ -83,6 +105,7 @@ pub fn joined(
     case: &Case,
     joining: Joining,
     directory: impl FnOnce() -> Result<RunDirectory, RunError> + Send,
+    keeping: Keeping,
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {
@@ -103,33 +126,50 @@ pub fn joined(
     };
     connected.store(true, Ordering::Relaxed);
     let directory = directory()?;
-    let begin = Instant::now();
+    let checkpoints = Checkpoints::of(case, &directory);
+    let keeper = keeping.every.map(|every| Keeper::new(checkpoints.clone(), every));
     match joining.participant {
         Participant::Fluid => {
-            let mut side = told(FluidSide::new(case, fluid, Some(&directory)), &mut link)?;
+            let side = match keeping.from {
+                Some(step) => (checkpoints.read(Participant::Fluid, step))
+                    .and_then(|saved| FluidSide::resumed(case, fluid, &directory, saved)),
+                None => FluidSide::new(case, fluid, Some(&directory)),
+            };
+            let mut side = told(side, &mut link)?;
+            if let Some(keeper) = keeper {
+                side.keep_with(keeper);
+            }
             let result = loop {
                 match side.turn(&mut link, stop) {
-                    Ok(Turn::Continues) => on_step(&line(&side, begin)),
+                    Ok(Turn::Continues) => on_step(&line(&side)),
                     other => break other,
                 }
             };
             let result = tell(result, &mut link, side.solver().steps());
-            end(&mut side, Some(&directory), result, link.counters(), begin)
+            end(&mut side, Some(&directory), result, link.counters())
         }
         Participant::Solid => {
-            let mut side = told(SolidSide::new(case, solid, Some(&directory)), &mut link)?;
+            let side = match keeping.from {
+                Some(step) => (checkpoints.read(Participant::Solid, step))
+                    .and_then(|saved| SolidSide::resumed(case, solid, &directory, saved)),
+                None => SolidSide::new(case, solid, Some(&directory)),
+            };
+            let mut side = told(side, &mut link)?;
+            if let Some(keeper) = keeper {
+                side.keep_with(keeper);
+            }
             let mut rounds = || -> Result<Turn, RunError> {
                 side.open(&mut link, stop)?;
                 loop {
                     match side.turn(&mut link, stop)? {
-                        Turn::Continues => on_step(&line(&side, begin)),
+                        Turn::Continues => on_step(&line(&side)),
                         over => return Ok(over),
                     }
                 }
             };
             let result = rounds();
             let result = tell(result, &mut link, side.solver().steps());
-            end(&mut side, Some(&directory), result, link.counters(), begin)
+            end(&mut side, Some(&directory), result, link.counters())
         }
     }
 }
@@ -156,12 +196,11 @@ pub(super) fn end<S: Side>(
     directory: Option<&RunDirectory>,
     result: Result<Turn, RunError>,
     counters: LinkCounters,
-    begin: Instant,
 ) -> Result<(), RunError> {
     let failed = matches!(&result, Err(error) if error.exit_code() == 3);
     side.close(failed)?;
     if let Some(directory) = directory {
-        summary::write(directory, S::SUMMARY, &part(side, &result, begin, counters))?;
+        summary::write(directory, S::SUMMARY, &part(side, &result, counters))?;
     }
     concluded(result)
 }
@@ -170,11 +209,10 @@ pub(super) fn end<S: Side>(
 pub(super) fn part<S: Side>(
     side: &S,
     result: &Result<Turn, RunError>,
-    begin: Instant,
     counters: LinkCounters,
 ) -> Map<String, Value> {
     let mut part = side.summary();
-    part.extend(progress_part(side, result, begin, counters));
+    part.extend(progress_part(side, result, counters));
     part
 }
 
@@ -189,11 +227,11 @@ fn concluded(result: Result<Turn, RunError>) -> Result<(), RunError> {
 fn progress_part<S: Side>(
     side: &S,
     result: &Result<Turn, RunError>,
-    begin: Instant,
     counters: LinkCounters,
 ) -> Map<String, Value> {
     let completed = matches!(result, Ok(Turn::Over(0)));
     let ((time, steps), clock) = (side.reached(), side.clock());
+    let counters = side.past().exchanged(counters);
     let mut coupling = json!({
         "exchanges": counters.received,
         "bytes": counters.bytes,
@@ -202,6 +240,7 @@ fn progress_part<S: Side>(
         "seconds_computing": clock.computing.as_secs_f64(),
         "seconds_adapting": clock.adapting.as_secs_f64(),
         "seconds_recording": clock.recording.as_secs_f64(),
+        "seconds_checkpointing": clock.checkpointing.as_secs_f64(),
         "seconds_waited": counters.waited.as_secs_f64(),
         "seconds_exchanging": counters.exchanging.as_secs_f64(),
     });
@@ -209,7 +248,7 @@ fn progress_part<S: Side>(
     part.insert("completed".to_owned(), json!(completed));
     part.insert("t_end".to_owned(), json!(time));
     part.insert("steps".to_owned(), json!(steps));
-    part.insert("wall_seconds".to_owned(), json!(begin.elapsed().as_secs_f64()));
+    part.insert("wall_seconds".to_owned(), json!(side.past().wall().as_secs_f64()));
     part.insert("coupling".to_owned(), coupling);
     if let Err(error) = result {
         part.insert("error".to_owned(), json!(error.to_string()));

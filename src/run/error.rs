@@ -58,6 +58,17 @@ pub enum RunError {
         /// The exit code to pass on.
         code: u8,
     },
+    /// A run cannot be taken up again.
+    #[error("cannot go on with the run in {}: {reason}", path.display())]
+    Resume {
+        /// Its directory, or the file in question.
+        path: std::path::PathBuf,
+        /// Why not, and what helps.
+        reason: String,
+    },
+    /// A checkpoint does not belong to what the case makes.
+    #[error("the checkpoint does not fit the case: {0}; run the case anew in another directory")]
+    Misfit(#[from] mesh::Misfit),
     /// Output could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -81,7 +92,11 @@ impl RunError {
     /// The process's exit code, see `docs/command-line.md`.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Directory(_) | Self::NoPeer { .. } => 2,
+            Self::Case(_)
+            | Self::Directory(_)
+            | Self::NoPeer { .. }
+            | Self::Resume { .. }
+            | Self::Misfit(_) => 2,
             Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
             Self::Coupler(_) | Self::Start { .. } => 4,
@@ -99,7 +114,12 @@ impl RunError {
             Self::Output(_) | Self::Directory(_) => Fault::Output,
             Self::Coupler(_) => Fault::Protocol,
             Self::Interrupted | Self::Terminated => Fault::Stopped,
-            Self::Case(_) | Self::NoPeer { .. } | Self::Child { .. } | Self::Start { .. } => Fault::Other,
+            Self::Case(_)
+            | Self::NoPeer { .. }
+            | Self::Resume { .. }
+            | Self::Misfit(_)
+            | Self::Child { .. }
+            | Self::Start { .. } => Fault::Other,
         }
     }
 }

@@ -1,14 +1,16 @@
 //! What the fluid's side writes: snapshots, histories, its part of the summary.
 
 use fluid::{Bubble, BubbleCuts, FluidSolver};
-use mesh::{BLOCK, Geometry, Side};
+use mesh::{BLOCK, Geometry, Misfit, Side};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
+use super::RunError;
 use super::collapse::CollapseFinder;
-use super::interface_history::InterfaceHistory;
+use super::interface_history::{InterfaceHistory, InterfaceState};
 use super::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
 use super::schedule::Plan;
-use super::side_files::{SideFiles, SideNames};
+use super::side_files::{FilesState, SideFiles, SideNames};
 use super::wall_faces::WallFaces;
 use crate::case::{Case, FLUID_FIELDS, Medium};
 use crate::output::run_directory::{FLUID_FIELDS as FIELDS_FILE, FLUID_HISTORY};
@@ -37,12 +39,28 @@ pub struct FluidRecord {
 }
 
 /// Largest values so far, with their times.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Peaks {
     wall: [f64; 2],
     wall_anywhere: [f64; 2],
     wall_interface: [f64; 2],
     jet: [f64; 2],
+}
+
+/// What of a record changes in time, and what hangs on the state at t = 0.
+#[derive(Serialize, Deserialize)]
+pub struct FluidRecordState {
+    files: FilesState,
+    interface: Option<InterfaceState>,
+    ticker: Ticker,
+    wall_pressures: Vec<f64>,
+    cells: CellCount,
+    collapse: CollapseFinder,
+    peaks: Peaks,
+    last_bubble: Bubble,
+    largest_thin_volume: f64,
+    collapse_energy: f64,
+    cuts: BubbleCuts,
 }
 
 impl FluidRecord {
@@ -53,14 +71,98 @@ impl FluidRecord {
         directory: Option<&RunDirectory>,
         solver: &FluidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
+        let mut record = Self::on(case, SideFiles::create(case, directory, names())?, solver)?;
+        record.cells.see(solver.mesh().cells());
+        record.write(solver, 0.0)?;
+        record.snapshot(solver)?;
+        record.files.history.flush()?;
+        Ok(record)
+    }
+
+    /// Takes up the files of a run, and what was kept of its record; what was written since is forgotten.
+    pub fn resume(
+        case: &Case,
+        directory: &RunDirectory,
+        solver: &FluidSolver<BLOCK>,
+        saved: FluidRecordState,
+    ) -> Result<Self, RunError> {
+        let files = SideFiles::resume(case, directory, names(), &saved.files)?;
+        let mut record = Self::on(case, files, solver)?;
+        let FluidRecordState {
+            files,
+            interface,
+            ticker,
+            wall_pressures,
+            cells,
+            collapse,
+            peaks,
+            last_bubble,
+            largest_thin_volume,
+            collapse_energy,
+            cuts,
+        } = saved;
+        match (&mut record.interface, interface) {
+            (Some(own), Some(saved)) => own.restore(saved, &record.faces, &mut record.files.history)?,
+            (None, None) => {}
+            _ => return Err(Misfit("only one of both has a history of the interface".to_owned()).into()),
+        }
+        record.ticker = ticker;
+        record.wall_pressures = wall_pressures;
+        record.cells = cells;
+        record.collapse = collapse;
+        record.peaks = peaks;
+        record.last_bubble = last_bubble;
+        record.largest_thin_volume = largest_thin_volume;
+        record.collapse_energy = collapse_energy;
+        record.cuts = cuts;
+        record.files.forget_rows(&files)?;
+        Ok(record)
+    }
+
+    /// What has to be kept of it.
+    pub fn saved(&self) -> FluidRecordState {
+        // Field by field, so that a new one cannot be forgotten here.
+        let Self {
+            files,
+            steps: _,
+            bubbles: _,
+            interface,
+            conservation: _,
+            ticker,
+            probes: _,
+            faces: _,
+            wall_pressures,
+            cells,
+            collapse,
+            peaks,
+            last_bubble,
+            largest_thin_volume,
+            collapse_energy,
+            cuts,
+        } = self;
+        FluidRecordState {
+            files: files.saved(),
+            interface: interface.as_ref().map(InterfaceHistory::saved),
+            ticker: *ticker,
+            wall_pressures: wall_pressures.clone(),
+            cells: *cells,
+            collapse: collapse.clone(),
+            peaks: *peaks,
+            last_bubble: *last_bubble,
+            largest_thin_volume: *largest_thin_volume,
+            collapse_energy: *collapse_energy,
+            cuts: cuts.clone(),
+        }
+    }
+
+    /// Brings everything so far to the disk.
+    pub fn settle(&mut self) -> Result<(), OutputError> {
+        self.files.settle()
+    }
+
+    /// A record in these files of a fluid as it is, with nothing written.
+    fn on(case: &Case, mut files: SideFiles, solver: &FluidSolver<BLOCK>) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
-        let names = SideNames {
-            history: FLUID_HISTORY,
-            snapshots: FIELDS_FILE,
-            fields: FLUID_FIELDS.to_vec(),
-            spec: field_spec,
-        };
-        let mut files = SideFiles::create(case, directory, names)?;
         let history = &mut files.history;
         let cuts = case.fluid.as_ref().map(|fluid| BubbleCuts::of(&fluid.initial)).unwrap_or_default();
         let steps = history.add_series("", &STEP_COLUMNS)?;
@@ -83,7 +185,7 @@ impl FluidRecord {
         let conservation = history.add_series("/conservation/fluid", &CONSERVATION_COLUMNS)?;
         let interface_z = case.solid.as_ref().map(|_| mesh.domain().z[0]);
         let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, history)?;
-        let mut record = Self {
+        Ok(Self {
             files,
             steps,
             interface,
@@ -103,12 +205,7 @@ impl FluidRecord {
             }),
             cuts,
             bubbles,
-        };
-        record.cells.see(mesh.cells());
-        record.write(solver, 0.0)?;
-        record.snapshot(solver)?;
-        record.files.history.flush()?;
-        Ok(record)
+        })
     }
 
     /// The histories.
@@ -391,6 +488,15 @@ const PROBE_COLUMNS: [Column<'static>; 6] = [
     column("velocity_r", "m/s", "radial velocity"),
     column("gas_fraction", "1", "gas fraction"),
 ];
+
+fn names() -> SideNames {
+    SideNames {
+        history: FLUID_HISTORY,
+        snapshots: FIELDS_FILE,
+        fields: FLUID_FIELDS.to_vec(),
+        spec: field_spec,
+    }
+}
 
 fn field_spec(name: &'static str) -> FieldSpec<'static> {
     let spec =

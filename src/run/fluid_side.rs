@@ -8,17 +8,19 @@
 use std::time::{Duration, Instant};
 
 use coupler::{
-    CommonRefinement, FluidTrace, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow,
-    Scheme, StarSolver, TraceRow, WallRegister,
+    CommonRefinement, FluidTrace, FrameHeader, FrameKind, Kappa, KappaFactor, Link, LinkCounters, Meeting,
+    RegisterRow, Scheme, StarSolver, TraceRow, WallRegister,
 };
 use fluid::{FluidSolver, WallState};
-use mesh::{BLOCK, GroupStep};
+use mesh::{BLOCK, GroupStep, Misfit};
 use serde_json::{Map, Value};
 
 use super::RunError;
+use super::checkpoints::Keeper;
 use super::drive::Side;
 use super::fluid_record::FluidRecord;
 use super::medium::{self, StepRule};
+use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
 use super::setup::fluid_solver;
 use super::stop::Stop;
@@ -26,6 +28,8 @@ use super::timed::{Clock, Timed};
 use crate::case::{Case, FluidCase, Medium};
 use crate::output::run_directory::FLUID_SUMMARY;
 use crate::output::{ProgressLine, RunDirectory};
+
+pub mod saved;
 
 /// What a turn came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +73,12 @@ pub struct FluidSide {
     smallest_step: f64,
     last_dt: f64,
     clock: Clock,
+    keeper: Option<Keeper>,
+    /// Whether the frame that this turn ends with asks the solid for its part of a checkpoint.
+    tells_of_checkpoint: bool,
+    /// Whether the solid's first word is about going on.
+    is_resumed: bool,
+    past: Past,
 }
 
 /// A step shorter than this share of the run means that the solution has gone bad.
@@ -106,7 +116,16 @@ impl FluidSide {
             smallest_step: SMALLEST_SHARE * case.time.end,
             last_dt: 0.0,
             clock: Clock::default(),
+            keeper: None,
+            tells_of_checkpoint: false,
+            is_resumed: false,
+            past: Past::after(Done::default()),
         }
+    }
+
+    /// Keeps checkpoints from now on.
+    pub fn keep_with(&mut self, keeper: Keeper) {
+        self.keeper = Some(keeper);
     }
 
     /// The solver.
@@ -143,6 +162,17 @@ impl FluidSide {
                 let timed = Timed::new(&mut self.clock);
                 medium::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))
             }
+            None if self.is_resumed => {
+                let word = self.take_answer(link)?;
+                self.is_resumed = false;
+                self.past.leave_out(link.counters());
+                let time = self.solver.time();
+                if (word.time - time).abs() > 1e-9 * time {
+                    let what = format!("the fluid is at t = {time:e} s, the solid at {:e} s", word.time);
+                    return Err(Misfit(what).into());
+                }
+                Ok(())
+            }
             None => {
                 self.answer = self.take_answer(link)?;
                 Ok(())
@@ -155,9 +185,12 @@ impl FluidSide {
     pub fn begin(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         let stopped =
             self.answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
-        if stopped != 0 || self.schedule.is_over() {
-            let header =
-                FrameHeader { flags: stopped | FrameHeader::LAST, ..self.header(FrameKind::Trace, 0, 0.0) };
+        let is_over = stopped != 0 || self.schedule.is_over();
+        let is_due = stopped != 0 || !is_over && self.keeper.as_ref().is_some_and(Keeper::is_due);
+        self.tells_of_checkpoint = is_due && self.solver.steps() > 0 && self.keep(link.counters())?;
+        if is_over {
+            let mut header = self.header(FrameKind::Trace, 0, 0.0);
+            header.flags |= stopped | FrameHeader::LAST;
             link.send(header, |_| {})?;
             return Ok(Turn::Over(stopped));
         }
@@ -180,6 +213,7 @@ impl FluidSide {
         } else {
             self.ask_for_trace(link, plan)?
         }
+        self.tells_of_checkpoint = false;
         Ok(Turn::Continues)
     }
 
@@ -267,11 +301,12 @@ impl FluidSide {
     /// Reads the solid's register frame in place.
     fn take_answer(&mut self, link: &mut impl Link) -> Result<FrameHeader, RunError> {
         let faces = self.solver.wall_faces();
+        let is_first_word = self.solver.steps() == 0 || self.is_resumed;
         let (scheme, solver, received) = (self.scheme, &mut self.solver, &mut self.received);
         let header = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
-            if frame.header.count == 0 && solver.steps() == 0 {
-                // The first word, before the solid knows of any faces: it is at rest.
+            if frame.header.count == 0 && is_first_word {
+                // The first word, before the solid knows of any faces: it is at rest, or where it was.
                 return Ok(*frame.header);
             }
             frame.require_shape(RegisterRow::COUNT, faces)?;
@@ -349,6 +384,7 @@ impl FluidSide {
             time: self.solver.time(),
             dt,
             count: count as u64,
+            flags: if self.tells_of_checkpoint { FrameHeader::CHECKPOINT } else { 0 },
             ..FrameHeader::new(kind)
         }
     }
@@ -398,6 +434,17 @@ impl Side for FluidSide {
 
     fn clock(&self) -> Clock {
         self.clock
+    }
+
+    fn past(&self) -> &Past {
+        &self.past
+    }
+
+    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError> {
+        if is_stopped || self.keeper.as_ref().is_some_and(Keeper::is_due) {
+            self.keep(LinkCounters::default())?;
+        }
+        Ok(())
     }
 
     fn line(&self) -> ProgressLine {

@@ -1,6 +1,7 @@
 //! What both sides' records have in common.
 
 use mesh::{BLOCK, Mesh};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::case::{Case, Probe};
@@ -31,7 +32,7 @@ pub fn cell_geometry(mesh: &Mesh<BLOCK>) -> OwnedQuadMesh {
 }
 
 /// How many cells there were.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct CellCount {
     last: usize,
     largest: usize,
@@ -59,7 +60,7 @@ impl CellCount {
 }
 
 /// Events at fixed intervals of simulated time, at the first step at or after each.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Ticker {
     every: f64,
     next: f64,
