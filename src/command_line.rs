@@ -227,7 +227,7 @@ fn side(args: &SideArgs, participant: Participant) -> Result<(), RunError> {
     if args.child {
         stop.watch_launcher();
     }
-    let joining = Joining { run_id: args.run.clone(), participant };
+    let joining = Joining { run_id: args.run.clone(), participant, notice: None };
     let log = |directory: &Path| log_to(directory, options.verbosity, !args.child);
     run_side(&case, &options, joining, args.child, &stop, log)
 }

@@ -50,7 +50,7 @@ pub struct BackgroundWriter {
 #[derive(Debug)]
 enum Job {
     Write(Snapshot),
-    /// Nothing: whoever hands this over knows then that all before is written.
+    /// Whoever hands this over knows then that all before is written, and counts on it.
     Meet,
 }
 
@@ -81,7 +81,7 @@ impl BackgroundWriter {
         self.hand_over(Job::Write(snapshot))
     }
 
-    /// Waits until all snapshots so far are in the file.
+    /// Waits until all snapshots so far are in the file: a checkpoint counts on them.
     ///
     /// - errors: what went wrong with one of them.
     pub fn catch_up(&mut self) -> Result<(), OutputError> {
@@ -140,9 +140,12 @@ impl Drop for BackgroundWriter {
 /// Writes what comes until nothing more can come.
 fn write_all(mut writer: SeriesWriter, jobs: &Receiver<Job>) -> Result<(), OutputError> {
     for job in jobs {
-        let Job::Write(snapshot) = job else { continue };
+        let Job::Write(snapshot) = job else {
+            writer.count_on_it();
+            continue;
+        };
         let values: Vec<&[f64]> = snapshot.values.iter().map(Vec::as_slice).collect();
         writer.append(snapshot.time, &snapshot.mesh.view(), snapshot.mesh_id, &values)?;
     }
-    Ok(())
+    writer.finish()
 }

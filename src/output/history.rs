@@ -99,7 +99,7 @@ struct StaticArray {
 impl HistoryFile {
     /// Makes the file, empty but for `attributes` (name, value) of its root. An existing one is replaced.
     pub fn create(path: &Path, attributes: &[(&str, &str)]) -> Result<Self, OutputError> {
-        safe_file::replace(path, |temporary| {
+        safe_file::replace_hdf5(path, safe_file::HDF5_OVERHEAD, |temporary| {
             let make = || -> hdf5::Result<()> {
                 let file = File::create(temporary)?;
                 set_texts(&file, attributes)?;
@@ -263,7 +263,7 @@ impl HistoryFile {
             return Ok(());
         }
         let start = Instant::now();
-        safe_file::update(&self.path, u64::MAX, |copy| {
+        safe_file::update_hdf5(&self.path, self.room(), |copy| {
             // The library serves one thread at a time. As one turn the batch waits once for a thread that compresses
             // snapshots, not at each of its calls.
             hdf5::sync::sync(|| self.write_batch(copy))
@@ -280,6 +280,17 @@ impl HistoryFile {
         self.last_cost = start.elapsed();
         tracing::debug!(seconds = self.last_cost.as_secs_f64(), "wrote a batch of histories");
         Ok(())
+    }
+
+    /// What a batch may take at most, bytes: numbers, and a chunk that is begun for each column.
+    fn room(&self) -> u64 {
+        let number = size_of::<f64>();
+        let of_series = |series: &Series| {
+            number * (series.buffer.len() + 2 * series.columns.len() * CHUNK_VALUES.max(series.width))
+        };
+        let arrays: usize = self.arrays.iter().map(|array| number * array.values.len()).sum();
+        let numbers = arrays + self.series.iter().map(of_series).sum::<usize>();
+        safe_file::HDF5_OVERHEAD + numbers as u64
     }
 
     fn write_batch(&self, copy: &Path) -> hdf5::Result<()> {

@@ -182,7 +182,7 @@ fn delete_run(path: &Path) -> Result<(), OutputError> {
     remove_checkpoints(path)?;
     // The summary last: if this is interrupted, what is left is still known as a run's.
     for name in FILES.iter().filter(|name| **name != SUMMARY).chain([&SUMMARY]) {
-        for suffix in [safe_file::TEMPORARY_SUFFIX, ""] {
+        for suffix in safe_file::SUFFIXES.into_iter().chain([""]) {
             remove_if_there(&path.join(format!("{name}{suffix}")), "delete the earlier run's file")?;
         }
     }

@@ -65,7 +65,12 @@ impl Checkpoints {
     /// Writes a side's part; with the last part of it, forgets older checkpoints.
     pub fn write(&self, side: Participant, step: u64, state: &impl Serialize) -> Result<(), OutputError> {
         let start = Instant::now();
-        fs::create_dir_all(&self.directory).map_err(OutputError::io(&self.directory, "make"))?;
+        match fs::create_dir(&self.directory) {
+            Err(error) if error.kind() != std::io::ErrorKind::AlreadyExists => {
+                return Err(OutputError::io(&self.directory, "make")(error));
+            }
+            _ => {}
+        }
         let path = self.path(side, step);
         let program = format!("{} {}", env!("CARGO_PKG_VERSION"), env!("CAV_GIT_REVISION"));
         let head = Head { program, case: self.case, side: side.name().to_owned(), step };
@@ -75,7 +80,7 @@ impl Checkpoints {
         if self.sides.last() == Some(&side) {
             let whole = self.whole()?;
             if let Some(oldest) = whole.iter().rev().nth(KEPT - 1) {
-                self.forget(|step| step < *oldest)?;
+                self.forget(|side, step| side.is_some() && step < *oldest)?;
             }
         }
         Ok(())
@@ -117,7 +122,7 @@ impl Checkpoints {
             );
             return Err(RunError::Resume { path: self.directory.clone(), reason });
         }
-        self.forget(|step| found.is_none_or(|found| step > found))?;
+        self.forget(|side, step| side.is_none() || found.is_none_or(|found| step > found))?;
         Ok(found)
     }
 
@@ -166,10 +171,10 @@ impl Checkpoints {
         Ok(parts.into_iter().filter(|(_, count)| *count == self.sides.len()).map(|(step, _)| step).collect())
     }
 
-    /// Removes the parts of some steps, and what has been left in the making.
-    fn forget(&self, is_old: impl Fn(u64) -> bool) -> Result<(), OutputError> {
+    /// Removes some files, by their side, if they are whole, and their step.
+    fn forget(&self, is_old: impl Fn(Option<Participant>, u64) -> bool) -> Result<(), OutputError> {
         for (side, step, path) in self.parts()? {
-            if side.is_none() || is_old(step) {
+            if is_old(side, step) {
                 fs::remove_file(&path).map_err(OutputError::io(&path, "remove"))?;
             }
         }

@@ -96,6 +96,8 @@ pub struct Joining {
     pub run_id: String,
     /// Which side.
     pub participant: Participant,
+    /// Told what the user should know while this side waits.
+    pub notice: Option<coupler::Notice>,
 }
 
 /// One side of a run in two processes: connects, makes its part of every step, ends.
@@ -116,6 +118,7 @@ pub fn joined(
     let mut endpoint = Endpoint::new(joining.run_id, joining.participant, case.hash());
     endpoint.connect_timeout = Duration::from_secs_f64(case.coupling.connect_timeout);
     endpoint.patience = Duration::from_secs_f64(case.coupling.patience);
+    endpoint.notice = joining.notice;
     endpoint.interrupt = Some(stop.hook(Arc::clone(&connected)));
     let mut link = match ProcessLink::connect(endpoint) {
         // A request to stop that came while waiting is no failure of the coupling.

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use coupler::{Participant, clean_up_dead};
 use rustix::process::{Pid, Signal, kill_process};
+use serde_json::Map;
 
 use super::checkpoints::Checkpoints;
 use super::conclusion::{closing_words, conclude};
@@ -103,7 +104,15 @@ pub(super) fn carry_out(
         let mut on_step = |line: &ProgressLine| progress.update(line);
         threads.install(|| in_process(case, directory, options.keeping(), stop, &mut on_step))
     };
-    let whole = conclude(directory)?;
+    let whole = match (conclude(directory), &result) {
+        (Ok(whole), _) => whole,
+        (Err(error), Ok(())) => return Err(error),
+        (Err(error), Err(_)) => {
+            // What went wrong first says more.
+            tracing::warn!("{error}");
+            Map::new()
+        }
+    };
     match &result {
         Ok(()) => {
             let words = closing_words(&whole, directory.path());
@@ -255,6 +264,9 @@ fn start(
     if let Some(name) = &options.name {
         command.args(["--name", name]);
     }
+    if options.quiet {
+        command.arg("-q");
+    }
     command.args((0..options.verbosity).map(|_| "-v"));
     // A group of its own: Ctrl-C reaches the launcher alone, which passes it on.
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
@@ -358,15 +370,23 @@ pub fn run_side(
     };
     let mut progress = Progress::new(case.time.end, options.quiet || child || !leads, options.verbosity);
     let mut throttle = crate::output::progress::Throttle::new(Duration::from_millis(100));
+    let participant = joining.participant;
     let mut on_step = |line: &ProgressLine| {
-        if child && joining.participant == Participant::Fluid && throttle.is_due() {
+        if child && participant == Participant::Fluid && throttle.is_due() {
             announce(line);
         }
         progress.update(line);
     };
     let threads = thread_pool(options.threads)?;
     let result = threads.install(|| {
-        let joining = drive::Joining { run_id: joining.run_id.clone(), participant: joining.participant };
+        let quiet = options.quiet;
+        let notice: coupler::Notice = Box::new(move |words| {
+            tracing::warn!("{words}");
+            if !quiet {
+                eprintln!("{words}");
+            }
+        });
+        let joining = drive::Joining { notice: Some(notice), ..joining };
         drive::joined(case, joining, directory, options.keeping(), stop, &mut on_step)
     });
     if !child && path.exists() {

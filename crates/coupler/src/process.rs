@@ -7,12 +7,24 @@ use std::time::{Duration, Instant};
 use iceoryx2::config::Config;
 use iceoryx2::port::SendError;
 
-use crate::domain::{Domain, Presence, remove_dead};
+use crate::domain::{Domain, Presence, remove_dead, require_room};
 use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader, FrameKind};
 use crate::link::{Conversation, Link, LinkCounters, Participant, now_ns};
 use crate::ports::{Ports, failed, pid_of};
+use crate::silence::Silence;
 use crate::watch::{LINGER, PeerWatch, SLICE};
+
+/// What a participant's services take besides its frames, bytes.
+const ROOM_TO_BEGIN: u64 = 1 << 20;
+
+/// What frames of `len` numbers take at most, bytes: a few of them are there at once, and memory grows by doubling.
+fn room_for(len: usize) -> u64 {
+    8 * size_of::<f64>() as u64 * len as u64
+}
+
+/// Told what the user should know while a participant waits.
+pub type Notice = Box<dyn FnMut(&str) + Send>;
 
 /// Asked about ten times a second while a participant waits; its error ends the wait.
 pub type Interrupt = Box<dyn FnMut() -> Result<(), CouplerError> + Send>;
@@ -33,6 +45,8 @@ pub struct Endpoint {
     pub patience: Duration,
     /// Ends waits early, e.g. when the launcher is gone.
     pub interrupt: Option<Interrupt>,
+    /// Told when the peer is silent for long, and when it goes on.
+    pub notice: Option<Notice>,
     /// Where shared objects live; the default unless runs must not see each other at all.
     pub domain: Domain,
 }
@@ -48,6 +62,7 @@ impl Endpoint {
             connect_timeout: Duration::from_secs(10),
             patience: Duration::from_secs(600),
             interrupt: None,
+            notice: None,
             domain: Domain::default(),
         }
     }
@@ -65,6 +80,7 @@ pub struct ProcessLink {
     peer_pid: u32,
     patience: Duration,
     interrupt: Option<Interrupt>,
+    silence: Silence,
     /// Length of the longest frame sent.
     longest: Option<usize>,
     /// Frames in new memory that the peer has not confirmed.
@@ -99,6 +115,7 @@ impl ProcessLink {
             connect_timeout,
             patience,
             mut interrupt,
+            notice,
             domain,
         } = endpoint;
         check_run_id(&run_id)?;
@@ -108,6 +125,7 @@ impl ProcessLink {
         if removed > 0 {
             tracing::info!(removed, "cleared away participants that were killed");
         }
+        require_room(ROOM_TO_BEGIN + room_for(initial_len))?;
         let watch = Arc::new(PeerWatch::new(config.clone(), patience));
         let ports = Ports::open(&config, &run_id, name, initial_len, &watch)?;
 
@@ -142,6 +160,7 @@ impl ProcessLink {
             peer_pid,
             patience,
             interrupt,
+            silence: Silence::new(notice),
             longest: None,
             unread: 0,
             parted: false,
@@ -181,12 +200,15 @@ impl ProcessLink {
     }
 
     fn block(&mut self) -> Result<(), CouplerError> {
-        let start = Instant::now();
+        self.silence.begin();
         loop {
             if self.has_frame()? {
+                self.silence.end(self.talk.peer, self.peer_pid);
                 return Ok(());
             }
-            if !self.sleep() {
+            let is_quiet = self.sleep();
+            let waited = self.silence.grows(self.talk.peer, self.peer_pid, self.patience);
+            if !is_quiet {
                 continue;
             }
             ask(&mut self.interrupt)?;
@@ -194,12 +216,12 @@ impl ProcessLink {
                 // Its last frame may have come since the look above.
                 return if self.has_frame()? { Ok(()) } else { Err(self.lost()) };
             }
-            if start.elapsed() >= self.patience {
+            if waited >= self.patience {
                 return Err(CouplerError::PeerSilent {
                     peer: self.talk.peer,
                     pid: self.peer_pid,
                     step: self.talk.step,
-                    waited: start.elapsed(),
+                    waited,
                 });
             }
         }
@@ -242,6 +264,9 @@ impl Link for ProcessLink {
         let (mut header, len) = self.talk.stamp(header)?;
         let grown = self.longest.is_none_or(|longest| len > longest);
         header.flags |= if grown { FrameHeader::GROWN } else { 0 };
+        if grown {
+            require_room(room_for(len))?;
+        }
         let mut sample =
             self.ports.publisher.loan_slice(len).map_err(failed("taking shared memory for a frame"))?;
         fill(sample.payload_mut());

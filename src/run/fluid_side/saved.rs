@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::time::Instant;
 
-use coupler::{FrameHeader, KappaFactor, LinkCounters, Meeting, Participant};
+use coupler::{FrameHeader, KappaFactor, LinkCounters, Meeting, Participant, Scheme};
 use fluid::FluidState;
 use mesh::{BLOCK, Misfit};
 use serde::{Deserialize, Serialize};
@@ -101,14 +101,16 @@ impl FluidSide {
         let record =
             record.map(|record| FluidRecord::resume(case, directory, &solver, record)).transpose()?;
         let mut side = Self::with(case, solver, record);
-        if received.len() != side.received.len() {
-            return Err(Misfit(format!("{} velocities are not the wall's", received.len())).into());
+        if side.scheme == Scheme::Weak {
+            if received.len() != side.received.len() {
+                return Err(Misfit(format!("{} velocities are not the wall's", received.len())).into());
+            }
+            side.received = received.into_owned();
         }
         side.schedule.restore(schedule);
         side.meeting = Meeting::restored(floored);
         side.factor = factor;
         side.answer = answer;
-        side.received = received.into_owned();
         side.last_dt = last_dt;
         side.clock = clock;
         side.past = Past::after(done);

@@ -1,0 +1,18 @@
+//! Runs that survive: checkpoints, and what happens to runs.
+
+#![allow(clippy::unwrap_used)]
+
+#[path = "reliability/cases.rs"]
+mod cases;
+#[path = "reliability/compare.rs"]
+mod compare;
+#[path = "reliability/faults.rs"]
+mod faults;
+#[path = "reliability/going_on.rs"]
+mod going_on;
+#[path = "reliability/long.rs"]
+mod long;
+#[path = "reliability/processes.rs"]
+mod processes;
+#[path = "reliability/refused.rs"]
+mod refused;
