@@ -21,7 +21,7 @@ const LONGER: [&str; 8] = [
     "--set",
     "time.local_steps=true",
     "--set",
-    "time.end=3e-5",
+    "time.end=2e-5",
 ];
 
 /// Far longer than any test waits.
@@ -31,11 +31,13 @@ const ENDLESS: [&str; 4] = ["--set", "time.end=1e-2", "--set", "time.snapshot_ev
 #[test]
 fn what_happens_to_runs() {
     let _turn = alone();
-    in_other_processes_under_other_numbers_of_threads();
-    killed_at_any_time();
-    a_stopped_side_is_waited_for();
+    let workshop = Workshop::with(COUPLED);
+    workshop.done("whole", &[&LONGER[..], &["-q"]].concat());
+    in_other_processes_under_other_numbers_of_threads(&workshop);
+    killed_at_any_time(&workshop);
+    a_stopped_side_is_waited_for(&workshop);
     a_side_that_stays_stopped_is_given_up();
-    no_room_on_the_disk();
+    no_room_on_the_disk(&workshop);
     the_directory_is_removed();
     no_room_in_shared_memory();
     what_dead_runs_left_goes_and_what_living_ones_have_stays();
@@ -43,9 +45,7 @@ fn what_happens_to_runs() {
 }
 
 /// Interrupted again and again; each time it goes on otherwise.
-fn in_other_processes_under_other_numbers_of_threads() {
-    let workshop = Workshop::with(COUPLED);
-    workshop.done("whole", &[&LONGER[..], &["-q"]].concat());
+fn in_other_processes_under_other_numbers_of_threads(workshop: &Workshop) {
     let out = workshop.file("often");
     let mut interruptions = 0;
     for number in 0.. {
@@ -79,9 +79,7 @@ fn in_other_processes_under_other_numbers_of_threads() {
 }
 
 /// SIGKILL to either side and to the launcher.
-fn killed_at_any_time() {
-    let workshop = Workshop::with(COUPLED);
-    workshop.done("whole", &[&LONGER[..], &["-q"]].concat());
+fn killed_at_any_time(workshop: &Workshop) {
     let out = workshop.file("killed");
     let every = ["-q", "--checkpoint-every", "40ms"];
     let mut run = workshop.cav("killed", &[&LONGER[..], &every].concat()).spawn().unwrap();
@@ -121,9 +119,7 @@ pub fn victim_of(run: &mut Child, out: &Path, name: &str) -> Option<u32> {
     found
 }
 
-fn a_stopped_side_is_waited_for() {
-    let workshop = Workshop::with(COUPLED);
-    workshop.done("whole", &[&LONGER[..], &["-q"]].concat());
+fn a_stopped_side_is_waited_for(workshop: &Workshop) {
     for victim in ["fluid", "solid"] {
         let out = workshop.file(victim);
         let mut run =
@@ -163,8 +159,7 @@ fn a_side_that_stays_stopped_is_given_up() {
 }
 
 /// A limit on the length of files stands for a full disk: the system refuses to write more in the same way.
-fn no_room_on_the_disk() {
-    let workshop = Workshop::with(COUPLED);
+fn no_room_on_the_disk(workshop: &Workshop) {
     let out = workshop.file("full");
     let mut run =
         workshop.cav("full", &[&LONGER[..], &["-q", "--checkpoint-every", "40ms"]].concat()).spawn().unwrap();
@@ -189,7 +184,6 @@ fn no_room_on_the_disk() {
         text(&output)
     );
     assert_eq!(checkpoints(&out), before, "the checkpoints are as they were, and none is left in the making");
-    workshop.done("whole", &[&LONGER[..], &["-q"]].concat());
     let output = workshop.resume("full", &["-q"]).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     assert_same("full", &workshop.file("whole"), &out, true);
