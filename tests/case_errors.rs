@@ -205,7 +205,17 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("scheme = \"riemann\"", "kappa = \"printed\""), &["coupling.kappa", "only scheme = \"weak\""]),
     (Replace("scheme = \"riemann\"", "step_ratio = 17"), &["coupling.step_ratio", "17", "1 to 16"]),
     (Replace("scheme = \"riemann\"", "scheme = \"weak\"\nstep_ratio = 4"), &["coupling.step_ratio", "both sides make the same steps", "\"riemann\""]),
+    (Replace("scheme = \"riemann\"", "scheme = \"strong\"\nstep_ratio = 2"), &["coupling.step_ratio", "scheme = \"strong\" both sides make the same steps"]),
+    (Replace("scheme = \"riemann\"", "first = \"solid\""), &["coupling.first", "only scheme = \"weak\" or \"strong\" knows this key"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"strong\"\nfirst = \"slid\""), &["coupling.first", "did you mean `solid`?"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"strong\"\ntolerance = 1.0\nmax_iterations = 0"), &["coupling.tolerance: must be above 0 and below 1, got 1.0", "coupling.max_iterations", "1 to 10000"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"explicit\"\ntolerance = 1e-3\nmax_iterations = 3"), &["coupling.tolerance: only scheme = \"strong\"", "coupling.max_iterations: only scheme = \"strong\""]),
     (Replace("scheme = \"riemann\"", "patience = -1"), &["coupling.patience: must be positive"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"load\""), &["coupling.scheme", "for a solid alone", "remove [fluid]", "needs a load", "[coupling.load]"]),
+    (Append("[coupling.load]\namplitude = 1e6\nradius = 1e-3\nhistory = [[0.0, 1.0]]"), &["coupling.load: only scheme = \"load\" has a load", "remove it"]),
+    (Sets(&["coupling.scheme=load", "coupling.load={ amplitude = \"x\", radius = -1, histroy = [] }"]), &["coupling.load.amplitude: must be a number", "in Pa", "coupling.load.radius: must be positive, got -1.0", "in m", "unknown key `histroy`", "did you mean `history`?", "`history = [[t, value], ...]` in s and 1"]),
+    (Sets(&["coupling.scheme=load", "coupling.load={ amplitude = 1, radius = 1, history = [[1, 0], [0, 1]] }"]), &["coupling.load.history: times must ascend"]),
+    (Whole("[time]\nend = 1\n[coupling]\nscheme = \"load\""), &["scheme = \"load\" needs a [solid]", "write [solid]", "needs a load"]),
     (Whole("[time]\nend = 1\n[coupling]\nscheme = \"none\""), &["neither a [fluid] nor a [solid]", "write one"]),
     (Whole("[time]\nend = 1\n[coupling]\nscheme = \"rigid\""), &["scheme = \"rigid\" needs a [fluid]", "write [fluid]"]),
     (Whole("[time]\nend = 1\n[fluid]"), &["there is no [solid]", "\"rigid\"", "fluid.liquid: `liquid` is missing", "fluid.ambient", "fluid.cells"]),
@@ -441,6 +451,24 @@ fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
 }
 
 #[test]
+fn a_load_on_a_solid_alone_survives_being_written_out() {
+    let text = "[time]\nend = 1e-6\n[solid]\nz = [-0.01, 0]\nr = [0, 0.01]\ncells = [16, 16]\nmaterial = \"copper\"\n\
+        [coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = -2e6\nradius = 1e-3\n\
+        history = [[0, 0], [1e-7, 1.5]]\n[[probe]]\nname = \"s\"\nposition = [0, 0]\nmedium = \"solid\"\n";
+    let case = Case::from_toml(text, "load", &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    round_trip(&case);
+    let load = case.coupling.load.as_ref().expect("the load");
+    assert_eq!((load.amplitude, load.radius, load.history.len()), (-2e6, 1e-3, 2));
+    let solid = case.solid.as_ref().expect("the solid");
+    // Thresholds are relative to the largest pressure of the history.
+    assert_eq!(solid.scale_stress, 3e6);
+    assert_eq!(solid.boundary[1], solid::Boundary::Interface);
+    let stronger =
+        Case::from_toml(text, "load", &["coupling.load.amplitude=3e6".to_owned()]).expect("a case");
+    assert_ne!(stronger.hash(), case.hash());
+}
+
+#[test]
 fn sides_that_are_not_named_have_what_the_scheme_means() {
     use fluid::Boundary::{Axis, Interface, NonReflecting, Wall};
     let fluid_sides = |case: &Case| case.fluid.as_ref().map(|fluid| fluid.boundary);
@@ -507,6 +535,12 @@ fn the_hash_ignores_form_and_output_and_nothing_else() {
         "solid.initial_stress=hydrostatic",
         "solid.boundary.z_min=fixed",
         "coupling.scheme=weak",
+        "coupling={ scheme = \"weak\", first = \"solid\" }",
+        "coupling.scheme=explicit",
+        "coupling.scheme=strong",
+        "coupling={ scheme = \"strong\", first = \"solid\" }",
+        "coupling={ scheme = \"strong\", tolerance = 1e-3 }",
+        "coupling={ scheme = \"strong\", max_iterations = 7 }",
         "coupling.star=acoustic",
         "probe.0.position=[0.001, 0.0]",
     ] {

@@ -150,7 +150,7 @@ const BAD: &[(Edit, &[&str])] = &[
     (Append("[solid.material]\ndensity = 7800\nc1 = 5990\nc2 = 3458"), &["material"]),
     (Replace("\"structural-steel\"", "{ density = 7800, c1 = 5990, c2 = 3458, young = 2e11, poisson = 0.3 }"), &["solid.material", "exactly one pair"]),
     // Choices by name.
-    (Replace("scheme = \"riemann\"", "scheme = \"strong\""), &["coupling.scheme", "`strong`", "`riemann`", "`weak`"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"monolithic\""), &["coupling.scheme", "`monolithic`", "`riemann`", "`strong`"]),
     (Replace("[fluid.liquid]", "riemann = \"roe\"\n[fluid.liquid]"), &["fluid.riemann", "`roe`", "`hllc`"]),
     (Replace("[fluid.liquid]", "model = \"baer-nunziato\"\n[fluid.liquid]"), &["fluid.model", "`baer-nunziato`", "`saurel-abgrall`"]),
     (Replace("[fluid.liquid]", "limiter = \"minmood\"\n[fluid.liquid]"), &["fluid.limiter", "did you mean `minmod`?"]),

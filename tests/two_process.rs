@@ -200,7 +200,11 @@ fn same_numbers_in_one_process_and_in_two() {
         &local[..],
     ]
     .concat();
-    for scheme in [&[][..], &weak, &common, &local, &soft] {
+    let explicit = ["--set", "coupling.scheme=explicit"];
+    let strong = ["--set", "coupling.scheme=strong"];
+    let strong_solid = ["--set", "coupling.scheme=strong", "--set", "coupling.first=solid"];
+    let schemes = [&[][..], &weak, &explicit, &strong, &strong_solid, &common, &local, &soft];
+    for scheme in schemes {
         for (name, flags) in runs {
             let output = workshop.run(name, &[flags, scheme, &["--force", "-q"]].concat());
             assert!(output.status.success(), "{name}: {}", text(&output));

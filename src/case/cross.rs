@@ -13,8 +13,8 @@ const SAME: f64 = 1e-12;
 /// The scheme says which media there must be.
 pub(super) fn media(scheme: &Given<Scheme>, has_fluid: bool, has_solid: bool, faults: &mut Faults) {
     match scheme.value {
-        Scheme::Riemann | Scheme::Weak => {
-            let name = if scheme.value == Scheme::Weak { "weak" } else { "riemann" };
+        Scheme::Riemann | Scheme::Explicit | Scheme::Weak | Scheme::Strong => {
+            let name = scheme.value.name();
             for (here, table) in [(has_fluid, "fluid"), (has_solid, "solid")] {
                 if !here {
                     let message = format!("scheme = \"{name}\" couples two media, but there is no [{table}]");
@@ -30,6 +30,19 @@ pub(super) fn media(scheme: &Given<Scheme>, has_fluid: bool, has_solid: bool, fa
             if !has_fluid {
                 let help = "write [fluid], or take scheme = \"none\" for a solid alone";
                 faults.of(scheme, "scheme = \"rigid\" needs a [fluid]", help);
+            }
+        }
+        Scheme::Load => {
+            if has_fluid {
+                let help = "remove [fluid], or couple it with scheme = \"riemann\"";
+                faults.of(scheme, "scheme = \"load\" is for a solid alone, but there is a [fluid]", help);
+            }
+            if !has_solid {
+                faults.of(
+                    scheme,
+                    "scheme = \"load\" needs a [solid]",
+                    "write [solid], or take another scheme",
+                );
             }
         }
         Scheme::None => match (has_fluid, has_solid) {

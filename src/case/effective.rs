@@ -62,9 +62,22 @@ impl Case {
         text.name("star", &coupler::StarSolver::NAMES, self.coupling.star);
         text.name("kappa", &coupler::Kappa::NAMES, self.coupling.kappa);
         text.key("step_ratio", self.coupling.step_ratio);
+        if matches!(self.coupling.scheme, Scheme::Weak | Scheme::Strong) {
+            text.name("first", &coupler::Participant::NAMES, self.coupling.first);
+        }
+        if self.coupling.scheme == Scheme::Strong {
+            text.number("tolerance", self.coupling.tolerance);
+            text.key("max_iterations", self.coupling.max_iterations);
+        }
         if waiting {
             text.number("connect_timeout", self.coupling.connect_timeout);
             text.number("patience", self.coupling.patience);
+        }
+        if let Some(load) = &self.coupling.load {
+            text.head("[coupling.load]");
+            text.number("amplitude", load.amplitude);
+            text.number("radius", load.radius);
+            text.rows("history", &load.history);
         }
         for probe in &self.probes {
             text.head("[[probe]]");
@@ -131,8 +144,7 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     write_sides(text, fluid.boundary, &fluid::Boundary::NAMES, first);
     if let Some(inflow) = &fluid.inflow {
         text.head("[fluid.inflow]");
-        let rows: Vec<String> = inflow.pressure.iter().map(|[t, p]| format!("[{t:?}, {p:?}]")).collect();
-        text.key("pressure", format!("[{}]", rows.join(", ")));
+        text.rows("pressure", &inflow.pressure);
     }
 }
 
@@ -239,6 +251,11 @@ impl Lines {
 
     fn list(&mut self, key: &str, values: &[f64]) {
         self.key(key, format_args!("{values:?}"));
+    }
+
+    fn rows(&mut self, key: &str, rows: &[[f64; 2]]) {
+        let rows: Vec<String> = rows.iter().map(|[t, value]| format!("[{t:?}, {value:?}]")).collect();
+        self.key(key, format!("[{}]", rows.join(", ")));
     }
 
     fn name<T: Copy + PartialEq>(&mut self, key: &str, names: &[(&'static str, T)], value: T) {

@@ -8,6 +8,7 @@ mod format;
 mod initial_pressure;
 mod read;
 mod read_adaptation;
+mod read_coupling;
 mod read_fluid;
 mod read_grid;
 mod read_solid;
@@ -18,7 +19,7 @@ mod warnings;
 
 use std::path::{Path, PathBuf};
 
-use coupler::{Kappa, Scheme, StarSolver};
+use coupler::{Kappa, Participant, Scheme, StarSolver};
 use fluid::{InitialCondition, Model, PhaseState, RiemannSolver, Sharpening, StiffenedGas};
 use mesh::{Adaptation, Geometry, Limiter, Side};
 use solid::{InitialStress, Material, PotentialPulse};
@@ -222,10 +223,29 @@ pub struct CouplingCase {
     pub kappa: Kappa,
     /// The most steps that one side makes within one of the other; 1: both make the same.
     pub step_ratio: u32,
+    /// Who makes the step first in the weak and the strong scheme.
+    pub first: Participant,
+    /// When the strong scheme's iteration ends: the largest change of what crosses the interface, as a share of it.
+    pub tolerance: f64,
+    /// Its most iterations a step.
+    pub max_iterations: u32,
+    /// What presses on a solid without a fluid; present if the scheme is [`Scheme::Load`].
+    pub load: Option<LoadCase>,
     /// How long a side waits for the other to appear, s.
     pub connect_timeout: f64,
     /// How long a side waits for the other within a step, s.
     pub patience: f64,
+}
+
+/// `[coupling.load]`: the pressure A exp(−r²/b²) f(t) on the surface of a solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadCase {
+    /// A, Pa.
+    pub amplitude: f64,
+    /// b, m.
+    pub radius: f64,
+    /// Times (s, ascending) and factors f, linear in between, constant before and after.
+    pub history: Vec<[f64; 2]>,
 }
 
 /// One of the two media.

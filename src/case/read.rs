@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use coupler::{Kappa, Scheme, StarSolver};
+use coupler::Scheme;
 use mesh::{Geometry, Side};
 use toml::Spanned;
 use toml::de::DeTable;
@@ -11,8 +11,8 @@ use super::error::{CaseError, suggest};
 use super::read_grid::MOST_CELLS;
 use super::reader::{Faults, Given, Table, array, pair};
 use super::{
-    Case, CouplingCase, FLUID_FIELDS, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index,
-    read_fluid, read_solid,
+    Case, FLUID_FIELDS, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index, read_coupling,
+    read_fluid, read_solid, scales,
 };
 
 /// More snapshots than this are a mistake.
@@ -53,7 +53,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         .choice("geometry", &Geometry::NAMES, &mut faults)
         .map_or(Geometry::Axisymmetric, |given| given.value);
     let time = time(&mut root, &mut faults);
-    let (coupling, scheme) = coupling(&mut root, &mut faults);
+    let (coupling, scheme) = read_coupling::coupling(&mut root, &mut faults);
     let context = Context {
         geometry,
         scheme: scheme.as_ref().map(|given| given.value),
@@ -63,8 +63,9 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     let fluid =
         root.table("fluid", &mut faults).and_then(|table| read_fluid::fluid(table, context, &mut faults));
     let fluid_pressure = fluid.as_ref().map(|(fluid, _)| fluid.scale_pressure);
+    let acting = scales::Acting { fluid: fluid_pressure, load: coupling.load.as_ref() };
     let solid = (root.table("solid", &mut faults))
-        .and_then(|table| read_solid::solid(table, context, fluid_pressure, &mut faults));
+        .and_then(|table| read_solid::solid(table, context, acting, &mut faults));
     let probes = probes(&mut root, &mut faults);
     let output = output(&mut root, &mut faults);
     root.finish(&mut faults);
@@ -169,63 +170,6 @@ fn resolve(mut times: Vec<f64>, end: f64) -> Vec<f64> {
     times.retain(|time| end - *time > 1e-12 * end);
     times.push(end);
     times
-}
-
-/// The most steps that one side makes within one of the other.
-const MOST_STEPS_IN_ONE: u32 = 16;
-
-fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCase, Option<Given<Scheme>>) {
-    let mut coupling = CouplingCase {
-        scheme: Scheme::Riemann,
-        star: StarSolver::Exact,
-        kappa: Kappa::Off,
-        step_ratio: MOST_STEPS_IN_ONE,
-        connect_timeout: 30.0,
-        patience: 600.0,
-    };
-    let default =
-        Given { value: Scheme::Riemann, path: "coupling.scheme".to_owned(), span: root.span.clone() };
-    if !root.has("coupling") {
-        root.table("coupling", faults);
-        return (coupling, Some(default));
-    }
-    let Some(mut table) = root.table("coupling", faults) else { return (coupling, None) };
-    let scheme = if table.has("scheme") {
-        table.choice("scheme", &Scheme::NAMES, faults)
-    } else {
-        table.raw("scheme");
-        Some(Given { span: table.span.clone(), ..default })
-    };
-    if let Some(scheme) = &scheme {
-        coupling.scheme = scheme.value;
-    }
-    if let Some(star) = table.choice("star", &StarSolver::NAMES, faults) {
-        coupling.star = star.value;
-    }
-    if let Some(kappa) = table.choice("kappa", &Kappa::NAMES, faults) {
-        coupling.kappa = kappa.value;
-        if kappa.value != Kappa::Off && scheme.as_ref().is_some_and(|given| given.value != Scheme::Weak) {
-            faults.of(&kappa, "only scheme = \"weak\" has factors kappa", "remove it, or take that scheme");
-        }
-    }
-    if coupling.scheme == Scheme::Weak {
-        coupling.step_ratio = 1;
-    }
-    if let Some(ratio) = table.whole("step_ratio", 1..=MOST_STEPS_IN_ONE as usize, faults) {
-        coupling.step_ratio = ratio.value as u32;
-        if ratio.value > 1 && scheme.as_ref().is_some_and(|given| given.value == Scheme::Weak) {
-            let help = "remove it, or take scheme = \"riemann\"";
-            faults.of(&ratio, "with scheme = \"weak\" both sides make the same steps", help);
-        }
-    }
-    if let Some(seconds) = table.positive("connect_timeout", "s", faults) {
-        coupling.connect_timeout = seconds;
-    }
-    if let Some(seconds) = table.positive("patience", "s", faults) {
-        coupling.patience = seconds;
-    }
-    table.finish(faults);
-    (coupling, scheme)
 }
 
 fn probes(root: &mut Table<'_>, faults: &mut Faults) -> Vec<PlacedProbe> {
@@ -348,18 +292,19 @@ pub(super) fn boundaries<B: Copy + PartialEq>(
     sides
 }
 
-/// A list of [time, value] with ascending times.
+/// A list of [time, value] with ascending times; `units` are those of both.
 pub(super) fn history(
     table: &mut Table<'_>,
     key: &'static str,
+    units: &str,
     faults: &mut Faults,
 ) -> Option<Given<Vec<[f64; 2]>>> {
     let Some(given) = table.raw(key) else {
-        table.missing(key, format!("give `{key} = [[t, p], ...]` in s and Pa"), faults);
+        table.missing(key, format!("give `{key} = [[t, value], ...]` in {units}"), faults);
         return None;
     };
-    let elements = array(&given, "a list of [time, value]", "s and Pa", faults)?;
-    let rows: Vec<_> = elements.iter().map(|element| pair(element, "s and Pa", faults)).collect();
+    let elements = array(&given, "a list of [time, value]", units, faults)?;
+    let rows: Vec<_> = elements.iter().map(|element| pair(element, units, faults)).collect();
     let value = rows.into_iter().collect::<Option<Vec<_>>>()?;
     let given = Given { value, path: given.path, span: given.span };
     if given.value.is_empty() {

@@ -324,15 +324,15 @@ fn unit(given: &Given<[f64; 2]>, geometry: Geometry, faults: &mut Faults) -> [f6
 fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Boundary; 4] {
     let z_min = match context.scheme {
         Some(Scheme::Rigid) => Boundary::Wall,
-        Some(Scheme::None) | None => Boundary::NonReflecting,
-        Some(Scheme::Riemann | Scheme::Weak) => Boundary::Interface,
+        Some(Scheme::None | Scheme::Load) | None => Boundary::NonReflecting,
+        Some(Scheme::Riemann | Scheme::Explicit | Scheme::Weak | Scheme::Strong) => Boundary::Interface,
     };
     let r_min = match context.geometry {
         Geometry::Axisymmetric => Boundary::Axis,
         Geometry::Planar => Boundary::Wall,
     };
     let fixed = |side| match (side, context.scheme) {
-        (Side::ZMin, Some(Scheme::Riemann | Scheme::Weak)) => {
+        (Side::ZMin, Some(scheme)) if scheme.is_coupled() => {
             Some(("interface", "z_min of the fluid is the interface; only scheme = \"none\" leaves it free"))
         }
         (Side::ZMin, Some(Scheme::Rigid)) => {
@@ -367,7 +367,7 @@ fn inflow(
         let help = "make a side \"inflow\" under [fluid.boundary], or remove the table";
         faults.at(&path, &inflow.span, "no side is an \"inflow\"", help);
     }
-    let pressure = history(&mut inflow, "pressure", faults);
+    let pressure = history(&mut inflow, "pressure", "s and Pa", faults);
     inflow.finish(faults);
     let pressure = pressure?;
     if let Some(eos) = liquid

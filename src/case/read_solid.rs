@@ -11,11 +11,11 @@ use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, Table, describe};
 use super::{SolidCase, scales};
 
-/// - `fluid_pressure`: the pressure scale of the fluid that the case has, if any.
+/// - `acting`: what acts on the solid from outside.
 pub(super) fn solid(
     mut table: Table<'_>,
     context: Context,
-    fluid_pressure: Option<f64>,
+    acting: scales::Acting<'_>,
     faults: &mut Faults,
 ) -> Option<(SolidCase, GridPlace)> {
     let placed = grid(&mut table, context, Side::ZMax, faults);
@@ -32,7 +32,7 @@ pub(super) fn solid(
     let pulses: Vec<PotentialPulse> = pulses.into_iter().collect::<Option<_>>()?;
     let case = SolidCase {
         grid,
-        scale_stress: scale_stress.unwrap_or_else(|| scales::stress(fluid_pressure, &pulses, &material)),
+        scale_stress: scale_stress.unwrap_or_else(|| scales::stress(acting, &pulses, &material)),
         material,
         initial_stress: initial_stress.map_or(InitialStress::Uniaxial, |given| given.value),
         boundary,
@@ -177,14 +177,14 @@ fn refuse(
 }
 
 fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Boundary; 4] {
-    let coupled = matches!(context.scheme, Some(Scheme::Riemann | Scheme::Weak));
-    let z_max = if coupled { Boundary::Interface } else { Boundary::Free };
+    let covered = context.scheme.is_some_and(|scheme| scheme.is_coupled() || scheme == Scheme::Load);
+    let z_max = if covered { Boundary::Interface } else { Boundary::Free };
     let r_min = match context.geometry {
         Geometry::Axisymmetric => Boundary::Axis,
         Geometry::Planar => Boundary::Symmetry,
     };
     let fixed = |side| match side {
-        Side::ZMax if coupled => {
+        Side::ZMax if covered => {
             Some(("interface", "z_max of the solid is the interface; only scheme = \"none\" leaves it free"))
         }
         Side::RMin if context.geometry == Geometry::Axisymmetric => {

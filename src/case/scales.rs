@@ -3,7 +3,7 @@
 use fluid::{InitialCondition, PhaseState, StiffenedGas};
 use solid::{Material, PotentialPulse};
 
-use super::Inflow;
+use super::{Inflow, LoadCase};
 
 /// Stress scale of a solid on which nothing acts, Pa.
 const QUIET_STRESS: f64 = 1e6;
@@ -40,12 +40,22 @@ pub(super) fn density(initial: &InitialCondition, pressure: f64, eos: StiffenedG
         .unwrap_or(1.0)
 }
 
-/// The largest stress in a solid, Pa: under a fluid the fluid's pressure scale, else that of its pulses.
-pub(super) fn stress(fluid_pressure: Option<f64>, pulses: &[PotentialPulse], material: &Material) -> f64 {
+/// What acts on a solid from outside.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Acting<'a> {
+    /// The fluid's pressure scale, Pa.
+    pub fluid: Option<f64>,
+    pub load: Option<&'a LoadCase>,
+}
+
+/// The largest stress in a solid, Pa: under a fluid the fluid's pressure scale, else that of its load and its pulses.
+pub(super) fn stress(acting: Acting<'_>, pulses: &[PotentialPulse], material: &Material) -> f64 {
     // At the centre of u = ∇(Φ exp(−R²/a²)) the strains are −2Φ/a².
     let modulus = material.lambda() + 2.0 * material.mu();
     let of_pulse = |pulse: &PotentialPulse| 2.0 * modulus * pulse.amplitude / (pulse.width * pulse.width);
-    fluid_pressure.or_else(|| largest(pulses.iter().map(of_pulse))).unwrap_or(QUIET_STRESS)
+    let of_load =
+        acting.load.into_iter().flat_map(|load| load.history.iter().map(|row| load.amplitude * row[1]));
+    acting.fluid.or_else(|| largest(pulses.iter().map(of_pulse).chain(of_load))).unwrap_or(QUIET_STRESS)
 }
 
 /// The largest magnitude; `None` if all are zero. What overflows is the largest number there is.
@@ -101,9 +111,12 @@ mod tests {
     fn a_solid_takes_the_fluids_scale_or_its_pulses() {
         let steel = Material::from_speeds(7800.0, 6000.0, 3000.0).expect("a material");
         let pulse = |amplitude| PotentialPulse { centre: [0.0; 2], width: 1e-3, amplitude };
-        assert_eq!(stress(Some(5e7), &[pulse(1.0)], &steel), 5e7);
-        assert_eq!(stress(None, &[], &steel), QUIET_STRESS);
+        let nothing = Acting::default();
+        assert_eq!(stress(Acting { fluid: Some(5e7), load: None }, &[pulse(1.0)], &steel), 5e7);
+        assert_eq!(stress(nothing, &[], &steel), QUIET_STRESS);
+        let load = LoadCase { amplitude: 2e6, radius: 1e-3, history: vec![[0.0, 0.0], [1e-6, -1.5]] };
+        assert_eq!(stress(Acting { fluid: None, load: Some(&load) }, &[], &steel), 3e6);
         let expected = 2.0 * 7800.0 * 3.6e7 * 3e-9 / 1e-6;
-        assert!((stress(None, &[pulse(1e-9), pulse(-3e-9)], &steel) / expected - 1.0).abs() < 1e-12);
+        assert!((stress(nothing, &[pulse(1e-9), pulse(-3e-9)], &steel) / expected - 1.0).abs() < 1e-12);
     }
 }

@@ -169,7 +169,7 @@ impl FluidRecord {
         let bubbles = bubble_series(&cuts, history)?;
         let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.wall_edges());
         let mut wall_pressures = Vec::new();
-        solver.wall_cells(|_, pressure, _| wall_pressures.push(pressure));
+        solver.wall_cells(false, |_, pressure, _| wall_pressures.push(pressure));
         // With a boundary of its own at z_min there is no wall to record.
         let wall = case.fluid.as_ref().filter(|fluid| {
             matches!(fluid.boundary[Side::ZMin as usize], fluid::Boundary::Interface | fluid::Boundary::Wall)
@@ -319,13 +319,16 @@ impl FluidRecord {
             row.extend([fixups.floor_energy, ledger.wall_impulse, ledger.wall_work]);
             history.push(self.conservation, &row)?;
         }
-        for probe in &self.probes {
+        for probe in &mut self.probes {
             let Some(state) = solver.sample(probe.probe.position) else { continue };
             let [mut pressure, mut v_z] = [state.pressure, state.v_z];
             if probe.on_interface && dt > 0.0 {
                 let r = probe.probe.position[1];
-                pressure = self.faces.at(r, |k| self.wall_pressures[k]);
-                v_z = self.faces.at(r, |k| solver.wall()[k].velocity);
+                let mean = self.faces.at(r, |k| self.wall_pressures[k]);
+                let velocity = self.faces.at(r, |k| solver.wall()[k].velocity);
+                let clock = solver.clock();
+                let middle = clock.middle(solver.group_of_face(self.faces.nearest(r)));
+                [pressure, v_z] = probe.star.at([mean, velocity], middle, time);
             }
             let row = [time, pressure, state.density, v_z, state.v_r, state.phi];
             history.push(probe.series, &row)?;
@@ -478,13 +481,9 @@ const CONSERVATION_COLUMNS: [Column<'static>; 19] = [
 
 const PROBE_COLUMNS: [Column<'static>; 6] = [
     column("time", "s", "time after the step"),
-    column("pressure", "Pa", "pressure; on the interface that of the star state, mean over the step"),
+    column("pressure", "Pa", "pressure; on the interface that of the star state"),
     column("density", "kg/m3", "density"),
-    column(
-        "velocity_z",
-        "m/s",
-        "axial velocity; on the interface that of the star state, mean over the step",
-    ),
+    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
     column("velocity_r", "m/s", "radial velocity"),
     column("gas_fraction", "1", "gas fraction"),
 ];

@@ -2,20 +2,22 @@
 //!
 //! In a coupled run the fluid leads: it chooses the longer of both sides' steps and whose it is. If it is its own, it sends
 //! its trace on the wall and completes the step when the solid has answered with what the wall did; else it asks the solid
-//! for its trace and answers. In the weak scheme it first makes the step with the solid's old velocity and then sends
-//! its new pressure, paper eqs. (36), (37).
+//! for its trace and answers. In the paper's schemes cell values cross instead, see [`super::cell_exchange`].
+
+mod cells;
 
 use std::time::{Duration, Instant};
 
 use coupler::{
-    CommonRefinement, FluidTrace, FrameHeader, FrameKind, Kappa, KappaFactor, Link, LinkCounters, Meeting,
-    RegisterRow, Scheme, StarSolver, TraceRow, WallRegister,
+    CommonRefinement, FrameHeader, FrameKind, Link, LinkCounters, Meeting, RegisterRow, StarSolver, TraceRow,
+    WallRegister,
 };
-use fluid::{FluidSolver, WallState};
+use fluid::FluidSolver;
 use mesh::{BLOCK, GroupStep, Misfit};
 use serde_json::{Map, Value};
 
 use super::RunError;
+use super::cell_exchange::CellExchange;
 use super::checkpoints::Keeper;
 use super::drive::Side;
 use super::fluid_record::FluidRecord;
@@ -47,6 +49,12 @@ enum Pending {
     Long(Plan, GroupStep),
     /// The solid's is.
     Short(Plan),
+    /// The solid makes its step first.
+    Late(Plan),
+    /// It is tried, until both sides agree on the interface.
+    Trial(Plan, GroupStep),
+    /// They do, and the solid makes its step.
+    Settled,
 }
 
 /// The fluid with its place in a run.
@@ -56,19 +64,14 @@ pub struct FluidSide {
     schedule: Schedule,
     rule: StepRule,
     meeting: Meeting,
-    scheme: Scheme,
+    /// What the paper's schemes need.
+    cells: Option<CellExchange>,
     star: StarSolver,
-    kappa: Kappa,
-    factor: KappaFactor,
     edges: Vec<f64>,
     /// The step that waits for the solid.
     pending: Option<Pending>,
     /// The solid's last word: how long a step it allows, how many cells it has, what it was asked to do.
     answer: FrameHeader,
-    /// The solid's velocities for the weak scheme.
-    received: Vec<f64>,
-    /// The fluid's own states on the wall at mid-step, for the weak scheme.
-    own: Vec<FluidTrace>,
     limited_by: &'static str,
     smallest_step: f64,
     last_dt: f64,
@@ -98,18 +101,15 @@ impl FluidSide {
             solver.watch(probe.position);
         }
         Self {
+            cells: (case.coupling.scheme.exchanges_cells())
+                .then(|| CellExchange::new(&case.coupling, solver.wall_faces())),
             edges: solver.wall_edges(),
-            received: vec![0.0; solver.wall_faces()],
-            own: Vec::new(),
             solver,
             record,
             schedule: Schedule::new(&case.time.snapshots),
             rule: StepRule::of(case),
             meeting: Meeting::default(),
-            scheme: case.coupling.scheme,
             star: case.coupling.star,
-            kappa: case.coupling.kappa,
-            factor: KappaFactor::default(),
             pending: None,
             answer: FrameHeader::new(FrameKind::Register),
             limited_by: "fluid",
@@ -154,34 +154,48 @@ impl FluidSide {
     }
 
     /// Ends the step under way with what the solid says; before the first step, takes its first word.
-    pub fn complete(&mut self, link: &mut impl Link) -> Result<(), RunError> {
-        match self.pending.take() {
-            Some(Pending::Short(plan)) => self.step_shortly(link, plan),
-            Some(Pending::Long(plan, step)) => {
-                self.answer = self.take_answer(link)?;
-                let timed = Timed::new(&mut self.clock);
-                medium::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))
-            }
-            None if self.is_resumed => {
-                let word = self.take_answer(link)?;
-                self.is_resumed = false;
-                self.past.leave_out(link.counters());
-                let time = self.solver.time();
-                if (word.time - time).abs() > 1e-9 * time {
-                    let what = format!("the fluid is at t = {time:e} s, the solid at {:e} s", word.time);
-                    return Err(Misfit(what).into());
-                }
-                Ok(())
-            }
-            None => {
-                self.answer = self.take_answer(link)?;
-                Ok(())
-            }
+    ///
+    /// - returns: whether the step has ended. If not, the solid has been told more, and its next word is to be waited for.
+    pub fn complete(&mut self, link: &mut impl Link) -> Result<bool, RunError> {
+        let pending = self.pending.take();
+        if let Some(Pending::Short(plan)) = pending {
+            self.step_shortly(link, plan)?;
+            return Ok(true);
         }
+        if self.is_resumed {
+            return self.hear_of_going_on(link).map(|()| true);
+        }
+        self.answer = self.take_answer(link)?;
+        match pending {
+            Some(Pending::Long(plan, step)) => {
+                let timed = Timed::new(&mut self.clock);
+                let after = timed.recorded(&mut self.record, plan);
+                medium::end_long(&mut self.solver, step, &self.rule, after)?;
+            }
+            Some(Pending::Late(plan)) => self.step_beside(plan)?,
+            Some(Pending::Trial(plan, step)) => {
+                self.judge(link, plan, step)?;
+                return Ok(false);
+            }
+            Some(Pending::Short(_) | Pending::Settled) | None => {}
+        }
+        Ok(true)
     }
 
-    /// Begins a step: plans it and sends the trace on the wall, or asks the solid for its own. In the weak scheme it makes
-    /// the step first.
+    /// Takes the solid's first word after a run was taken up again: where it is. Its last answer is known.
+    fn hear_of_going_on(&mut self, link: &mut impl Link) -> Result<(), RunError> {
+        let word = self.take_answer(link)?;
+        self.is_resumed = false;
+        self.past.leave_out(link.counters());
+        let time = self.solver.time();
+        if (word.time - time).abs() > 1e-9 * time {
+            let what = format!("the fluid is at t = {time:e} s, the solid at {:e} s", word.time);
+            return Err(Misfit(what).into());
+        }
+        Ok(())
+    }
+
+    /// Begins a step: plans it and sends the trace on the wall, or asks the solid for its own.
     pub fn begin(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         let stopped =
             self.answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
@@ -208,7 +222,9 @@ impl FluidSide {
         let Some(plan) = self.plan(if is_long { own } else { f64::INFINITY }, limit)? else {
             return Ok(Turn::Over(0));
         };
-        if is_long {
+        if self.cells.is_some() {
+            self.begin_exchange(link, plan)?
+        } else if is_long {
             self.begin_long(link, plan)?
         } else {
             self.ask_for_trace(link, plan)?
@@ -238,28 +254,15 @@ impl FluidSide {
             header.flags |= FrameHeader::SNAPSHOT;
         }
         header.fields = TraceRow::COUNT as u64;
-        if self.scheme == Scheme::Weak {
-            self.step_weakly(plan)?;
-        }
-        let (solver, edges, weak) = (&self.solver, &self.edges, self.scheme == Scheme::Weak);
+        let (solver, edges) = (&self.solver, &self.edges);
         let mut filled = Duration::ZERO;
         link.send(header, |payload| {
             payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
-            if weak {
-                solver.wall_cells(|face, pressure, velocity| {
-                    payload[TraceRow::Pressure as usize * faces + face] = pressure;
-                    payload[TraceRow::NormalVelocity as usize * faces + face] = velocity;
-                });
-            } else {
-                solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
-            }
+            solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
             filled = start.elapsed();
         })?;
         // What comes after the frame is filled is the exchange.
         self.clock.computing += filled;
-        if weak {
-            return self.recorded(plan);
-        }
         let start = Instant::now();
         let step = medium::begin_long(&mut self.solver, plan.dt, &self.rule)?;
         self.clock.computing += start.elapsed();
@@ -302,7 +305,7 @@ impl FluidSide {
     fn take_answer(&mut self, link: &mut impl Link) -> Result<FrameHeader, RunError> {
         let faces = self.solver.wall_faces();
         let is_first_word = self.solver.steps() == 0 || self.is_resumed;
-        let (scheme, solver, received) = (self.scheme, &mut self.solver, &mut self.received);
+        let (solver, cells) = (&mut self.solver, &mut self.cells);
         let header = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
             if frame.header.count == 0 && is_first_word {
@@ -310,8 +313,8 @@ impl FluidSide {
                 return Ok(*frame.header);
             }
             frame.require_shape(RegisterRow::COUNT, faces)?;
-            if scheme == Scheme::Weak {
-                received.copy_from_slice(RegisterRow::NormalVelocity.of(frame.payload, faces));
+            if let Some(cells) = cells {
+                cells.received.copy_from_slice(RegisterRow::NormalVelocity.of(frame.payload, faces));
             } else {
                 solver.set_wall(&WallRegister::of(frame.payload, faces));
             }
@@ -325,13 +328,13 @@ impl FluidSide {
         let start = Instant::now();
         if self.solver.adapt_if_due(self.last_dt, self.rule.steps_in(self.last_dt, &self.solver)) {
             let edges = self.solver.wall_edges();
-            if self.scheme == Scheme::Weak {
+            if let Some(cells) = &mut self.cells {
                 let domain = self.solver.mesh().domain();
                 let axisymmetric = domain.geometry == mesh::Geometry::Axisymmetric;
                 let mut map = CommonRefinement::default();
                 map.update(domain.r[0], &self.edges, &edges, axisymmetric);
-                let old = std::mem::replace(&mut self.received, vec![0.0; edges.len()]);
-                let received = &mut self.received;
+                let received = &mut cells.received;
+                let old = std::mem::replace(received, vec![0.0; edges.len()]);
                 map.means(true, |k| old[map.sub_faces()[k].first], |face, mean| received[face] = mean);
             }
             self.edges = edges;
@@ -356,26 +359,6 @@ impl FluidSide {
         let plan = self.schedule.plan(self.solver.time(), limit);
         self.last_dt = plan.map_or(self.last_dt, |plan| plan.dt);
         Ok(plan)
-    }
-
-    /// Paper eq. (36): the wall moves with the solid's old velocity, times κ̂ where the paper's factor is on.
-    fn step_weakly(&mut self, plan: Plan) -> Result<(), RunError> {
-        self.solver.traces_at_mid_step(plan.dt, &mut self.own);
-        // The Courant number of this step: the limit belongs to `cfl`.
-        let courant = self.rule.cfl * plan.dt / self.solver.time_step_limit(self.rule.cfl);
-        let kappa = if self.kappa == Kappa::Off { 1.0 } else { self.factor.next(courant) };
-        let (own, received, kind) = (&self.own, &self.received, self.kappa);
-        self.solver.set_wall_from(|face| {
-            let FluidTrace { pressure, velocity: own_velocity, .. } = own[face];
-            let velocity = match kind {
-                Kappa::Off => received[face],
-                Kappa::Printed => kappa * received[face],
-                Kappa::Jump => own_velocity + kappa * (received[face] - own_velocity),
-            };
-            WallState { pressure, velocity, power: pressure * velocity }
-        });
-        self.solver.step(plan.dt)?;
-        Ok(())
     }
 
     fn header(&self, kind: FrameKind, count: usize, dt: f64) -> FrameHeader {
@@ -407,14 +390,14 @@ impl Side for FluidSide {
         let own = self.rule.alone(&self.solver).limit;
         let Some(plan) = self.plan(own, f64::INFINITY)? else { return Ok(false) };
         let timed = Timed::new(&mut self.clock);
-        medium::step_alone(&mut self.solver, plan.dt, &self.rule, timed.recorded(&mut self.record, plan))?;
+        let after = timed.recorded(&mut self.record, plan);
+        medium::step_alone(&mut self.solver, plan.dt, &self.rule, |_, _| (), after)?;
         self.adapt_if_due();
         Ok(true)
     }
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
-        self.complete(link)?;
-        self.begin(link, stop)
+        if self.complete(link)? { self.begin(link, stop) } else { Ok(Turn::Continues) }
     }
 
     fn close(&mut self, failed: bool) -> Result<(), RunError> {
@@ -425,7 +408,11 @@ impl Side for FluidSide {
     }
 
     fn summary(&self) -> Map<String, Value> {
-        self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver))
+        let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
+        if let Some(iterations) = self.cells.as_ref().and_then(CellExchange::summary) {
+            part.insert("coupling_iterations".to_owned(), iterations);
+        }
+        part
     }
 
     fn reached(&self) -> (f64, u64) {

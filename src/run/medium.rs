@@ -3,7 +3,7 @@
 //! Each side keeps its own time step. The side with the longer one shows its trace and completes its step when it knows what
 //! the interface did; the other side makes as many short steps meanwhile as it needs. See docs/coupling.md.
 
-use coupler::{Meeting, Participant, Scheme, ShortStep, StarSolver, TraceRow, WallRegister};
+use coupler::{Meeting, Participant, ShortStep, StarSolver, TraceRow, WallRegister};
 use fluid::FluidSolver;
 use mesh::{BLOCK, Geometry, GroupStep, LevelClock, Mesh, Part};
 use solid::SolidSolver;
@@ -141,10 +141,10 @@ pub struct Steps {
 }
 
 impl StepRule {
-    /// A case's rule. The weak scheme is made for one step of both sides.
+    /// A case's rule. The paper's schemes are made for one step of both sides.
     pub fn of(case: &Case) -> Self {
-        let weak = case.coupling.scheme == Scheme::Weak;
-        Self { cfl: case.time.cfl, local: case.time.local_steps && !weak, ratio: case.coupling.step_ratio }
+        let common = case.coupling.scheme.exchanges_cells();
+        Self { cfl: case.time.cfl, local: case.time.local_steps && !common, ratio: case.coupling.step_ratio }
     }
 
     /// About how many steps of the finest level a step of length `dt` holds.
@@ -198,30 +198,35 @@ pub fn end_long<M: Medium>(
     after: impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
     medium.run(step, Part::AtInterface)?;
-    step_to_end(medium, rule, after)
+    // No level that is still to step has faces on the interface.
+    step_to_end(medium, rule, |_, _| (), after)
 }
 
-/// Makes a step that does not depend on another side.
+/// Makes a step that does not depend on another side; `before(medium, step)` is called before each step of a level.
 pub fn step_alone<M: Medium>(
     medium: &mut M,
     dt: f64,
     rule: &StepRule,
+    mut before: impl FnMut(&mut M, GroupStep),
     after: impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
     medium.begin_step(dt, rule.alone(medium).base);
     let step = medium.start(f64::INFINITY);
+    before(medium, step);
     medium.run(step, Part::All)?;
-    step_to_end(medium, rule, after)
+    step_to_end(medium, rule, before, after)
 }
 
 fn step_to_end<M: Medium>(
     medium: &mut M,
     rule: &StepRule,
+    mut before: impl FnMut(&mut M, GroupStep),
     mut after: impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
     loop {
         while medium.clock().due().is_some() {
             let step = medium.start(medium.due_limit(rule.cfl));
+            before(medium, step);
             medium.run(step, Part::All)?;
         }
         if end_sub_step(medium, &mut after)? {
@@ -239,6 +244,14 @@ fn end_sub_step<M: Medium>(
     medium.finish()?;
     after(medium, dt)?;
     Ok(medium.clock().is_over())
+}
+
+/// Begins a step of all cells alike that is tried until both sides agree on the interface.
+pub fn begin_trial<M: Medium>(medium: &mut M, dt: f64) -> Result<GroupStep, RunError> {
+    medium.begin_step(dt, u8::MAX);
+    let step = medium.start(f64::INFINITY);
+    medium.run(step, Part::AwayFromInterface)?;
+    Ok(step)
 }
 
 /// Begins to meet the other side's trace.

@@ -8,9 +8,11 @@
 //! | [`setup`] | a case made into solvers |
 //! | [`schedule`] | when to stop, when to write, and so how long a step may be |
 //! | [`fluid_side`], [`solid_side`] | one side's part of the step loop |
+//! | [`cell_exchange`] | the paper's coupling schemes |
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
 //! | [`medium`] | long and short steps of a solver, whichever medium it is for |
 //! | [`side_files`] | into which files |
+//! | [`load`] | a given pressure on a solid without a fluid |
 //! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`session`] | a run in one process, step by step |
 //! | [`drive`] | the step loop of a run in one process, of one of two processes |
@@ -20,6 +22,7 @@
 //! | [`stop`] | signals, and a launcher that is gone |
 //! | [`error`] | what can go wrong, and the exit code it means |
 
+pub mod cell_exchange;
 pub mod checkpoints;
 pub mod collapse;
 pub mod conclusion;
@@ -29,6 +32,7 @@ pub mod fluid_record;
 pub mod fluid_side;
 pub mod interface_history;
 pub mod launch;
+pub mod load;
 pub mod medium;
 pub mod past;
 pub mod record;

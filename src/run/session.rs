@@ -52,7 +52,9 @@ impl Coupled {
         let turn = self.fluid.begin(&mut self.to_solid, stop)?;
         self.solid.turn(&mut self.to_fluid, stop)?;
         if turn == Turn::Continues {
-            self.fluid.complete(&mut self.to_solid)?;
+            while !self.fluid.complete(&mut self.to_solid)? {
+                self.solid.turn(&mut self.to_fluid, stop)?;
+            }
             self.solid.settle(&mut self.to_fluid)?;
         }
         Ok(turn)

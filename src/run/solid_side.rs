@@ -1,5 +1,7 @@
 //! The solid's part of the step loop: it answers the fluid's trace with what the wall did, or shows its own.
 
+mod cells;
+
 use std::time::{Duration, Instant};
 
 use coupler::{
@@ -14,6 +16,7 @@ use super::RunError;
 use super::checkpoints::Keeper;
 use super::drive::Side;
 use super::fluid_side::Turn;
+use super::load::Load;
 use super::medium::{self, Medium, StepRule};
 use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
@@ -33,6 +36,8 @@ pub struct SolidSide {
     record: Option<SolidRecord>,
     interface: Interface,
     meeting: Meeting,
+    /// What presses on the surface where there is no fluid.
+    load: Option<Load>,
     schedule: Schedule,
     rule: StepRule,
     scheme: Scheme,
@@ -44,6 +49,8 @@ pub struct SolidSide {
     fluid_edges: Vec<f64>,
     /// The long step that waits for what the fluid made of it.
     pending: Option<(Plan, GroupStep)>,
+    /// The step that is tried in the strong scheme.
+    trial: Option<GroupStep>,
     /// The fluid's steps within the last long one; infinite after short ones.
     fluids_step: f64,
     /// When the run ends: nothing adapts for what does not come.
@@ -69,6 +76,7 @@ impl SolidSide {
         }
         Self {
             edges: solver.surface_edges(),
+            load: case.coupling.load.as_ref().and_then(|load| Load::new(load, &solver)),
             solver,
             record,
             interface: Interface::default(),
@@ -81,6 +89,7 @@ impl SolidSide {
             factor: KappaFactor::default(),
             fluid_edges: Vec::new(),
             pending: None,
+            trial: None,
             fluids_step: f64::INFINITY,
             end: case.time.end * (1.0 - 1e-12),
             last_dt: 0.0,
@@ -218,26 +227,6 @@ impl SolidSide {
         Ok(())
     }
 
-    /// The weak scheme's half of a step, paper eq. (37), and the answer.
-    fn step_weakly(&mut self, link: &mut impl Link, plan: Plan, stop: &Stop) -> Result<(), RunError> {
-        let adapts = self.adapts(plan.dt);
-        let start = Instant::now();
-        self.solver.step(plan.dt)?;
-        self.clock.computing += start.elapsed();
-        self.recorded(plan)?;
-        self.adapt_if(adapts, plan.dt);
-        let faces = self.fluid_edges.len();
-        let header =
-            FrameHeader { count: faces as u64, ..self.header(FrameKind::Register, RegisterRow::COUNT, stop) };
-        let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
-        link.send(header, |payload| {
-            solver.write_cell_velocities(interface, edges, |row, face, value| {
-                payload[row as usize * faces + face] = value;
-            });
-        })?;
-        Ok(())
-    }
-
     /// Takes over what a trace frame says.
     fn read_trace(&mut self, frame: &Frame<'_>) -> Result<(), coupler::CouplerError> {
         let faces = frame.header.count as usize;
@@ -246,7 +235,7 @@ impl SolidSide {
         if self.fluid_edges.as_slice() != TraceRow::Edge.of(frame.payload, faces) {
             self.fluid_edges = TraceRow::Edge.of(frame.payload, faces).to_vec();
         }
-        if self.scheme == Scheme::Weak {
+        if self.scheme.exchanges_cells() {
             let (kappa, dt) = (self.kappa, frame.header.dt);
             let courant = self.rule.cfl * dt / self.solver.time_step_limit(self.rule.cfl);
             let factor = if kappa == Kappa::Off { 1.0 } else { self.factor.next(courant) };
@@ -309,7 +298,14 @@ impl Side for SolidSide {
         self.last_dt = plan.dt;
         let adapts = self.adapts(plan.dt);
         let timed = Timed::new(&mut self.clock);
-        medium::step_alone(&mut self.solver, plan.dt, &self.rule, timed.recorded(&mut self.record, plan))?;
+        let load = &mut self.load;
+        let press = |solver: &mut SolidSolver<BLOCK>, step| {
+            if let Some(load) = load {
+                load.press(solver, step);
+            }
+        };
+        let after = timed.recorded(&mut self.record, plan);
+        medium::step_alone(&mut self.solver, plan.dt, &self.rule, press, after)?;
         self.adapt_if(adapts, plan.dt);
         Ok(true)
     }
@@ -323,7 +319,7 @@ impl Side for SolidSide {
             }
             if frame.require(FrameKind::Yours).is_err() {
                 frame.require(FrameKind::Trace)?;
-                if !frame.header.has(FrameHeader::LAST) {
+                if !frame.header.has(FrameHeader::LAST | FrameHeader::SETTLED) {
                     self.read_trace(frame)?;
                 }
             }
@@ -342,8 +338,10 @@ impl Side for SolidSide {
         }
         self.last_dt = plan.dt;
         self.fluids_step = f64::INFINITY;
-        if self.scheme == Scheme::Weak {
-            self.step_weakly(link, plan, stop)?;
+        if header.has(FrameHeader::TRIAL) {
+            self.try_step(link, plan, stop)?;
+        } else if self.scheme.exchanges_cells() {
+            self.step_beside(link, plan, stop)?;
         } else {
             self.step_shortly(link, plan, stop)?;
         }

@@ -34,13 +34,18 @@ impl WallFaces {
         &self.edges
     }
 
+    /// The face that radius `r` lies in, or the last one.
+    pub fn nearest(&self, r: f64) -> usize {
+        self.edges.partition_point(|edge| *edge < r).min(self.edges.len() - 1)
+    }
+
     /// A value at radius `r` between those on the faces, linear between their centres, constant beyond the first and the
     /// last one.
     pub fn at(&self, r: f64, value: impl Fn(usize) -> f64) -> f64 {
         let edges = &self.edges;
         let centre = |k: usize| 0.5 * (edges[k] + if k == 0 { self.begin } else { edges[k - 1] });
         let last = edges.len() - 1;
-        let face = edges.partition_point(|edge| *edge < r).min(last);
+        let face = self.nearest(r);
         let above = if centre(face) >= r { face } else { face + 1 };
         if above == 0 || above > last {
             return value(above.min(last));

@@ -60,7 +60,9 @@ impl Sides {
     ///
     /// - returns: whether the run goes on.
     pub fn round(&mut self, mut look: impl FnMut(&Fluid, &Solid)) -> bool {
-        self.fluid.complete(&mut self.to_solid).expect("the fluid's step");
+        while !self.fluid.complete(&mut self.to_solid).expect("the fluid's step") {
+            self.solid.turn(&mut self.to_fluid, &self.stop).expect("the solid's trial");
+        }
         self.solid.settle(&mut self.to_fluid).expect("the solid's step");
         look(self.fluid.solver(), self.solid.solver());
         let turn = self.fluid.begin(&mut self.to_solid, &self.stop).expect("the fluid's turn");

@@ -188,9 +188,7 @@ fn cells_that_do_not_match_converge_too() {
             let e = found.map(|errors| errors[side]);
             let order = (e[0] / e[1]).log2();
             eprintln!("{ratio:?}, {medium}: L1 errors {e:?}, order {order:.2}");
-            // Sub-faces take the trace at the middle of their face, without a slope along the interface: steps of
-            // first order in height, which a solid twice as fine resolves (1.6; all others 1.9 and more).
-            let least = if ratio == [2, 4] && side == 1 { 1.5 } else { 1.8 };
+            let least = 1.8;
             assert!(order >= least, "{ratio:?}, {medium}: {e:?} is order {order:.2}");
         }
     }

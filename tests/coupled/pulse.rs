@@ -256,6 +256,17 @@ fn the_reflected_pulse_converges_in_second_order() {
 }
 
 #[test]
+fn a_pulse_does_not_lag_at_a_small_courant_number() {
+    // In steel and water the solid's step leaves the fluid a Courant number of a quarter of this.
+    let error = |cells| {
+        Incidence { cells, limiter: "none", amplitude: 100.0, cfl: 0.4, ..Incidence::default() }.run().error
+    };
+    let (coarse, fine) = (error(20), error(40));
+    eprintln!("Courant number 0.1: L1 error {coarse:.3e} at 20, {fine:.3e} at 40 cells per width");
+    assert!(coarse < 3e-3 && coarse / fine > 4.0, "{coarse:e} {fine:e}");
+}
+
+#[test]
 fn a_pulse_from_the_solid_passes_likewise() {
     use fluid::{Boundary as F, Primitive};
     use solid::{Boundary as S, ElasticState};

@@ -61,9 +61,16 @@ fn a_prestress_stays_to_round_off() {
     // solid's impedance that is some 1e-14 m/s.
     for geometry in ["planar", "axisymmetric"] {
         for stress in ["hydrostatic", "uniaxial"] {
-            for coupling in
-                ["", "star = \"acoustic\"", "scheme = \"weak\"", "scheme = \"weak\"\nkappa = \"jump\""]
-            {
+            for coupling in [
+                "",
+                "star = \"acoustic\"",
+                "scheme = \"explicit\"",
+                "scheme = \"weak\"",
+                "scheme = \"weak\"\nfirst = \"solid\"",
+                "scheme = \"weak\"\nkappa = \"jump\"",
+                "scheme = \"strong\"",
+                "scheme = \"strong\"\nfirst = \"solid\"",
+            ] {
                 let mut sides = at_rest(geometry, stress, coupling);
                 for _ in 0..300 {
                     assert!(sides.round(|_, _| ()), "the run is long");

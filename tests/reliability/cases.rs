@@ -87,3 +87,27 @@ name = "steel"
 position = [0.03, 0.004]
 medium = "solid"
 "#;
+
+/// A load on a solid's surface, adaptive.
+pub const LOADED: &str = r#"
+[time]
+end = 6e-6
+snapshot_every = 1.3e-6
+[solid]
+z = [-0.05, 0.0]
+r = [0.0, 0.05]
+cells = [4, 4]
+levels = 4
+adapt_every = 3
+material = "structural-steel"
+[coupling]
+scheme = "load"
+[coupling.load]
+amplitude = 1e6
+radius = 0.006
+history = [[0.0, 0.0], [1e-6, 1.0], [2e-6, 0.3]]
+[[probe]]
+name = "steel"
+position = [0.0, 0.004]
+medium = "solid"
+"#;

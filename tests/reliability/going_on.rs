@@ -13,7 +13,7 @@ use cav::run::fluid_side::Turn;
 use cav::run::session::{Session, Solvers};
 use cav::run::stop::Stop;
 
-use crate::cases::{COUPLED, SECOND_BUBBLE, SOLID, fluid_alone};
+use crate::cases::{COUPLED, LOADED, SECOND_BUBBLE, SOLID, fluid_alone};
 use crate::compare::{assert_same, datasets};
 use crate::processes::alone;
 
@@ -110,6 +110,23 @@ fn the_weak_scheme() {
 }
 
 #[test]
+fn the_papers_other_schemes() {
+    for scheme in ["explicit", "weak", "strong"] {
+        for first in ["fluid", "solid"] {
+            if scheme == "explicit" && first == "solid" {
+                continue;
+            }
+            let mut sets = vec![format!("coupling.scheme={scheme}"), "time.end=1.2e-5".to_owned()];
+            if scheme != "explicit" {
+                sets.push(format!("coupling.first={first}"));
+            }
+            let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+            check(&format!("{scheme}, {first} first"), COUPLED, &sets, 29);
+        }
+    }
+}
+
+#[test]
 fn steps_that_are_the_same_on_both_sides() {
     let _turn = alone();
     check("one step", COUPLED, &["coupling.step_ratio=1", "time.end=2e-5"], 41);
@@ -140,6 +157,12 @@ fn a_fluid_alone() {
     let _turn = alone();
     check("fluid", &fluid_alone(), &[], 43);
     check("fluid, local", &fluid_alone(), &["time.local_steps=true", "fluid.model=five-equation"], 17);
+}
+
+#[test]
+fn a_solid_under_a_load() {
+    check("load", LOADED, &[], 7);
+    check("load, local", LOADED, &["time.local_steps=true"], 5);
 }
 
 #[test]

@@ -141,8 +141,12 @@ impl FrameHeader {
     pub const LAST: u32 = 4;
     /// Both sides write a snapshot at the end of this step.
     pub const SNAPSHOT: u32 = 8;
+    /// Strong scheme: the values are an iterate's; the step is to be tried, not yet made.
+    pub const TRIAL: u32 = 16;
+    /// Strong scheme: the last iterate counts; there is no payload.
+    pub const SETTLED: u32 = 32;
     /// The sender has kept a checkpoint of its state before the step `step`; the receiver does likewise, before anything else.
-    pub const CHECKPOINT: u32 = 16;
+    pub const CHECKPOINT: u32 = 64;
     /// Set by the link: longer than all before, so its memory is new and the sender wants to know that it was read.
     pub(crate) const GROWN: u32 = 1 << 31;
 

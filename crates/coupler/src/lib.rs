@@ -5,11 +5,13 @@
 //! - [`CommonRefinement`]: two non-matching sets of interface faces; [`Meeting`]: the interface during a long step of one
 //!   side, which is several of the other.
 //! - [`exact_star`], [`acoustic_star`]: the Riemann problem between the two media; [`fluid_at_moving_wall`] and its like:
-//!   one half of it; [`KappaFactor`]: the paper's damping of the weak scheme.
+//!   one half of it; [`KappaFactor`]: the paper's damping of the weak scheme; [`Aitken`]: the relaxation of the
+//!   strong one.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod aitken;
 mod direct;
 mod domain;
 mod error;
@@ -27,6 +29,7 @@ mod star;
 mod watch;
 mod weak;
 
+pub use aitken::Aitken;
 pub use direct::{DirectLink, direct_pair};
 pub use domain::{Domain, clean_up_dead};
 pub use error::CouplerError;

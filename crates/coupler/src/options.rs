@@ -1,22 +1,60 @@
 //! The choices a case makes by name.
 
+use crate::link::Participant;
+
 /// How fluid and solid meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
     /// The Riemann problem between the two media; the default.
     Riemann,
+    /// Cell values of the old time cross both ways, paper eqs. (31)–(32).
+    Explicit,
     /// The paper's alternating scheme, eqs. (36)–(37).
     Weak,
+    /// The same repeated until cell values of the new time agree, paper eqs. (34)–(35).
+    Strong,
     /// No solid: z_min of the fluid is a rigid wall.
     Rigid,
+    /// No fluid: a given pressure on z_max of the solid.
+    Load,
     /// One medium alone; every side has a boundary of its own.
     None,
 }
 
 impl Scheme {
     /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 4] =
-        [("riemann", Self::Riemann), ("weak", Self::Weak), ("rigid", Self::Rigid), ("none", Self::None)];
+    pub const NAMES: [(&'static str, Self); 7] = [
+        ("riemann", Self::Riemann),
+        ("explicit", Self::Explicit),
+        ("weak", Self::Weak),
+        ("strong", Self::Strong),
+        ("rigid", Self::Rigid),
+        ("load", Self::Load),
+        ("none", Self::None),
+    ];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, named)| *named == self).map_or("", |(name, _)| name)
+    }
+
+    /// Whether a fluid and a solid meet in it.
+    #[must_use]
+    pub fn is_coupled(self) -> bool {
+        self == Self::Riemann || self.exchanges_cells()
+    }
+
+    /// Whether it is one of the paper's, in which cell values cross the interface and both sides make the same steps.
+    #[must_use]
+    pub fn exchanges_cells(self) -> bool {
+        matches!(self, Self::Explicit | Self::Weak | Self::Strong)
+    }
+}
+
+impl Participant {
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 2] = [("fluid", Self::Fluid), ("solid", Self::Solid)];
 }
 
 /// How the fluid's side of the interface Riemann problem is described.

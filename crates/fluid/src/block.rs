@@ -37,6 +37,8 @@ pub(crate) struct StepContext<'a, const N: usize> {
     /// Time at the beginning of the step, s.
     pub time: f64,
     pub dt: f64,
+    /// The largest |v| + c along z and r, m/s.
+    pub fastest: [f64; 2],
     /// The faces of the wall to the solid in the order of r, and each block's first one.
     pub wall: &'a [WallState],
     pub wall_first: &'a [usize],
@@ -207,6 +209,7 @@ pub(crate) fn step_block<const N: usize>(
         half: [rho, v_z, v_r, p, phi],
         differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
         keep: &scratch.keep,
+        curvature: ctx.curvature(id.level, 0),
     };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_z, 1, z_range, &mut scratch.z_faces);
@@ -228,6 +231,7 @@ pub(crate) fn step_block<const N: usize>(
         half: [rho, v_r, v_z, p, phi],
         differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
         keep: &scratch.keep,
+        curvature: ctx.curvature(id.level, 1),
     };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_r, stride, r_range, &mut scratch.r_faces);

@@ -1,6 +1,6 @@
 //! Numbers that are read off the fluid's state.
 
-use mesh::{GHOSTS, Padded, limited_differences};
+use mesh::{Field, GHOSTS, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
 use crate::block::{BlockScratch, StepContext, reconstruct};
@@ -74,7 +74,12 @@ pub struct Snapshot {
 impl<const N: usize> FluidSolver<N> {
     /// The primitive variables of one cell.
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> Primitive {
-        let u: [f64; COUNT] = std::array::from_fn(|c| self.state.component(slot, c)[j * N + i]);
+        self.cell_of(&self.state, slot, i, j)
+    }
+
+    /// [`FluidSolver::cell`] of a field.
+    pub(crate) fn cell_of(&self, field: &Field, slot: usize, i: usize, j: usize) -> Primitive {
+        let u: [f64; COUNT] = std::array::from_fn(|c| field.component(slot, c)[j * N + i]);
         Primitive::from_conserved(u, &self.mixture)
     }
 
@@ -202,6 +207,7 @@ impl<const N: usize> FluidSolver<N> {
             old: &self.state,
             time: self.time,
             dt,
+            fastest: self.largest_speeds(),
             wall: &self.wall,
             wall_first: &self.wall_first,
         }

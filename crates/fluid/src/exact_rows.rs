@@ -10,6 +10,7 @@ mod listed;
 use mesh::whole_lines;
 
 use crate::Mixture;
+use crate::curvature::states_at_face;
 use crate::elementary::{exp_and_less_one, ln_of};
 use crate::godunov::flux_exact;
 use crate::rows::{FaceRows, Reconstruction};
@@ -161,8 +162,9 @@ fn count(lane: &Lane, n: usize) -> usize {
 #[inline(always)]
 fn take(n: usize, lower: Reconstruction<'_>, upper: Reconstruction<'_>, left: &mut Sides, right: &mut Sides) {
     for k in 0..n.min(LANES) {
-        [left.rho[k], left.u[k], left.v[k], left.p[k], left.phi[k]] = lower.face_state(k, 1.0);
-        [right.rho[k], right.u[k], right.v[k], right.p[k], right.phi[k]] = upper.face_state(k, -1.0);
+        let [l, r] = states_at_face(&lower, &upper, k);
+        [left.rho[k], left.u[k], left.v[k], left.p[k], left.phi[k]] = l;
+        [right.rho[k], right.u[k], right.v[k], right.p[k], right.phi[k]] = r;
     }
 }
 

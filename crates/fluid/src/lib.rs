@@ -10,6 +10,7 @@ mod analysis;
 mod block;
 mod boundary;
 mod bubbles;
+mod curvature;
 mod diagnostics;
 mod elementary;
 mod eos;

@@ -87,7 +87,8 @@ impl<const N: usize> FluidSolver<N> {
             let id = self.mesh.tree().leaves()[slot];
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
             self.scratch.with(|scratch| {
-                reconstruct(&self.context(dt), slot, scratch);
+                let context = self.context(dt);
+                reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
                 let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);
                 for j in 0..N {
@@ -109,14 +110,19 @@ impl<const N: usize> FluidSolver<N> {
                     )
                     .map(|rate| keep * rate);
                     let trace: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
+                    // What face states within get besides, with the differences continued in a line beyond the wall.
+                    let curvature = context.curvature(id.level, 0);
+                    let weak = curvature.is_weak(w[3], w[4], d_z[3]);
+                    let share = if weak { keep * curvature.share } else { 0.0 };
+                    let more = |c: usize| share * (s_z.component(c)[k + 1] - d_z[c]);
                     // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
                     // mixture's β₁ soon has the wrong sign, and γ with it.
                     let at = self.mixture.at(trace[4].clamp(0.0, 1.0));
                     let face = first + j;
                     put(TraceRow::Density, face, trace[0]);
-                    put(TraceRow::NormalVelocity, face, trace[1]);
+                    put(TraceRow::NormalVelocity, face, trace[1] + more(1));
                     put(TraceRow::TangentialVelocity, face, trace[2]);
-                    put(TraceRow::Pressure, face, trace[3]);
+                    put(TraceRow::Pressure, face, trace[3] + more(3));
                     put(TraceRow::Shear, face, 0.0);
                     put(TraceRow::DensityRate, face, rate[0]);
                     put(TraceRow::NormalVelocityRate, face, rate[1]);
@@ -209,11 +215,14 @@ impl<const N: usize> FluidSolver<N> {
         &self.wall
     }
 
-    /// Cell means next to the wall: pressure and normal velocity, face by face; what the weak scheme exchanges.
-    pub fn wall_cells(&self, mut put: impl FnMut(usize, f64, f64)) {
+    /// Cell means next to the wall: pressure and normal velocity, face by face; what the paper's schemes exchange.
+    ///
+    /// - `trial`: of the new state of a step that has been run and not finished, in which all levels step alike.
+    pub fn wall_cells(&self, trial: bool, mut put: impl FnMut(usize, f64, f64)) {
+        let state = if trial { &self.next } else { &self.state };
         for (first, &slot) in self.wall_blocks.iter().enumerate().map(|(k, slot)| (k * N, slot)) {
             for j in 0..N {
-                let cell = self.cell(slot, 0, j);
+                let cell = self.cell_of(state, slot, 0, j);
                 put(first + j, cell.pressure, cell.v_z);
             }
         }

@@ -7,6 +7,7 @@
 use mesh::{AlignedRow, whole_lines};
 
 use crate::Mixture;
+use crate::curvature::{Curvature, states_at_face};
 use crate::hllc::{Face, flux_hllc};
 use crate::state::primitive;
 
@@ -276,6 +277,7 @@ pub(crate) struct Reconstruction<'a> {
     pub differences: Rows<'a>,
     /// The share of its slopes that each cell keeps, see [`half_step`].
     pub keep: &'a [f64],
+    pub curvature: Curvature,
 }
 
 impl<'a> Reconstruction<'a> {
@@ -286,6 +288,7 @@ impl<'a> Reconstruction<'a> {
             half: cut(&self.half, at, n),
             differences: cut(&self.differences, at, n),
             keep: &self.keep[at..][..n],
+            curvature: self.curvature,
         }
     }
 
@@ -340,7 +343,8 @@ fn hllc_body(
     phi: &mut [f64],
 ) {
     for k in 0..n {
-        let face = flux_hllc(lower.face_state(k, 1.0), upper.face_state(k, -1.0), mixture);
+        let [left, right] = states_at_face(&lower, &upper, k);
+        let face = flux_hllc(left, right, mixture);
         mass[k] = face.mass;
         velocity[k] = face.velocity;
         pressure[k] = face.pressure;

@@ -124,6 +124,11 @@ impl LevelClock {
         self.spans[group].dt
     }
 
+    /// The middle of a group's present or last step, s.
+    pub fn middle(&self, group: usize) -> f64 {
+        self.spans[group].begin + 0.5 * self.spans[group].dt
+    }
+
     /// What the present step of a group counts in the running mean over the coarser group's step; 1 if it is the first.
     pub fn weight(&self, group: usize) -> f64 {
         let span = self.spans[group];

@@ -124,8 +124,8 @@ impl<const N: usize> Padded<N> {
         mirror(row, N, side, ghost_range(N), parity);
     }
 
-    /// Fills the ghosts beyond a side of one component by continuing the smaller of the two inner differences
-    /// (none where they differ in sign): the boundary cell then has a slope made from its own side only.
+    /// Fills the ghosts beyond a side of one component by continuing its inner differences: by the parabola through three
+    /// cells where the data are smooth, see [`continued`].
     pub fn extrapolate(row: &mut [f64], side: Side) {
         let n = N as isize;
         for along in ghost_range(N) {
@@ -136,11 +136,30 @@ impl<const N: usize> Padded<N> {
                 Side::RMax => Self::index(along, n - 1 - depth),
             };
             let [first, second, third] = [row[at(0)], row[at(1)], row[at(2)]];
-            let difference = crate::limiter::minmod(first - second, second - third);
+            let difference = continued(first - second, second - third);
             row[at(-1)] = first + difference;
             row[at(-2)] = first + 2.0 * difference;
         }
     }
+}
+
+/// The difference beyond a boundary that continues the two within it.
+///
+/// A parabola continues them by 2·near − far, and the central difference of the boundary cell is then as accurate as
+/// those within. At a wall the normal derivative is often zero and near = far/2: the parabola's zero would switch a
+/// limited slope off altogether, hence the lower bound. Where the differences grow fast towards the boundary, as behind a
+/// front that has just arrived, the farther one counts.
+///
+/// - `near`, `far`: the differences of the first to the second and of the second to the third cell from the boundary.
+/// - returns: zero where the signs of the two differ.
+#[inline]
+fn continued(near: f64, far: f64) -> f64 {
+    const LEAST: f64 = 1.0 / 3.0;
+    const MOST: f64 = 2.0;
+    let sign = if near > 0.0 { 1.0 } else { -1.0 };
+    let (near, far) = (sign * near, sign * far);
+    let parabola = (2.0 * near - far).max(LEAST * near);
+    sign * parabola.min(MOST * far).max(0.0)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
-use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, limited_differences, maximum};
+use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, curvature_share, limited_differences, maximum};
 use serde::{Deserialize, Serialize};
 
 use crate::Boundary;
@@ -9,7 +9,7 @@ use crate::boundary::{Boundaries, SurfaceState};
 use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::reflux::register_stars;
 use crate::rows::{self, Elasticity, FaceRows, Reconstruction};
-use crate::state::component::{COUNT, S_PHIPHI};
+use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R};
 use crate::update::{Metric, update};
 
 /// What all blocks of a step share.
@@ -27,6 +27,15 @@ pub(crate) struct StepContext<'a, const N: usize> {
     pub surface_first: &'a [usize],
     /// Squared yield strength, Pa².
     pub yield_squared: f64,
+}
+
+impl<const N: usize> StepContext<'_, N> {
+    /// For the faces normal to an axis (0: z, 1: r) of a block of a level.
+    pub fn curvature(&self, level: u8, axis: usize) -> [f64; 2] {
+        let per_speed = self.dt / self.mesh.widths(level)[axis];
+        let Elasticity { inverse_density, z1, z2, .. } = self.elasticity;
+        [z1, z2].map(|impedance| curvature_share(per_speed * inverse_density * impedance))
+    }
 }
 
 /// Scratch of one thread.
@@ -132,7 +141,9 @@ pub(crate) fn step_block<const N: usize>(
 
     let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
     let differences = scratch.s_z.split::<COUNT>();
-    let along_z = Reconstruction { half: [v_z, v_r, zz, zr], differences: ALONG_Z.map(|c| differences[c]) };
+    let curvature = ctx.curvature(id.level, 0);
+    let along_z =
+        Reconstruction { half: [v_z, v_r, zz, zr], differences: ALONG_Z.map(|c| differences[c]), curvature };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     rows::faces(&along_z, 1, stride, z_range, ctx.elasticity, &mut scratch.z_faces);
     if ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax) {
@@ -144,7 +155,9 @@ pub(crate) fn step_block<const N: usize>(
     ctx.mesh.look_ahead(ctx.old, slot, new, 1, 3);
     let differences = scratch.s_r.split::<COUNT>();
     let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
-    let along_r = Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr] };
+    let curvature = ctx.curvature(id.level, 1);
+    let along_r =
+        Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr], curvature };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     rows::faces(&along_r, stride, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
 
@@ -157,7 +170,7 @@ pub(crate) fn step_block<const N: usize>(
         std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
         &scratch.z_faces,
         &scratch.r_faces,
-        scratch.half.component(S_PHIPHI),
+        [V_R, S_NORMAL[1], S_PHIPHI].map(|c| scratch.half.component(c)),
         ctx.dt,
         &metric,
         ctx.elasticity,

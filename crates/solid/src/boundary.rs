@@ -53,8 +53,9 @@ impl Boundaries {
         }
     }
 
-    /// Puts the outer states into the ghost cells at mid-step: on open sides without slopes, elsewhere the
-    /// reflected inner ones, so that what the side holds at zero is zero to the last bit.
+    /// Puts the outer states into the ghost cells at mid-step: on open sides so that the face has just that state, with
+    /// the slope of the cell within, elsewhere the reflected inner ones, so that what the side holds at zero is zero to
+    /// the last bit.
     pub fn impose_outer<const N: usize>(
         &self,
         mesh: &Mesh<N>,
@@ -89,10 +90,13 @@ impl Boundaries {
                     continue;
                 }
                 let state = self.initial.at(side, id.level, first + along).to_array();
+                let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
+                let inwards = if matches!(side, Side::ZMin | Side::RMin) { 0.5 } else { -0.5 };
                 for (component, value) in state.into_iter().enumerate() {
-                    half.component_mut(component)[k] = value;
                     let slopes = if across_z { &mut *s_z } else { &mut *s_r };
-                    slopes.component_mut(component)[k] = 0.0;
+                    let slopes = slopes.component_mut(component);
+                    slopes[k] = slopes[inner];
+                    half.component_mut(component)[k] = value - inwards * slopes[k];
                 }
             }
         }
@@ -110,7 +114,7 @@ impl Boundaries {
     ) {
         for (j, state) in surface.iter().enumerate() {
             let k = Padded::<N>::index(N as isize - 1, j as isize);
-            let trace = cells.face_state(k, 1.0);
+            let trace = cells.shear_at_surface(k);
             let face = star_interface(trace, Outward::High, state.velocity, -state.pressure, elasticity.z2);
             faces.v_n[k] = face.v_n;
             faces.s_nn[k] = face.sigma_nn;

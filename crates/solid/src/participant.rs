@@ -56,14 +56,15 @@ impl<const N: usize> SolidSolver<N> {
     /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the predictor uses; at
     /// mid-step it is what the face's Riemann problem would see.
     ///
+    /// - `dt`: the step about to be made, s: what the trace gets besides depends on it, see [`mesh::curvature_share`].
     /// - `put`: gets the place and one [`TraceRow`] of a face.
-    pub fn write_trace(&self, _dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(|_| true, put);
+    pub fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(dt, |_| true, put);
     }
 
     /// [`SolidSolver::write_trace`] for the faces of the levels that are about to make a step.
     pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(|slot| self.levels.group_of(&self.mesh, slot) == step.group, put);
+        self.write_trace_of(step.dt, |slot| self.levels.group_of(&self.mesh, slot) == step.group, put);
     }
 
     /// The group of levels that a face of the surface belongs to.
@@ -71,13 +72,20 @@ impl<const N: usize> SolidSolver<N> {
         self.levels.group_of(&self.mesh, self.surface_blocks[face / N])
     }
 
-    fn write_trace_of(&self, is_due: impl Fn(usize) -> bool, mut put: impl FnMut(TraceRow, usize, f64)) {
+    fn write_trace_of(
+        &self,
+        dt: f64,
+        is_due: impl Fn(usize) -> bool,
+        mut put: impl FnMut(TraceRow, usize, f64),
+    ) {
         for slot in self.surface_blocks.iter().copied().filter(|slot| is_due(*slot)) {
             let first = self.surface_first[slot];
             let id = self.mesh.tree().leaves()[slot];
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
             self.scratch.with(|scratch| {
-                reconstruct(&self.context(0.0), slot, scratch);
+                let context = self.context(dt);
+                let [share, _] = context.curvature(id.level, 0);
+                reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
                 for j in 0..N {
                     let k = Padded::<N>::index(N as isize - 1, j as isize);
@@ -89,9 +97,11 @@ impl<const N: usize> SolidSolver<N> {
                     let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
                     let rate = rates(w, d_z, d_r, inverse_r[k], &self.elasticity);
                     let trace = |c: usize| w[c] + 0.5 * of(s_z, c);
+                    // What face states within get besides, with the differences continued in a line beyond the surface.
+                    let more = |c: usize| share * (of(s_z, c) - s_z.component(c)[k - 1]);
                     let face = first + j;
-                    put(TraceRow::Pressure, face, -trace(S_NORMAL[0]));
-                    put(TraceRow::NormalVelocity, face, trace(V_Z));
+                    put(TraceRow::Pressure, face, -(trace(S_NORMAL[0]) + more(S_NORMAL[0])));
+                    put(TraceRow::NormalVelocity, face, trace(V_Z) + more(V_Z));
                     put(TraceRow::TangentialVelocity, face, trace(V_R));
                     put(TraceRow::Shear, face, trace(S_ZR));
                     put(TraceRow::Density, face, self.setup.speeds.density);
@@ -139,19 +149,23 @@ impl<const N: usize> SolidSolver<N> {
         self.set_surface_from(interface);
     }
 
-    /// Cell means of the velocity under the surface on the fluid's faces, for the weak scheme; `edges` are the
-    /// fluid's outer radii.
+    /// Cell means of the velocity under the surface on the fluid's faces, for the paper's schemes.
+    ///
+    /// - `edges`: the fluid's outer radii, m.
+    /// - `trial`: of the new state of a step that has been run and not finished, in which all levels step alike.
     pub fn write_cell_velocities(
         &self,
         interface: &mut Interface,
         edges: &[f64],
+        trial: bool,
         mut put: impl FnMut(RegisterRow, usize, f64),
     ) {
         self.refine(interface, edges);
         let Interface { refinement, cells, .. } = interface;
         cells.clear();
         for &slot in &self.surface_blocks {
-            cells.extend((0..N).map(|j| self.state.component(slot, V_Z)[j * N + N - 1]));
+            let state = if trial { &self.next } else { &self.state };
+            cells.extend((0..N).map(|j| state.component(slot, V_Z)[j * N + N - 1]));
         }
         let velocity = |k: usize| cells[refinement.sub_faces()[k].second];
         refinement.means(false, velocity, |f, v| put(RegisterRow::NormalVelocity, f, v));

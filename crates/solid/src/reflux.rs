@@ -5,6 +5,7 @@ use mesh::{FluxRegister, Geometry, Mesh, Side};
 use crate::block::{BlockReport, StepContext, report_stresses};
 use crate::rows::FaceRows;
 use crate::state::component::COUNT;
+use crate::update::FACES;
 
 /// What is registered of a face: v_n, v_t, σ_nn, σ_nt.
 pub(crate) const QUANTITIES: usize = 4;
@@ -58,18 +59,18 @@ pub(crate) fn correct<const N: usize>(
             }
         } else {
             let j = if side == Side::RMin { 0 } else { N - 1 };
-            // Half of the geometric terms stems from either face; planar geometry has none.
-            let half = match ctx.mesh.domain().geometry {
-                Geometry::Axisymmetric => 0.5 * ctx.dt / ctx.mesh.centre(id, 0, j)[1],
+            // What of the terms with 1/r stems from a face; planar geometry has none.
+            let over_r = match ctx.mesh.domain().geometry {
+                Geometry::Axisymmetric => ctx.dt / ctx.mesh.centre(id, 0, j)[1],
                 Geometry::Planar => 0.0,
             };
             let scale = outward * ctx.dt / h_r;
             for i in 0..N {
                 let (v_n, v_t, s_nn, s_nt) = (v_n[i], v_t[i], s_nn[i], s_nt[i]);
-                let (radial, hoop) = (scale * v_n, half * v_n);
+                let (radial, hoop) = (scale * v_n, FACES * over_r * v_n);
                 let changes = [
-                    e.inverse_density * (scale * s_nt + half * s_nt),
-                    e.inverse_density * (scale * s_nn + half * s_nn),
+                    e.inverse_density * (scale * s_nt + 0.5 * over_r * s_nt),
+                    e.inverse_density * (scale * s_nn),
                     e.lambda * (radial + hoop),
                     e.mu * (scale * v_t),
                     e.p_modulus * radial + e.lambda * hoop,

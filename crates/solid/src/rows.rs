@@ -85,6 +85,8 @@ impl FaceRows {
 pub(crate) struct Reconstruction<'a> {
     pub half: [&'a [f64]; 4],
     pub differences: [&'a [f64]; 4],
+    /// What face states get besides, see [`mesh::curvature_share`]: of the pairs (v_n, σ_nn) and (v_t, σ_nt).
+    pub curvature: [f64; 2],
 }
 
 impl Reconstruction<'_> {
@@ -94,6 +96,33 @@ impl Reconstruction<'_> {
         let at = |c: usize| self.half[c][k] + 0.5 * sign * self.differences[c][k];
         FaceState { v_n: at(0), v_t: at(1), sigma_nn: at(2), sigma_nt: at(3) }
     }
+}
+
+impl Reconstruction<'_> {
+    /// The state on the upper face of cell `k`, beyond which there is no cell, with the tangential velocity and the shear
+    /// of the parabola through three cells.
+    ///
+    /// Under a load that stays all waves have gone and no Courant number counts: what the trace of the shear lacks then
+    /// lets the surface creep.
+    pub fn shear_at_surface(&self, k: usize) -> FaceState {
+        let more =
+            |c: usize| mesh::curvature_share(0.0) * (self.differences[c][k] - self.differences[c][k - 1]);
+        let state = self.face_state(k, 1.0);
+        FaceState { v_t: state.v_t + more(1), sigma_nt: state.sigma_nt + more(3), ..state }
+    }
+}
+
+/// The states on both sides of the face between cells `k` of `lower` and of `upper`.
+#[inline(always)]
+fn states_at_face(lower: &Reconstruction<'_>, upper: &Reconstruction<'_>, k: usize) -> [FaceState; 2] {
+    let more = |c: usize| lower.curvature[c % 2] * (upper.differences[c][k] - lower.differences[c][k]);
+    let more = [more(0), more(1), more(2), more(3)];
+    [lower.face_state(k, 1.0), upper.face_state(k, -1.0)].map(|state| FaceState {
+        v_n: state.v_n + more[0],
+        v_t: state.v_t + more[1],
+        sigma_nn: state.sigma_nn + more[2],
+        sigma_nt: state.sigma_nt + more[3],
+    })
 }
 
 /// The exact linear Riemann solution at the faces between cells `k` and `k + step`, for `k` in `range` and in whatever
@@ -109,17 +138,19 @@ pub(crate) fn faces(
 ) {
     let range = whole_lines(range, stride..cells.half[0].len() - step);
     let (first, n) = (range.start, range.len());
-    let Reconstruction { half: h, differences: d } = cells;
+    let Reconstruction { half: h, differences: d, curvature } = *cells;
     let at = first + step;
     faces_body(
         n,
         Reconstruction {
             half: [&h[0][first..][..n], &h[1][first..][..n], &h[2][first..][..n], &h[3][first..][..n]],
             differences: [&d[0][first..][..n], &d[1][first..][..n], &d[2][first..][..n], &d[3][first..][..n]],
+            curvature,
         },
         Reconstruction {
             half: [&h[0][at..][..n], &h[1][at..][..n], &h[2][at..][..n], &h[3][at..][..n]],
             differences: [&d[0][at..][..n], &d[1][at..][..n], &d[2][at..][..n], &d[3][at..][..n]],
+            curvature,
         },
         elasticity,
         &mut faces.v_n[first..][..n],
@@ -141,7 +172,8 @@ fn faces_body(
     s_nt: &mut [f64],
 ) {
     for k in 0..n {
-        let face = star(lower.face_state(k, 1.0), upper.face_state(k, -1.0), elasticity.z1, elasticity.z2);
+        let [left, right] = states_at_face(&lower, &upper, k);
+        let face = star(left, right, elasticity.z1, elasticity.z2);
         v_n[k] = face.v_n;
         v_t[k] = face.v_t;
         s_nn[k] = face.sigma_nn;

@@ -17,20 +17,27 @@ pub(crate) struct Metric<'a> {
     pub inverse_r: &'a [f64],
 }
 
+/// Simpson's weights of a face and of the cell in a mean over the cell.
+pub(crate) const FACES: f64 = 1.0 / 6.0;
+const CELL: f64 = 2.0 / 3.0;
+
 /// Update of a block of N² cells from its face states.
 ///
-/// Paper eq. (23) for (19), (20). A radial divergence (r₊f₊ − r₋f₋)/(rΔr) is taken as (f₊ − f₋)/Δr + (f₊ + f₋)/2r,
-/// which is the same and keeps a uniform hydrostatic stress exactly at rest. The hoop stress of the source is
-/// the predicted one at mid-step.
+/// Paper eq. (23) for (19), (20). The radial divergence of the shear, (r₊f₊ − r₋f₋)/(rΔr), is taken as
+/// (f₊ − f₋)/Δr + (f₊ + f₋)/2r, which is the same. The other two terms with 1/r stay accurate on the axis only if both
+/// of their parts are means of the same kind. The strain rate v_r/r has Simpson's mean of v_r over the cell,
+/// (v₋ + 4v + v₊)/6, as ∂r v_r has its exact mean; with (v₋ + v₊)/2 a wave that passes the axis leaves a stress behind
+/// there. The force (σ_rr − σ_φφ)/r has both stresses of the cell, predicted at mid-step; a uniform hydrostatic stress
+/// stays exactly at rest.
 ///
-/// - `old`, `new`: state `[component][j][i]` without ghosts; `hoop`: padded σ_φφ at mid-step.
+/// - `old`, `new`: state `[component][j][i]` without ghosts; `half`: padded v_r, σ_rr, σ_φφ at mid-step.
 /// - returns: the largest squared von Mises stress, infinite if one is not finite.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update<const N: usize>(
     old: Rows<'_>,
     z_faces: &FaceRows,
     r_faces: &FaceRows,
-    hoop: &[f64],
+    half: [&[f64]; 3],
     dt: f64,
     metric: &Metric<'_>,
     elasticity: &Elasticity,
@@ -54,7 +61,7 @@ pub(crate) fn update<const N: usize>(
             FaceSlices::cut(z_faces, k),
             FaceSlices::cut(r_faces, k - metric.stride),
             FaceSlices::cut(r_faces, k),
-            row(hoop, k),
+            half.map(|component| row(component, k)),
             [dt * metric.inverse_h[0], dt * metric.inverse_h[1], dt * metric.inverse_r[k]],
             *elasticity,
             row_mut(v_z, at),
@@ -108,7 +115,7 @@ fn update_row<const N: usize>(
     east: FaceSlices<'_, N>,
     south: FaceSlices<'_, N>,
     north: FaceSlices<'_, N>,
-    hoop_stress: &[f64; N],
+    [half_v_r, half_s_rr, half_s_pp]: [&[f64; N]; 3],
     [dt_z, dt_r, dt_over_r]: [f64; 3],
     e: Elasticity,
     v_z: &mut [f64; N],
@@ -123,14 +130,14 @@ fn update_row<const N: usize>(
         let mean = |high: f64, low: f64| 0.5 * dt_over_r * (high + low);
         let axial = dt_z * (east.v_n[k] - west.v_n[k]);
         let radial = dt_r * (north.v_n[k] - south.v_n[k]);
-        let hoop = mean(north.v_n[k], south.v_n[k]);
+        let hoop = dt_over_r * (FACES * (north.v_n[k] + south.v_n[k]) + CELL * half_v_r[k]);
         let shear = dt_z * (east.v_t[k] - west.v_t[k]) + dt_r * (north.v_t[k] - south.v_t[k]);
         let force_z = dt_z * (east.s_nn[k] - west.s_nn[k])
             + dt_r * (north.s_nt[k] - south.s_nt[k])
             + mean(north.s_nt[k], south.s_nt[k]);
         let force_r = dt_z * (east.s_nt[k] - west.s_nt[k])
             + dt_r * (north.s_nn[k] - south.s_nn[k])
-            + (mean(north.s_nn[k], south.s_nn[k]) - dt_over_r * hoop_stress[k]);
+            + dt_over_r * (half_s_rr[k] - half_s_pp[k]);
 
         v_z[k] = old[0][k] + e.inverse_density * force_z;
         v_r[k] = old[1][k] + e.inverse_density * force_r;

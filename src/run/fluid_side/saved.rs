@@ -1,9 +1,8 @@
 //! What a checkpoint holds of the fluid's side.
 
-use std::borrow::Cow;
 use std::time::Instant;
 
-use coupler::{FrameHeader, KappaFactor, LinkCounters, Meeting, Participant, Scheme};
+use coupler::{FrameHeader, LinkCounters, Meeting, Participant};
 use fluid::FluidState;
 use mesh::{BLOCK, Misfit};
 use serde::{Deserialize, Serialize};
@@ -12,6 +11,7 @@ use super::FluidSide;
 use crate::case::{Case, FluidCase};
 use crate::output::RunDirectory;
 use crate::run::RunError;
+use crate::run::cell_exchange::{CellExchange, CellsState};
 use crate::run::fluid_record::{FluidRecord, FluidRecordState};
 use crate::run::past::{Done, Past};
 use crate::run::schedule::Progressed;
@@ -25,9 +25,8 @@ pub struct FluidSideState<'a> {
     record: Option<FluidRecordState>,
     schedule: Progressed,
     floored: u64,
-    factor: KappaFactor,
+    cells: Option<CellsState>,
     answer: FrameHeader,
-    received: Cow<'a, [f64]>,
     last_dt: f64,
     clock: Clock,
     done: Done,
@@ -44,15 +43,11 @@ impl FluidSide {
             schedule,
             rule: _,
             meeting,
-            scheme: _,
+            cells,
             star: _,
-            kappa: _,
-            factor,
             edges: _,
             pending: _,
             answer,
-            received,
-            own: _,
             limited_by: _,
             smallest_step: _,
             last_dt,
@@ -67,10 +62,9 @@ impl FluidSide {
             record: record.as_ref().map(FluidRecord::saved),
             schedule: schedule.saved(),
             floored: meeting.saved(),
-            factor: *factor,
+            cells: cells.as_ref().map(CellExchange::saved),
             // A wish to stop is fulfilled with this.
             answer: FrameHeader { flags: 0, ..*answer },
-            received: Cow::Borrowed(received),
             last_dt: *last_dt,
             clock: *clock,
             done: past.saved(counters),
@@ -84,32 +78,20 @@ impl FluidSide {
         directory: &RunDirectory,
         saved: FluidSideState<'_>,
     ) -> Result<Self, RunError> {
-        let FluidSideState {
-            solver: state,
-            record,
-            schedule,
-            floored,
-            factor,
-            answer,
-            received,
-            last_dt,
-            clock,
-            done,
-        } = saved;
+        let FluidSideState { solver: state, record, schedule, floored, cells, answer, last_dt, clock, done } =
+            saved;
         let mut solver = fluid_solver(case, fluid)?;
         solver.restore(state)?;
         let record =
             record.map(|record| FluidRecord::resume(case, directory, &solver, record)).transpose()?;
         let mut side = Self::with(case, solver, record);
-        if side.scheme == Scheme::Weak {
-            if received.len() != side.received.len() {
-                return Err(Misfit(format!("{} velocities are not the wall's", received.len())).into());
-            }
-            side.received = received.into_owned();
+        match (&mut side.cells, cells) {
+            (Some(own), Some(saved)) => own.restore(saved)?,
+            (None, None) => {}
+            _ => return Err(Misfit("it is of another coupling scheme".to_owned()).into()),
         }
         side.schedule.restore(schedule);
         side.meeting = Meeting::restored(floored);
-        side.factor = factor;
         side.answer = answer;
         side.last_dt = last_dt;
         side.clock = clock;

@@ -33,7 +33,7 @@ pub struct SolidSideState<'a> {
 impl SolidSide {
     /// What has to be kept of it; the link's counters are `counters`.
     fn saved(&self, counters: LinkCounters) -> SolidSideState<'_> {
-        debug_assert!(self.pending.is_none(), "no step is under way");
+        debug_assert!(self.pending.is_none() && self.trial.is_none(), "no step is under way");
         // Field by field, so that a new one cannot be forgotten here.
         let Self {
             solver,
@@ -41,6 +41,8 @@ impl SolidSide {
             // The weak scheme's scratch.
             interface: _,
             meeting,
+            // It is what the case says.
+            load: _,
             schedule,
             rule: _,
             scheme: _,
@@ -51,6 +53,7 @@ impl SolidSide {
             // With every trace they are compared with those in it.
             fluid_edges: _,
             pending: _,
+            trial: _,
             fluids_step,
             end: _,
             last_dt,

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::StiffenedGas;
+use crate::curvature::Curvature;
 use crate::exact_riemann::tests::{EXTREME, REFERENCE, Random};
 use crate::exact_riemann::{Side, sample, star_state};
 use crate::hllc::Face;
@@ -119,6 +120,7 @@ fn rows_equal_the_scalar_flux_and_do_not_depend_on_their_company() {
         half: half.each_ref().map(|row| &row[..]),
         differences: differences.each_ref().map(|row| &row[..]),
         keep: &keep,
+        curvature: Curvature::default(),
     };
     fn real(k: usize, step: usize) -> bool {
         k % 97 != 13 && (k + step) % 97 != 13

@@ -1,0 +1,1 @@
+"""Runs of `cav` against exact solutions of the coupled problem."""

@@ -1,0 +1,119 @@
+//! The `[coupling]` table.
+
+use coupler::{Kappa, Participant, Scheme, StarSolver};
+
+use super::read::history;
+use super::reader::{Faults, Given, Table};
+use super::{CouplingCase, LoadCase};
+
+/// The most steps that one side makes within one of the other.
+const MOST_STEPS_IN_ONE: u32 = 16;
+
+/// More iterations a step than this are a mistake.
+const MOST_ITERATIONS: usize = 10_000;
+
+pub(super) fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCase, Option<Given<Scheme>>) {
+    let mut coupling = CouplingCase {
+        scheme: Scheme::Riemann,
+        star: StarSolver::Exact,
+        kappa: Kappa::Off,
+        step_ratio: MOST_STEPS_IN_ONE,
+        first: Participant::Fluid,
+        tolerance: 1e-6,
+        max_iterations: 100,
+        load: None,
+        connect_timeout: 30.0,
+        patience: 600.0,
+    };
+    let default =
+        Given { value: Scheme::Riemann, path: "coupling.scheme".to_owned(), span: root.span.clone() };
+    if !root.has("coupling") {
+        root.table("coupling", faults);
+        return (coupling, Some(default));
+    }
+    let Some(mut table) = root.table("coupling", faults) else { return (coupling, None) };
+    let scheme = if table.has("scheme") {
+        table.choice("scheme", &Scheme::NAMES, faults)
+    } else {
+        table.raw("scheme");
+        Some(Given { span: table.span.clone(), ..default })
+    };
+    if let Some(scheme) = &scheme {
+        coupling.scheme = scheme.value;
+    }
+    if let Some(star) = table.choice("star", &StarSolver::NAMES, faults) {
+        coupling.star = star.value;
+    }
+    if let Some(kappa) = table.choice("kappa", &Kappa::NAMES, faults) {
+        coupling.kappa = kappa.value;
+        if kappa.value != Kappa::Off && scheme.as_ref().is_some_and(|given| given.value != Scheme::Weak) {
+            faults.of(&kappa, "only scheme = \"weak\" has factors kappa", "remove it, or take that scheme");
+        }
+    }
+    if coupling.scheme.exchanges_cells() {
+        coupling.step_ratio = 1;
+    }
+    if let Some(ratio) = table.whole("step_ratio", 1..=MOST_STEPS_IN_ONE as usize, faults) {
+        coupling.step_ratio = ratio.value as u32;
+        if ratio.value > 1
+            && let Some(scheme) = scheme.as_ref().filter(|given| given.value.exchanges_cells())
+        {
+            let message = format!("with scheme = \"{}\" both sides make the same steps", scheme.value.name());
+            faults.of(&ratio, message, "remove it, or take scheme = \"riemann\"");
+        }
+    }
+    let only_in = |schemes: &[Scheme], faults: &mut Faults, path: &str, span: &_| {
+        if scheme.as_ref().is_some_and(|given| !schemes.contains(&given.value)) {
+            let names: Vec<String> = schemes.iter().map(|s| format!("\"{}\"", s.name())).collect();
+            let message = format!("only scheme = {} knows this key", names.join(" or "));
+            faults.at(path, span, message, "remove it, or take such a scheme");
+        }
+    };
+    if let Some(first) = table.choice("first", &Participant::NAMES, faults) {
+        coupling.first = first.value;
+        only_in(&[Scheme::Weak, Scheme::Strong], faults, &first.path, &first.span);
+    }
+    if let Some(tolerance) = table.number("tolerance", "1", faults) {
+        coupling.tolerance = tolerance.value;
+        if !(tolerance.value > 0.0 && tolerance.value < 1.0) {
+            let message = format!("must be above 0 and below 1, got {:?}", tolerance.value);
+            faults.of(&tolerance, message, "give a small share, as 1e-6");
+        }
+        only_in(&[Scheme::Strong], faults, &tolerance.path, &tolerance.span);
+    }
+    if let Some(most) = table.whole("max_iterations", 1..=MOST_ITERATIONS, faults) {
+        coupling.max_iterations = most.value as u32;
+        only_in(&[Scheme::Strong], faults, &most.path, &most.span);
+    }
+    if let Some(seconds) = table.positive("connect_timeout", "s", faults) {
+        coupling.connect_timeout = seconds;
+    }
+    if let Some(seconds) = table.positive("patience", "s", faults) {
+        coupling.patience = seconds;
+    }
+    coupling.load = load(&mut table, scheme.as_ref(), faults);
+    table.finish(faults);
+    (coupling, scheme)
+}
+
+/// `[coupling.load]`, which belongs to one scheme and that scheme to it.
+fn load(coupling: &mut Table<'_>, scheme: Option<&Given<Scheme>>, faults: &mut Faults) -> Option<LoadCase> {
+    if !coupling.has("load") {
+        if let Some(scheme) = scheme.filter(|given| given.value == Scheme::Load) {
+            let help = "write [coupling.load] with `amplitude`, `radius` and `history`";
+            faults.of(scheme, "scheme = \"load\" needs a load", help);
+        }
+        coupling.table("load", faults);
+        return None;
+    }
+    let mut table = coupling.table("load", faults)?;
+    if scheme.is_some_and(|given| given.value != Scheme::Load) {
+        let help = "remove it, or take scheme = \"load\" for a solid alone";
+        faults.at(&table.path, &table.span, "only scheme = \"load\" has a load", help);
+    }
+    let amplitude = table.required("amplitude", "Pa", faults);
+    let radius = table.required_positive("radius", "m", faults);
+    let history = history(&mut table, "history", "s and 1", faults);
+    table.finish(faults);
+    Some(LoadCase { amplitude: amplitude?.value, radius: radius?, history: history?.value })
+}
