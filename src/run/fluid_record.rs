@@ -8,7 +8,9 @@ use serde_json::{Map, Value, json};
 use super::RunError;
 use super::collapse::CollapseFinder;
 use super::interface_history::{InterfaceHistory, InterfaceState};
-use super::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
+use super::record::{
+    CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
+};
 use super::schedule::Plan;
 use super::side_files::{FilesState, SideFiles, SideNames};
 use super::wall_faces::WallFaces;
@@ -53,6 +55,7 @@ pub struct FluidRecordState {
     files: FilesState,
     interface: Option<InterfaceState>,
     ticker: Ticker,
+    probes: Vec<StepEnds>,
     wall_pressures: Vec<f64>,
     cells: CellCount,
     collapse: CollapseFinder,
@@ -92,6 +95,7 @@ impl FluidRecord {
             files,
             interface,
             ticker,
+            probes,
             wall_pressures,
             cells,
             collapse,
@@ -107,6 +111,7 @@ impl FluidRecord {
             _ => return Err(Misfit("only one of both has a history of the interface".to_owned()).into()),
         }
         record.ticker = ticker;
+        restore_probes(&mut record.probes, probes)?;
         record.wall_pressures = wall_pressures;
         record.cells = cells;
         record.collapse = collapse;
@@ -129,7 +134,7 @@ impl FluidRecord {
             interface,
             conservation: _,
             ticker,
-            probes: _,
+            probes,
             faces: _,
             wall_pressures,
             cells,
@@ -144,6 +149,7 @@ impl FluidRecord {
             files: files.saved(),
             interface: interface.as_ref().map(InterfaceHistory::saved),
             ticker: *ticker,
+            probes: saved_probes(probes),
             wall_pressures: wall_pressures.clone(),
             cells: *cells,
             collapse: collapse.clone(),

@@ -6,7 +6,9 @@ use serde_json::{Map, Value, json};
 use solid::SolidSolver;
 
 use super::RunError;
-use super::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
+use super::record::{
+    CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
+};
 use super::schedule::Plan;
 use super::side_files::{FilesState, SideFiles, SideNames};
 use super::wall_faces::WallFaces;
@@ -42,6 +44,7 @@ struct Peak {
 pub struct SolidRecordState {
     files: FilesState,
     ticker: Ticker,
+    probes: Vec<StepEnds>,
     cells: CellCount,
     peak: Peak,
     initial_energy: f64,
@@ -72,8 +75,9 @@ impl SolidRecord {
     ) -> Result<Self, RunError> {
         let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
         let mut record = Self::on(case, files, solver)?;
-        let SolidRecordState { files, ticker, cells, peak, initial_energy } = saved;
+        let SolidRecordState { files, ticker, probes, cells, peak, initial_energy } = saved;
         record.ticker = ticker;
+        restore_probes(&mut record.probes, probes)?;
         record.cells = cells;
         record.peak = peak;
         record.initial_energy = initial_energy;
@@ -90,7 +94,7 @@ impl SolidRecord {
             time: _,
             conservation: _,
             ticker,
-            probes: _,
+            probes,
             faces: _,
             cells,
             peak,
@@ -99,6 +103,7 @@ impl SolidRecord {
         SolidRecordState {
             files: files.saved(),
             ticker: *ticker,
+            probes: saved_probes(probes),
             cells: *cells,
             peak: *peak,
             initial_energy: *initial_energy,
