@@ -12,7 +12,6 @@ use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader, FrameKind};
 use crate::link::{Conversation, Link, LinkCounters, Participant, now_ns};
 use crate::ports::{Ports, failed, pid_of};
-use crate::silence::Silence;
 use crate::watch::{LINGER, PeerWatch, SLICE};
 
 /// What a participant's services take besides its frames, bytes.
@@ -80,7 +79,6 @@ pub struct ProcessLink {
     peer_pid: u32,
     patience: Duration,
     interrupt: Option<Interrupt>,
-    silence: Silence,
     /// Length of the longest frame sent.
     longest: Option<usize>,
     /// Frames in new memory that the peer has not confirmed.
@@ -126,7 +124,7 @@ impl ProcessLink {
             tracing::info!(removed, "cleared away participants that were killed");
         }
         require_room(ROOM_TO_BEGIN + room_for(initial_len))?;
-        let watch = Arc::new(PeerWatch::new(config.clone(), patience));
+        let watch = Arc::new(PeerWatch::new(config.clone(), patience, notice));
         let ports = Ports::open(&config, &run_id, name, initial_len, &watch)?;
 
         let start = Instant::now();
@@ -148,6 +146,7 @@ impl ProcessLink {
         };
         watch.set_peer(peer);
         let peer_pid = pid_of(peer);
+        watch.silence().set_peer(name.peer(), peer_pid);
         tracing::debug!(peer = %name.peer(), peer_pid, run_id, waited = ?start.elapsed(), "connected");
 
         let mut talk = Conversation::new(name.peer(), case_hash);
@@ -160,7 +159,6 @@ impl ProcessLink {
             peer_pid,
             patience,
             interrupt,
-            silence: Silence::new(notice),
             longest: None,
             unread: 0,
             parted: false,
@@ -200,14 +198,14 @@ impl ProcessLink {
     }
 
     fn block(&mut self) -> Result<(), CouplerError> {
-        self.silence.begin();
+        self.watch.silence().begin();
         loop {
             if self.has_frame()? {
-                self.silence.end(self.talk.peer, self.peer_pid);
+                self.watch.silence().end();
                 return Ok(());
             }
             let is_quiet = self.sleep();
-            let waited = self.silence.grows(self.talk.peer, self.peer_pid, self.patience);
+            let waited = self.watch.silence().grows();
             if !is_quiet {
                 continue;
             }
@@ -273,8 +271,9 @@ impl Link for ProcessLink {
         header.ready_ns = now_ns();
         *sample.user_header_mut() = header;
         let start = Instant::now();
+        self.watch.silence().begin();
         match sample.send() {
-            Ok(1) => {}
+            Ok(1) => self.watch.silence().end(),
             // The peer's receiving end is gone.
             Ok(_) if self.watch.is_peer_alive() => {
                 self.parted = true;
