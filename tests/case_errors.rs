@@ -205,6 +205,7 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("scheme = \"riemann\"", "kappa = \"printed\""), &["coupling.kappa", "only scheme = \"weak\""]),
     (Replace("scheme = \"riemann\"", "step_ratio = 17"), &["coupling.step_ratio", "17", "1 to 16"]),
     (Replace("scheme = \"riemann\"", "scheme = \"weak\"\nstep_ratio = 4"), &["coupling.step_ratio", "both sides make the same steps", "\"riemann\""]),
+    (Replace("scheme = \"riemann\"", "scheme = \"external\""), &["coupling.scheme", "for one medium, but both are there", "leave out what the other program is"]),
     (Replace("scheme = \"riemann\"", "scheme = \"strong\"\nstep_ratio = 2"), &["coupling.step_ratio", "scheme = \"strong\" both sides make the same steps"]),
     (Replace("scheme = \"riemann\"", "first = \"solid\""), &["coupling.first", "only scheme = \"weak\" or \"strong\" knows this key"]),
     (Replace("scheme = \"riemann\"", "scheme = \"strong\"\nfirst = \"slid\""), &["coupling.first", "did you mean `solid`?"]),

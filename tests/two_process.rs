@@ -180,7 +180,34 @@ fn two_processes() {
     an_interrupt_stops_both_sides("-INT", 130);
     an_interrupt_stops_both_sides("-TERM", 143);
     a_numerical_failure_is_told();
+    another_program_takes_the_wall();
     nothing_is_left_in_shared_memory();
+}
+
+#[path = "../examples/spring_mass_wall.rs"]
+#[allow(dead_code, reason = "its main is not called here")]
+mod spring_mass_wall;
+
+/// The example's wall in this process, the fluid in one of its own.
+fn another_program_takes_the_wall() {
+    let workshop = Workshop::new();
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/spring-mass-wall.toml");
+    let name = format!("wall-{}", std::process::id());
+    let cav = |command: &str| {
+        let mut cav = Command::new(env!("CARGO_BIN_EXE_cav"));
+        cav.arg(command).arg(&case).arg("-q").arg("--out").arg(workshop.out("fluid"));
+        cav
+    };
+    let refused = cav("run").output().expect("starts");
+    assert_eq!(refused.status.code(), Some(2), "{}", text(&refused));
+    assert!(text(&refused).contains("cav fluid CASE --run ID"), "{}", text(&refused));
+    let mut fluid = cav("fluid").args(["--run", &name]).spawn().expect("starts");
+    let there = spring_mass_wall::run(&case, Some(&name)).expect("the wall");
+    assert!(fluid.wait().expect("ends").success());
+    let here = spring_mass_wall::run(&case, None).expect("in one process");
+    assert_eq!(there.map(f64::to_bits), here.map(f64::to_bits));
+    let summary = summary(&workshop.out("fluid"));
+    assert!(summary["completed"] == true && summary["wall_pressure_peak"].as_f64().unwrap() > 1.1e5);
 }
 
 fn same_numbers_in_one_process_and_in_two() {

@@ -76,7 +76,7 @@ def solve(options, cells, farthest, end, size, adapt=True, ratio=(1, 1), **more)
     places = receivers(options.data, farthest)
     box = Box(WIDTH / cells * min(ratio), size, size, size, adapt, ratio)
     label = "-".join(str(part) for part in (
-        "pulse", cells, f"{farthest:g}", "adaptive" if adapt else "uniform", *ratio, *more.values()))
+        "pulse", cells, f"{farthest:g}", "adaptive" if adapt else "uniform", *ratio, *(f"{key}={value}" for key, value in more.items())))
     result = run(options, label, problem(places, box, end, **more))
     return result, [(place, misfits(options, result, place, end)) for place in places]
 
@@ -106,8 +106,14 @@ def refinement(options):
 
 
 GRIDS = [
-    ("all on the finest level, 1:1", {"adapt": False}),
+    ("all on the finest level, 1:1, common steps", {"adapt": False, "step_ratio": 1}),
+    ("adaptive, 1:1, common steps", {"step_ratio": 1}),
+    ("adaptive, 1:1, at most 2 steps in one", {"step_ratio": 2}),
+    ("adaptive, 1:1, at most 4 steps in one", {"step_ratio": 4}),
+    ("adaptive, 1:1, at most 8 steps in one", {"step_ratio": 8}),
     ("adaptive, 1:1", {}),
+    ("adaptive, 1:1, levels with steps of their own", {"local_steps": True}),
+    ("adaptive, the solid twice as fine, levels with steps of their own", {"ratio": (1, 2), "local_steps": True}),
     ("adaptive, the solid twice as fine", {"ratio": (1, 2)}),
     ("adaptive, the fluid twice as fine", {"ratio": (2, 1)}),
     ("adaptive, the solid four times as fine", {"ratio": (1, 4)}),
@@ -118,7 +124,7 @@ GRIDS = [
 
 
 def grids(options):
-    """Adaptation, cells that do not match, limiters."""
+    """Adaptation, cells that do not match, different time steps, limiters."""
     cells = (options.cells or [20])[0]
     print(f"| {cells} cells per width | largest misfit in the fluid | in the solid and on the interface | cell updates |")
     print("|---|---|---|---|")

@@ -62,6 +62,8 @@ class Problem:
     geometry: str = "axisymmetric"
     cfl: float = 0.45
     limiter: str = ""
+    step_ratio: int = 16
+    local_steps: bool = False
     snapshots: tuple = ()
     # (name, medium, z, r)
     probes: list = field(default_factory=list)
@@ -69,11 +71,12 @@ class Problem:
     def text(self):
         limiter = f'limiter = "{self.limiter}"\n' if self.limiter else ""
         parts = [f'geometry = "{self.geometry}"\n',
-                 f"[time]\nend = {self.end!r}\ncfl = {self.cfl}\nsnapshots = {list(self.snapshots)}\n"]
+                 f"[time]\nend = {self.end!r}\ncfl = {self.cfl}\nlocal_steps = {str(self.local_steps).lower()}\nsnapshots = {list(self.snapshots)}\n"]
         for medium, length, rest in (("fluid", self.box.height, self.fluid), ("solid", self.box.depth, self.solid)):
             if rest:
                 parts.append(f"[{medium}]\n{self.box.grid(medium, length)}{limiter}{rest}")
-        parts.append(f"[coupling]\n{self.coupling}")
+        steps = f"step_ratio = {self.step_ratio}\n" if self.step_ratio < 16 else ""
+        parts.append(f"[coupling]\n{steps}{self.coupling}")
         parts += [f'[[probe]]\nname = "{name}"\nposition = [{z!r}, {r!r}]\nmedium = "{medium}"\n'
                   for name, medium, z, r in self.probes]
         return "\n".join(parts)

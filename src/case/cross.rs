@@ -26,6 +26,13 @@ pub(super) fn media(scheme: &Given<Scheme>, has_fluid: bool, has_solid: bool, fa
                 }
             }
         }
+        Scheme::External => {
+            if has_fluid == has_solid {
+                let which = if has_fluid { "both are there" } else { "there is neither" };
+                let help = "leave out what the other program is, [fluid] or [solid]";
+                faults.of(scheme, format!("scheme = \"external\" is for one medium, but {which}"), help);
+            }
+        }
         Scheme::Rigid => {
             if !has_fluid {
                 let help = "write [fluid], or take scheme = \"none\" for a solid alone";

@@ -325,7 +325,7 @@ fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Bound
     let z_min = match context.scheme {
         Some(Scheme::Rigid) => Boundary::Wall,
         Some(Scheme::None | Scheme::Load) | None => Boundary::NonReflecting,
-        Some(Scheme::Riemann | Scheme::Explicit | Scheme::Weak | Scheme::Strong) => Boundary::Interface,
+        Some(_) => Boundary::Interface,
     };
     let r_min = match context.geometry {
         Geometry::Axisymmetric => Boundary::Axis,

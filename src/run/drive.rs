@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use coupler::{Endpoint, Link, LinkCounters, Participant, ProcessLink};
+use coupler::{Endpoint, Link, LinkCounters, Participant, ProcessLink, Scheme};
 use serde_json::{Map, Value, json};
 
 use super::RunError;
@@ -111,9 +111,6 @@ pub fn joined(
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {
-    let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) else {
-        unreachable!("only coupled cases run in two processes");
-    };
     let connected = Arc::new(AtomicBool::new(false));
     let mut endpoint = Endpoint::new(joining.run_id, joining.participant, case.hash());
     endpoint.connect_timeout = Duration::from_secs_f64(case.coupling.connect_timeout);
@@ -130,9 +127,13 @@ pub fn joined(
     connected.store(true, Ordering::Relaxed);
     let directory = directory()?;
     let checkpoints = Checkpoints::of(case, &directory);
-    let keeper = keeping.every.map(|every| Keeper::new(checkpoints.clone(), every));
+    // A program elsewhere keeps none.
+    let every = keeping.every.filter(|_| case.coupling.scheme != Scheme::External);
+    let keeper = every.map(|every| Keeper::new(checkpoints.clone(), every));
+    let side = joining.participant.name();
     match joining.participant {
         Participant::Fluid => {
+            let fluid = case.fluid.as_ref().ok_or(RunError::NoPeer { side })?;
             let side = match keeping.from {
                 Some(step) => (checkpoints.read(Participant::Fluid, step))
                     .and_then(|saved| FluidSide::resumed(case, fluid, &directory, saved)),
@@ -152,6 +153,7 @@ pub fn joined(
             end(&mut side, Some(&directory), result, link.counters())
         }
         Participant::Solid => {
+            let solid = case.solid.as_ref().ok_or(RunError::NoPeer { side })?;
             let side = match keeping.from {
                 Some(step) => (checkpoints.read(Participant::Solid, step))
                     .and_then(|saved| SolidSide::resumed(case, solid, &directory, saved)),

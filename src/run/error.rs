@@ -41,6 +41,15 @@ pub enum RunError {
         /// "fluid" or "solid".
         side: &'static str,
     },
+    /// The other side is another program's, which the launcher cannot start.
+    #[error(
+        "coupling.scheme = \"external\": the other side is another program's; \
+         start this one with `cav {side} CASE --run ID` and that one under the same ID"
+    )]
+    PeerIsElsewhere {
+        /// "fluid" or "solid", the side that is ours.
+        side: &'static str,
+    },
     /// The peer or the way to it failed.
     #[error(transparent)]
     Coupler(#[from] CouplerError),
@@ -95,6 +104,7 @@ impl RunError {
             Self::Case(_)
             | Self::Directory(_)
             | Self::NoPeer { .. }
+            | Self::PeerIsElsewhere { .. }
             | Self::Resume { .. }
             | Self::Misfit(_) => 2,
             Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
@@ -116,6 +126,7 @@ impl RunError {
             Self::Interrupted | Self::Terminated => Fault::Stopped,
             Self::Case(_)
             | Self::NoPeer { .. }
+            | Self::PeerIsElsewhere { .. }
             | Self::Resume { .. }
             | Self::Misfit(_)
             | Self::Child { .. }

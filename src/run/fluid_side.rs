@@ -212,7 +212,7 @@ impl FluidSide {
             self.adapt_if_due();
         }
         let (own, others) = (self.rule.long(&self.solver).limit, self.answer.dt_max);
-        let is_long = own >= others || self.rule.ratio == 1;
+        let is_long = own >= others || self.rule.ratio == 1 || self.answer.has(FrameHeader::FOLLOWS);
         // No longer than the side with the longer steps allows, and than the other one can follow.
         let limit = if is_long {
             self.rule.longest(others)

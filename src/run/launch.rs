@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc;
 use std::time::{Duration, Instant, SystemTime};
 
-use coupler::{Participant, clean_up_dead};
+use coupler::{Participant, Scheme, clean_up_dead};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Map;
 
@@ -78,6 +78,10 @@ pub fn run(
     stop: &Stop,
     on_directory: impl FnOnce(&Path),
 ) -> Result<PathBuf, RunError> {
+    if case.coupling.scheme == Scheme::External {
+        let side = if case.fluid.is_some() { "fluid" } else { "solid" };
+        return Err(RunError::PeerIsElsewhere { side });
+    }
     let directory = prepare(case, options)?;
     on_directory(directory.path());
     carry_out(case, options, &directory, stop)
@@ -341,6 +345,15 @@ fn verdict(sides: &[Side]) -> Result<(), RunError> {
     }
 }
 
+/// Whether a case has this side, and a peer to meet.
+fn is_side(case: &Case, participant: Participant) -> bool {
+    let here = match participant {
+        Participant::Fluid => case.fluid.is_some(),
+        Participant::Solid => case.solid.is_some(),
+    };
+    here && case.coupling.scheme.is_coupled()
+}
+
 /// One side by hand or as a child of the launcher.
 pub fn run_side(
     case: &Case,
@@ -352,11 +365,12 @@ pub fn run_side(
 ) -> Result<(), RunError> {
     // Before anything is made.
     coupler::check_run_id(&joining.run_id)?;
-    if case.fluid.is_none() || case.solid.is_none() {
+    if !is_side(case, joining.participant) {
         return Err(RunError::NoPeer { side: joining.participant.name() });
     }
     let path = directory_of(case, options.out.as_deref());
-    let leads = joining.participant == Participant::Fluid && !child;
+    let alone = case.coupling.scheme == Scheme::External;
+    let leads = (joining.participant == Participant::Fluid || alone) && !child;
     // By hand the fluid makes the directory before the solid can find it, and both leave the summary.
     let prepared = if leads { Some(prepare(case, options)?) } else { None };
     let directory = || {

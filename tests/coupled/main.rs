@@ -8,6 +8,7 @@ mod ledgers;
 mod load;
 mod modes;
 mod paper_schemes;
+mod participants;
 mod pulse;
 mod rest;
 mod start;

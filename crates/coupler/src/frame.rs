@@ -145,8 +145,10 @@ impl FrameHeader {
     pub const TRIAL: u32 = 16;
     /// Strong scheme: the last iterate counts; there is no payload.
     pub const SETTLED: u32 = 32;
+    /// The sender makes its steps within the receiver's, whatever its `dt_max` says.
+    pub const FOLLOWS: u32 = 64;
     /// The sender has kept a checkpoint of its state before the step `step`; the receiver does likewise, before anything else.
-    pub const CHECKPOINT: u32 = 64;
+    pub const CHECKPOINT: u32 = 128;
     /// Set by the link: longer than all before, so its memory is new and the sender wants to know that it was read.
     pub(crate) const GROWN: u32 = 1 << 31;
 

@@ -1,6 +1,7 @@
 //! The interface between two solvers: frames, transports, coupling schemes. No PDE.
 //!
 //! - [`Frame`], [`Link`]: what crosses and how: [`ProcessLink`] between processes, [`DirectLink`] within one.
+//! - [`WallParticipant`], [`FlowParticipant`]: either side, played by somebody else's solver.
 //! - [`TraceRow`], [`RegisterRow`]: what the numbers in a frame mean.
 //! - [`CommonRefinement`]: two non-matching sets of interface faces; [`Meeting`]: the interface during a long step of one
 //!   side, which is several of the other.
@@ -22,6 +23,7 @@ mod mapping;
 mod meeting;
 mod one_sided;
 mod options;
+mod participant;
 mod ports;
 mod process;
 mod silence;
@@ -40,6 +42,7 @@ pub use mapping::{CommonRefinement, SubFace};
 pub use meeting::{Meeting, ShortStep};
 pub use one_sided::{fluid_at_moving_wall, fluid_under_pressure, solid_moved, solid_under_pressure};
 pub use options::{Kappa, Scheme, StarSolver};
+pub use participant::{FlowParticipant, FlowTrace, FluidStep, WallMeans, WallParticipant};
 pub use process::{Endpoint, Interrupt, Notice, ProcessLink, check_run_id};
 pub use star::{FluidTrace, InterfaceStar, SolidTrace, acoustic_star, exact_star, star_density};
 pub use weak::KappaFactor;

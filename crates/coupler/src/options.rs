@@ -13,6 +13,8 @@ pub enum Scheme {
     Weak,
     /// The same repeated until cell values of the new time agree, paper eqs. (34)–(35).
     Strong,
+    /// [`Scheme::Riemann`] with another program on the other side of the interface, see [`crate::WallParticipant`].
+    External,
     /// No solid: z_min of the fluid is a rigid wall.
     Rigid,
     /// No fluid: a given pressure on z_max of the solid.
@@ -23,11 +25,12 @@ pub enum Scheme {
 
 impl Scheme {
     /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 7] = [
+    pub const NAMES: [(&'static str, Self); 8] = [
         ("riemann", Self::Riemann),
         ("explicit", Self::Explicit),
         ("weak", Self::Weak),
         ("strong", Self::Strong),
+        ("external", Self::External),
         ("rigid", Self::Rigid),
         ("load", Self::Load),
         ("none", Self::None),
@@ -39,10 +42,10 @@ impl Scheme {
         Self::NAMES.iter().find(|(_, named)| *named == self).map_or("", |(name, _)| name)
     }
 
-    /// Whether a fluid and a solid meet in it.
+    /// Whether a fluid and a solid meet in it, be one of them another program's.
     #[must_use]
     pub fn is_coupled(self) -> bool {
-        self == Self::Riemann || self.exchanges_cells()
+        matches!(self, Self::Riemann | Self::External) || self.exchanges_cells()
     }
 
     /// Whether it is one of the paper's, in which cell values cross the interface and both sides make the same steps.

@@ -18,6 +18,8 @@ use crate::run::schedule::Progressed;
 use crate::run::setup::fluid_solver;
 use crate::run::timed::Clock;
 
+const STOPPED: u32 = FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE;
+
 /// What of the fluid's side changes in time, between two steps of the whole.
 #[derive(Serialize, Deserialize)]
 pub struct FluidSideState<'a> {
@@ -64,7 +66,7 @@ impl FluidSide {
             floored: meeting.saved(),
             cells: cells.as_ref().map(CellExchange::saved),
             // A wish to stop is fulfilled with this.
-            answer: FrameHeader { flags: 0, ..*answer },
+            answer: FrameHeader { flags: answer.flags & !STOPPED, ..*answer },
             last_dt: *last_dt,
             clock: *clock,
             done: past.saved(counters),
