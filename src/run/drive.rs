@@ -248,6 +248,13 @@ fn progress_part<S: Side>(
         "seconds_checkpointing": clock.checkpointing.as_secs_f64(),
         "seconds_waited": counters.waited.as_secs_f64(),
         "seconds_exchanging": counters.exchanging.as_secs_f64(),
+        "exchange_seconds": {
+            "p50": counters.latencies.percentile(0.5),
+            "p90": counters.latencies.percentile(0.9),
+            "p99": counters.latencies.percentile(0.99),
+            "p999": counters.latencies.percentile(0.999),
+            "largest": counters.latencies.percentile(1.0),
+        },
     });
     let mut part = Map::new();
     part.insert("completed".to_owned(), json!(completed));

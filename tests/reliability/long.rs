@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime};
 
-use crate::compare::assert_same;
+use crate::cases::COUPLED;
+use crate::compare::{assert_same, summary};
 use crate::faults::victim_of;
 use crate::processes::{Workshop, alone, assert_tidy, processes_of, segments, signal, text};
 
@@ -82,5 +83,95 @@ fn killed_over_and_over() {
     assert_eq!(done, kills, "the run was over too early");
     assert_tidy(&out);
     assert!(processes_of(&out).is_empty());
+    assert_eq!(segments(), Vec::<String>::new());
+}
+
+/// What a run holds: memory of both sides (KiB), open files of both, bytes of shared memory of this program.
+#[derive(Clone, Copy, Debug)]
+struct Held {
+    memory: [u64; 2],
+    files: [usize; 2],
+    shared: u64,
+}
+
+fn held(pids: [u32; 2]) -> Option<Held> {
+    let mut held = Held { memory: [0; 2], files: [0; 2], shared: 0 };
+    for (k, pid) in pids.into_iter().enumerate() {
+        let status = fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
+        let line = status.lines().find(|line| line.starts_with("VmRSS"))?;
+        held.memory[k] = line.split_whitespace().nth(1)?.parse().ok()?;
+        held.files[k] = fs::read_dir(format!("/proc/{pid}/fd")).ok()?.count();
+    }
+    for entry in fs::read_dir("/dev/shm").ok()?.flatten() {
+        if entry.file_name().to_string_lossy().starts_with("cav_") {
+            held.shared += entry.metadata().map_or(0, |file| file.len());
+        }
+    }
+    Some(held)
+}
+
+/// 2·10⁵ steps: memory, files and shared memory stay what they are, and what an exchange takes.
+#[test]
+#[ignore = "minutes"]
+fn a_long_coupled_run_holds_no_more_and_more() {
+    let _turn = alone();
+    let workshop = Workshop::with(COUPLED);
+    let out = workshop.file("soak");
+    let steps = number("CAV_STEPS", 200_000);
+    // A fluid at rest: steps of one length, cells of one number.
+    let sets = [
+        "fluid.levels=2",
+        "solid.levels=2",
+        "fluid.adapt=false",
+        "solid.adapt=false",
+        "fluid.region=[]",
+        "coupling.step_ratio=1",
+    ];
+    let end = format!("time.end={:e}", steps as f64 * 2.5e-7);
+    let every = format!("time.snapshot_every={:e}", steps as f64 * 2.5e-9);
+    let all: Vec<&str> = sets.into_iter().chain([&*end, &*every]).flat_map(|set| ["--set", set]).collect();
+    let begin = Instant::now();
+    let run =
+        workshop.cav("soak", &[&all[..], &["-q", "--threads", "1", "--checkpoint-every", "10s"]].concat());
+    let mut run = { run }.spawn().unwrap();
+    let pids = ["fluid", "solid"].map(|side| victim_of(&mut run, &out, side).unwrap());
+    let mut seen = Vec::new();
+    while run.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(500));
+        seen.extend(held(pids).map(|held| (begin.elapsed().as_secs_f64(), held)));
+    }
+    let output = run.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    let summary = summary(&out);
+    println!("{} steps in {:.0} s", summary["steps"], begin.elapsed().as_secs_f64());
+    for side in ["fluid", "solid"] {
+        println!("the {side}'s exchanges: {}", summary["coupling"][side]["exchange_seconds"]);
+    }
+    // The last samples may be of a process that is ending.
+    seen.truncate(seen.len().saturating_sub(4));
+    seen.iter()
+        .step_by(seen.len().div_ceil(12).max(1))
+        .for_each(|(time, held)| println!("{time:6.1} s  {held:?}"));
+    let settled = seen.len() / 10;
+    let largest = |from: usize, to: usize, of: &dyn Fn(&Held) -> f64| {
+        seen[from..to].iter().map(|(_, held)| of(held)).fold(0.0, f64::max)
+    };
+    let quantities: [(&str, f64, &dyn Fn(&Held) -> f64); 5] = [
+        ("memory of the fluid", 1.01, &|held| held.memory[0] as f64),
+        ("memory of the solid", 1.01, &|held| held.memory[1] as f64),
+        ("files of the fluid", 1.0, &|held| held.files[0] as f64),
+        ("files of the solid", 1.0, &|held| held.files[1] as f64),
+        ("shared memory", 1.0, &|held| held.shared as f64),
+    ];
+    let mut grown = Vec::new();
+    for (what, bound, of) in quantities {
+        let middle = seen.len() / 2;
+        let [early, late] = [largest(settled, middle, of), largest(middle, seen.len(), of)];
+        println!("{what}: at most {early} in the first half after a tenth, {late} in the second");
+        if late > bound * early {
+            grown.push(what);
+        }
+    }
+    assert!(grown.is_empty(), "{grown:?} grew");
     assert_eq!(segments(), Vec::<String>::new());
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::CouplerError;
 use crate::frame::{Expected, Fault, Frame, FrameHeader, FrameKind};
+use crate::latency::Latencies;
 
 /// The two parts of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -55,6 +56,8 @@ pub struct LinkCounters {
     /// What the exchange itself cost: from the moment when a frame was complete and its reader asked for it, to
     /// the moment when the reader had it.
     pub exchanging: Duration,
+    /// The same frame by frame.
+    pub latencies: Latencies,
 }
 
 impl LinkCounters {
@@ -67,6 +70,7 @@ impl LinkCounters {
             bytes: self.bytes + other.bytes,
             waited: self.waited + other.waited,
             exchanging: self.exchanging + other.exchanging,
+            latencies: self.latencies.zip(other.latencies, |a, b| a + b),
         }
     }
 
@@ -79,6 +83,7 @@ impl LinkCounters {
             bytes: self.bytes - earlier.bytes,
             waited: self.waited.saturating_sub(earlier.waited),
             exchanging: self.exchanging.saturating_sub(earlier.exchanging),
+            latencies: self.latencies.zip(earlier.latencies, u64::saturating_sub),
         }
     }
 }
@@ -198,7 +203,9 @@ impl Conversation {
         self.counters.received += 1;
         let now = now_ns();
         let both_there = self.asking_since.take().unwrap_or(now).max(frame.header.ready_ns);
-        self.counters.exchanging += Duration::from_nanos(now.saturating_sub(both_there));
+        let latency = Duration::from_nanos(now.saturating_sub(both_there));
+        self.counters.exchanging += latency;
+        self.counters.latencies.add(latency);
         self.counters.bytes += frame_bytes(frame.payload.len());
         match kind {
             FrameKind::Fault => Err(CouplerError::PeerFailed {
