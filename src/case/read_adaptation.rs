@@ -9,7 +9,7 @@ use super::reader::{Faults, Table};
 pub const EPSILON_WITH_JUMPS: f64 = 3e-4;
 /// Threshold of the details where a case does not say and all is smooth: the scheme's own error is then of second
 /// order and much smaller. See docs/adaptation.md for what both cost and lose.
-pub const EPSILON_IF_SMOOTH: f64 = 3e-6;
+pub const EPSILON_IF_SMOOTH: f64 = 1e-6;
 /// Steps between two adaptations where a case does not say.
 pub const DEFAULT_ADAPT_EVERY: usize = 8;
 /// More steps than this between two adaptations are a mistake.
