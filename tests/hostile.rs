@@ -1,6 +1,7 @@
 //! Hostile input for some seconds: the corpus, and random changes of it. For hours: `fuzz/`, see docs/reliability.md.
 
-#![allow(clippy::unwrap_used)]
+// How many inputs were tried is told.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::fs;
 use std::path::Path;

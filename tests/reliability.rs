@@ -1,6 +1,7 @@
 //! Runs that survive: checkpoints, and what happens to runs.
 
-#![allow(clippy::unwrap_used)]
+// Long ones tell what they have measured.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 #[path = "reliability/cases.rs"]
 mod cases;

@@ -156,7 +156,8 @@ fn a_long_coupled_run_holds_no_more_and_more() {
     let largest = |from: usize, to: usize, of: &dyn Fn(&Held) -> f64| {
         seen[from..to].iter().map(|(_, held)| of(held)).fold(0.0, f64::max)
     };
-    let quantities: [(&str, f64, &dyn Fn(&Held) -> f64); 5] = [
+    type Of<'a> = &'a dyn Fn(&Held) -> f64;
+    let quantities: [(&str, f64, Of<'_>); 5] = [
         ("memory of the fluid", 1.01, &|held| held.memory[0] as f64),
         ("memory of the solid", 1.01, &|held| held.memory[1] as f64),
         ("files of the fluid", 1.0, &|held| held.files[0] as f64),

@@ -64,7 +64,8 @@ fn damage(directory: &Path, name: &str, how: impl FnOnce(&mut Vec<u8>)) {
 fn the_last_two_checkpoints_are_kept_and_a_damaged_one_is_passed_over() {
     let _turn = alone();
     let workshop = Workshop::with(COUPLED);
-    let cut: [(&str, fn(&mut Vec<u8>)); 4] = [
+    type Change = fn(&mut Vec<u8>);
+    let cut: [(&str, Change); 4] = [
         ("a flipped bit", |bytes| bytes[5000] ^= 1),
         ("half of it", |bytes| bytes.truncate(bytes.len() / 2)),
         ("nothing", Vec::clear),
