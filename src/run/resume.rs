@@ -32,7 +32,7 @@ pub fn resume(
         return Err(refuse("it holds no case.toml; give the directory of a run"));
     }
     let mut progress = Progress::new(0.0, options.quiet, options.verbosity);
-    let directory = take_up(path, &mut progress)?;
+    let directory = take_up(path, stop, &mut progress)?;
     on_directory(directory.path());
     if summary::read(&directory.file(SUMMARY)).is_ok_and(|summary| summary["completed"] == json!(true)) {
         let words = format!("the run in {} is finished; there is nothing to do", path.display());
@@ -68,7 +68,7 @@ pub fn resume(
 }
 
 /// Locks the directory; processes that a killed launcher left behind hold it until they have ended.
-fn take_up(path: &Path, progress: &mut Progress) -> Result<RunDirectory, RunError> {
+fn take_up(path: &Path, stop: &Stop, progress: &mut Progress) -> Result<RunDirectory, RunError> {
     let start = Instant::now();
     let mut is_told = false;
     loop {
@@ -77,6 +77,9 @@ fn take_up(path: &Path, progress: &mut Progress) -> Result<RunDirectory, RunErro
                 if !is_told && start.elapsed() > Duration::from_secs(1) {
                     progress.message("waiting for the processes that still hold the directory");
                     is_told = true;
+                }
+                if let Some(stopped) = Stop::error(stop.flags()) {
+                    return Err(stopped);
                 }
                 std::thread::sleep(LOOK_INTERVAL);
             }

@@ -64,8 +64,9 @@ fn what_is_cut_off_leaves_nothing_behind() {
             append(&mut writer, &fine, 4).unwrap();
             append(&mut writer, &coarse, 5).unwrap();
             drop(writer);
-            writer = SeriesWriter::open(path).unwrap().with_mesh(Some(3));
+            writer = SeriesWriter::open(path).unwrap();
             writer.truncate(1).unwrap();
+            writer = writer.with_mesh(Some(3));
         }
         // On the mesh of the first snapshot, which is not stored again.
         append(&mut writer, &coarse, 3).unwrap();
