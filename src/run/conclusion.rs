@@ -69,6 +69,9 @@ fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
 /// Share of the collapse's energy above which what the pressure floor added is worth a warning.
 const FLOOR_BUDGET: f64 = 0.01;
 
+/// Share of the fluid's cell updates above which those done again at first order are worth a warning.
+const REDONE_BUDGET: f64 = 1e-3;
+
 /// What of a run's corrections is too much to be passed over.
 fn warnings(whole: &Map<String, Value>) -> Vec<String> {
     let share = whole.get("fixups").and_then(|fixups| fixups.get("floor_energy_share")?.as_f64());
@@ -80,7 +83,24 @@ fn warnings(whole: &Map<String, Value>) -> Vec<String> {
             100.0 * FLOOR_BUDGET
         )
     });
-    floor.into_iter().collect()
+    let number = |path: [&str; 2]| whole.get(path[0])?.get(path[1])?.as_f64();
+    let redone = number(["fixups", "redone"]).zip(number(["cell_updates", "fluid"]));
+    let redone = redone.map(|(redone, updates)| redone / updates).filter(|share| *share > REDONE_BUDGET).map(|share| {
+        format!(
+            "{:.2} % of the fluid's cell updates had to be done again at first order; more than {:.1} % says that the \
+             solution is not resolved: refine, or take a smaller time.cfl",
+            100.0 * share,
+            100.0 * REDONE_BUDGET
+        )
+    });
+    let unsettled =
+        number(["coupling_iterations", "unsettled_steps"]).filter(|steps| *steps > 0.0).map(|steps| {
+            format!(
+                "in {steps:.0} steps the iteration of scheme = \"strong\" ended before coupling.tolerance: \
+             allow more coupling.max_iterations, or take a smaller time.cfl"
+            )
+        });
+    floor.into_iter().chain(redone).chain(unsettled).collect()
 }
 
 /// The numbers one asks for first, in words.

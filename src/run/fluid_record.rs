@@ -351,7 +351,7 @@ const STEP_COLUMNS: [Column<'static>; 18] = [
     column("wall/pressure_axis", "Pa", "cell mean at z_min on the axis"),
     column("wall/pressure_max", "Pa", "largest cell mean along z_min"),
     column("fixups/first_order", "1", "cell-steps at first order so far"),
-    column("fixups/redone", "1", "mixed cell-steps done again at first order so far"),
+    column("fixups/redone", "1", "cell-steps done again at first order so far"),
     column("fixups/redone_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
     column("fixups/floored", "1", "cell-steps lifted to the pressure floor so far"),
     column("fixups/floored_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),

@@ -198,6 +198,10 @@ pub(crate) fn step_block<const N: usize>(
         &mut scratch.keep,
     );
 
+    if !ctx.marks.is_empty() {
+        at_first_order(ctx, slot, scratch);
+    }
+
     let gas_block = GasBlock::of(ctx, slot);
     if let Some(block) = &gas_block {
         block.collect(scratch);
@@ -309,6 +313,17 @@ pub(crate) fn step_block<const N: usize>(
     }
     report.inflow = boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces, &scratch.face_weight);
     report
+}
+
+/// Takes the marked cells' means for the states on their faces.
+fn at_first_order<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+    let BlockScratch { cells, half, keep, gas, .. } = scratch;
+    for k in gas.mark(ctx.mesh, slot, ctx.marks) {
+        keep[k] = 0.0;
+        for component in 0..COUNT {
+            half.component_mut(component)[k] = cells.component(component)[k];
+        }
+    }
 }
 
 /// The first components of one block of a field.

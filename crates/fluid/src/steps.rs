@@ -118,8 +118,8 @@ impl<const N: usize> FluidSolver<N> {
         // A cell that falls back changes what its neighbours get: first all parts must be there.
         let is_whole = part != Part::AwayFromInterface;
         let in_group = |slot: usize| self.levels.group_of(&self.mesh, slot) == step.group;
-        if is_whole && pending.iter().enumerate().any(|(slot, report)| report.marked > 0 && in_group(slot)) {
-            self.redo_marked(&context, &mut target, &mut register, &mut pending, in_group);
+        if is_whole {
+            self.rescue(&context, &mut target, &mut register, &mut pending, in_group);
         }
         let due = (0..self.mesh.blocks()).filter(|slot| is_due(*slot)).count();
         let end = self.time + step.dt;
@@ -137,9 +137,9 @@ impl<const N: usize> FluidSolver<N> {
         Ok(())
     }
 
-    /// Does the blocks around marked cells again, with those cells at first order. Beyond the group's blocks the fluxes are
-    /// those of the finer side.
-    fn redo_marked(
+    /// Does cells again at first order that the step has taken too far: mixed ones that are marked, and any that are not
+    /// physical any more. What is left is for [`check`] to find.
+    fn rescue(
         &self,
         context: &StepContext<'_, N>,
         next: &mut Field,
@@ -147,26 +147,70 @@ impl<const N: usize> FluidSolver<N> {
         reports: &mut [BlockReport<N>],
         is_due: impl Fn(usize) -> bool,
     ) {
-        let marked: Vec<usize> = reports
-            .iter()
-            .enumerate()
-            .filter(|(slot, report)| report.marked > 0 && is_due(*slot))
-            .map(|(slot, _)| slot)
-            .collect();
-        let mut step = |context: &StepContext<'_, N>, slot: usize| {
+        /// The neighbours of a cell at first order may fail in turn.
+        const ROUNDS: usize = 4;
+        let mut marks = Marks::new();
+        if reports.iter().enumerate().any(|(slot, report)| report.marked > 0 && is_due(slot)) {
+            marks = self.marked_cells(context, next, register, reports, &is_due);
+            self.redo(context, &marks, next, register, reports, &is_due);
+        }
+        for _ in 0..ROUNDS {
+            let failed = failed_cells(&self.mesh, &self.mixture, next, reports, &is_due);
+            let known = marks.clone();
+            for (slot, cells) in failed {
+                let of_block = marks.entry(slot).or_default();
+                of_block.extend(cells);
+                of_block.sort_unstable();
+                of_block.dedup();
+            }
+            if marks == known {
+                return;
+            }
+            self.redo(context, &marks, next, register, reports, &is_due);
+        }
+    }
+
+    /// The cells that blocks have marked. Which they are is still in the scratch of a block's step, and only there: their
+    /// blocks are done again.
+    fn marked_cells(
+        &self,
+        context: &StepContext<'_, N>,
+        next: &mut Field,
+        register: &mut Register<N>,
+        reports: &mut [BlockReport<N>],
+        is_due: impl Fn(usize) -> bool,
+    ) -> Marks {
+        let marked: Vec<usize> =
+            (0..reports.len()).filter(|slot| reports[*slot].marked > 0 && is_due(*slot)).collect();
+        let of_block = |slot: usize| {
             self.scratch.with(|scratch| {
                 let fluxes = register.values_mut().block_mut(slot);
                 reports[slot] = step_block(context, slot, next.block_mut(slot), fluxes, scratch);
-                scratch.marked_cells().to_vec()
+                (slot, scratch.marked_cells().to_vec())
             })
         };
-        // Which cells they are is still in the scratch of a block's step, and only there.
-        let marks: Marks = marked.into_iter().map(|slot| (slot, step(context, slot))).collect();
-        let context = StepContext { marks: &marks, ..*context };
-        for slot in marked_blocks(&self.mesh, &marks).into_iter().filter(|slot| is_due(*slot)) {
-            step(&context, slot);
+        marked.into_iter().map(of_block).collect()
+    }
+
+    /// Does the blocks around marked cells again, with those cells at first order. Beyond the group's blocks the fluxes are
+    /// those of the finer side.
+    fn redo(
+        &self,
+        context: &StepContext<'_, N>,
+        marks: &Marks,
+        next: &mut Field,
+        register: &mut Register<N>,
+        reports: &mut [BlockReport<N>],
+        is_due: impl Fn(usize) -> bool,
+    ) {
+        let context = StepContext { marks, ..*context };
+        for slot in marked_blocks(&self.mesh, marks).into_iter().filter(|slot| is_due(*slot)) {
+            self.scratch.with(|scratch| {
+                let fluxes = register.values_mut().block_mut(slot);
+                reports[slot] = step_block(&context, slot, next.block_mut(slot), fluxes, scratch);
+            });
         }
-        for (slot, cells) in &marks {
+        for (slot, cells) in marks {
             let id = self.mesh.tree().leaves()[*slot];
             reports[*slot].redone = cells.len() as u32;
             reports[*slot].redone_volume = cells.iter().map(|cell| self.mesh.volume(id, cell / N)).sum();
@@ -247,7 +291,46 @@ impl<const N: usize> FluidSolver<N> {
     }
 }
 
-/// Fails if a cell of a new state is not physical; its block's speed is then infinite.
+/// Whether all cells of a block are physical: else its speed is infinite.
+fn is_sane<const N: usize>(report: &BlockReport<N>) -> bool {
+    report.extremes.speed_z.is_finite() && report.extremes.speed_r.is_finite()
+}
+
+/// The conserved variables of a cell that is not physical.
+fn failed_state<const N: usize>(
+    mixture: &Mixture,
+    state: &Field,
+    slot: usize,
+    cell: usize,
+) -> Option<[f64; COUNT]> {
+    let u: [f64; COUNT] = std::array::from_fn(|c| state.component(slot, c)[cell]);
+    let w = Primitive::from_conserved(u, mixture);
+    let stiffness = mixture.stiffness(w.pressure, w.phi);
+    let is_physical = w.density > 0.0 && stiffness >= 0.0 && (stiffness / w.density).is_finite();
+    (!is_physical).then_some(u)
+}
+
+/// The cells of a new state that are not physical, block by block.
+fn failed_cells<const N: usize>(
+    mesh: &Mesh<N>,
+    mixture: &Mixture,
+    state: &Field,
+    reports: &[BlockReport<N>],
+    is_due: impl Fn(usize) -> bool,
+) -> Marks {
+    let failed = |slot: usize| {
+        let cells: Vec<usize> =
+            (0..N * N).filter(|cell| failed_state::<N>(mixture, state, slot, *cell).is_some()).collect();
+        (slot, cells)
+    };
+    (0..mesh.blocks())
+        .filter(|slot| is_due(*slot) && !is_sane(&reports[*slot]))
+        .map(failed)
+        .filter(|(_, cells)| !cells.is_empty())
+        .collect()
+}
+
+/// Fails if a cell of a new state is not physical.
 pub(crate) fn check<const N: usize>(
     mesh: &Mesh<N>,
     mixture: &Mixture,
@@ -256,19 +339,10 @@ pub(crate) fn check<const N: usize>(
     time: f64,
     step: u64,
 ) -> Result<(), FluidError> {
-    let is_sane =
-        |report: &BlockReport<N>| report.extremes.speed_z.is_finite() && report.extremes.speed_r.is_finite();
     for (slot, id) in mesh.tree().leaves().iter().enumerate().filter(|(slot, _)| !is_sane(&reports[*slot])) {
-        for j in 0..N {
-            for i in 0..N {
-                let u: [f64; COUNT] = std::array::from_fn(|c| state.component(slot, c)[j * N + i]);
-                let w = Primitive::from_conserved(u, mixture);
-                let stiffness = mixture.stiffness(w.pressure, w.phi);
-                if w.density > 0.0 && stiffness >= 0.0 && (stiffness / w.density).is_finite() {
-                    continue;
-                }
-                let [z, r] = mesh.centre(*id, i, j);
-                let [density, _, _, energy, phi] = u;
+        for cell in 0..N * N {
+            if let Some([density, _, _, energy, phi]) = failed_state::<N>(mixture, state, slot, cell) {
+                let [z, r] = mesh.centre(*id, cell % N, cell / N);
                 return Err(FluidError::NonPhysical { z, r, time, step, density, energy, phi });
             }
         }

@@ -1,13 +1,13 @@
 //! The part of a block's step that only the five-equation model has, where there is gas.
 
-use mesh::{AlignedRow, Padded, Side};
+use mesh::{AlignedRow, Mesh, Padded, Side};
 
 use super::closure::bounded;
 use super::mixed::{MixedCells, Outer};
 use super::reconstruction::{Cells, Stencil};
 use super::update::{gas_fluxes, update_gas, update_mixed};
 use crate::Boundary;
-use crate::block::{BlockReport, BlockScratch, StepContext, split_block};
+use crate::block::{BlockReport, BlockScratch, Marks, StepContext, split_block};
 use crate::options::TwoPhaseOptions;
 use crate::rows::{FaceRows, Reconstruction, Rows};
 use crate::state::conserved::{GAS, PHI, RHO};
@@ -35,6 +35,17 @@ impl GasScratch {
             is_marked: vec![false; len],
             marked: Vec::with_capacity(len),
         }
+    }
+
+    /// Takes notice of the cells of a block that fall back in this step, and tells their padded places.
+    pub fn mark<const N: usize>(
+        &mut self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        marks: &Marks,
+    ) -> impl Iterator<Item = usize> + '_ {
+        super::marks::padded_marks(mesh, slot, marks, &mut self.is_marked);
+        self.is_marked.iter().enumerate().filter(|(_, is_marked)| **is_marked).map(|(k, _)| k)
     }
 
     /// The cells of the last block that should be done again at first order.
@@ -88,9 +99,6 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         self.impose_outer_shares(&mut gas.shares);
         gas.mixed.clear();
         let has_marks = !self.ctx.marks.is_empty();
-        if has_marks {
-            super::marks::padded_marks(self.ctx.mesh, self.slot, self.ctx.marks, &mut gas.is_marked);
-        }
         let marks = &gas.is_marked;
         gas.mixed.collect::<N>(
             &Cells { rows, stride: Padded::<N>::STRIDE },

@@ -13,5 +13,6 @@ mod ledgers;
 mod orders;
 mod random_trees;
 mod rayleigh_start;
+mod rescue;
 mod shock_tubes;
 mod symmetry;
