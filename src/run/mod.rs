@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`checkpoints`] | states to go on from: written, kept, chosen |
 //! | [`past`] | what was done before a run was taken up again |
-//! | [`resume`] | a run directory taken up again |
+//! | [`mod@resume`] | a run directory taken up again |
 //! | [`setup`] | a case made into solvers |
 //! | [`schedule`] | when to stop, when to write, and so how long a step may be |
 //! | [`fluid_side`], [`solid_side`] | one side's part of the step loop |
