@@ -5,13 +5,14 @@ use std::fs::OpenOptions;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+use std::time::Duration;
 
 use crate::case::{Case, CaseErrors, materials_table, report};
 use crate::output::run_directory::LOG;
 use crate::run::drive::Joining;
 use crate::run::launch::{Options, run_side};
 use crate::run::stop::Stop;
-use crate::run::{RunError, run};
+use crate::run::{RunError, resume, run};
 use clap::{Args, Parser, Subcommand};
 use coupler::Participant;
 use tracing::Level;
@@ -45,22 +46,29 @@ enum Commands {
     Materials,
 }
 
+/// What is run, and where.
 #[derive(Args)]
-struct Common {
-    /// The case file.
-    case: PathBuf,
+struct What {
     /// The run directory [default: output.directory of the case, else runs/NAME].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Change a key of the case, as fluid.region.0.radius=0.01; may be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<String>,
-    /// Worker threads of each process [default: all processors].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
     /// Replace the directory of a finished run.
     #[arg(long)]
     force: bool,
+}
+
+/// How it is run.
+#[derive(Args)]
+struct How {
+    /// Worker threads of each process [default: all processors].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Keep a checkpoint after so much wall time: a number with ms, s, min or h, or off.
+    #[arg(long, value_name = "TIME", default_value = "5min", value_parser = Every::parse)]
+    checkpoint_every: Every,
     /// Show nothing but errors.
     #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
@@ -71,8 +79,16 @@ struct Common {
 
 #[derive(Args)]
 struct RunArgs {
+    /// The case file.
+    #[arg(required_unless_present = "resume")]
+    case: Option<PathBuf>,
     #[command(flatten)]
-    common: Common,
+    what: What,
+    /// Go on with the run in DIR that was not finished.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["case", "out", "sets", "force"])]
+    resume: Option<PathBuf>,
+    #[command(flatten)]
+    how: How,
     /// Run both sides in this process instead of two.
     #[arg(long)]
     in_process: bool,
@@ -80,29 +96,62 @@ struct RunArgs {
 
 #[derive(Args)]
 struct SideArgs {
+    /// The case file.
+    case: PathBuf,
     #[command(flatten)]
-    common: Common,
+    what: What,
+    #[command(flatten)]
+    how: How,
     /// The run's id, the same on both sides.
     #[arg(long, value_name = "ID")]
     run: String,
     /// Started by `cav run`.
     #[arg(long, hide = true)]
     child: bool,
+    /// The step of the checkpoint to go on from.
+    #[arg(long, hide = true)]
+    from: Option<u64>,
+    /// What the case is called, if not as its file.
+    #[arg(long, hide = true)]
+    name: Option<String>,
 }
 
-impl Common {
-    fn options(&self, in_process: bool) -> Options {
-        Options {
-            case_path: self.case.clone(),
-            sets: self.sets.clone(),
-            out: self.out.clone(),
-            force: self.force,
-            in_process,
-            threads: self.threads.map(usize::from),
-            program: Vec::new(),
-            quiet: self.quiet,
-            verbosity: self.verbose,
+/// After how much wall time; `None` is never.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Every(Option<Duration>);
+
+impl Every {
+    /// From a number, of seconds unless a unit follows, or `off`.
+    fn parse(text: &str) -> Result<Self, String> {
+        if text == "off" {
+            return Ok(Self(None));
         }
+        let units = [("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("s", 1.0), ("", 1.0)];
+        let seconds = units.into_iter().find_map(|(unit, seconds)| {
+            let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
+            Some(number * seconds)
+        });
+        let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        duration
+            .map(|every| Self(Some(every)))
+            .ok_or_else(|| "give a time, as 30s, 5min or 1h, or off".to_owned())
+    }
+}
+
+fn options(case: &Path, what: &What, how: &How) -> Options {
+    Options {
+        case_path: case.to_path_buf(),
+        sets: what.sets.clone(),
+        out: what.out.clone(),
+        force: what.force,
+        in_process: false,
+        threads: how.threads.map(usize::from),
+        checkpoint_every: how.checkpoint_every.0,
+        from: None,
+        name: None,
+        program: Vec::new(),
+        quiet: how.quiet,
+        verbosity: how.verbose,
     }
 }
 
@@ -151,20 +200,34 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, program: &[OsString])
 }
 
 fn run_case(args: &RunArgs, program: &[OsString]) -> Result<(), RunError> {
-    let options = Options { program: program.to_vec(), ..args.common.options(args.in_process) };
+    let path = args.case.as_deref().unwrap_or(Path::new(""));
+    let options = Options {
+        program: program.to_vec(),
+        in_process: args.in_process,
+        ..options(path, &args.what, &args.how)
+    };
+    let log = |directory: &Path| log_to(directory, options.verbosity, true);
+    if let Some(directory) = &args.resume {
+        let stop = Stop::on_signals()?;
+        return resume(directory, &options, &stop, log).map(|_| ());
+    }
     let case = Case::load(&options.case_path, &options.sets)?;
     let stop = Stop::on_signals()?;
-    run(&case, &options, &stop, |directory| log_to(directory, options.verbosity, true)).map(|_| ())
+    run(&case, &options, &stop, log).map(|_| ())
 }
 
 fn side(args: &SideArgs, participant: Participant) -> Result<(), RunError> {
-    let options = args.common.options(false);
-    let case = Case::load(&options.case_path, &options.sets)?;
+    let common = options(&args.case, &args.what, &args.how);
+    let options = Options { from: args.from, name: args.name.clone(), ..common };
+    let mut case = Case::load(&options.case_path, &options.sets)?;
+    if let Some(name) = &options.name {
+        case.name.clone_from(name);
+    }
     let stop = Stop::on_signals()?;
     if args.child {
         stop.watch_launcher();
     }
-    let joining = Joining { run_id: args.run.clone(), participant };
+    let joining = Joining { run_id: args.run.clone(), participant, notice: None };
     let log = |directory: &Path| log_to(directory, options.verbosity, !args.child);
     run_side(&case, &options, joining, args.child, &stop, log)
 }
@@ -204,5 +267,24 @@ fn log_to(directory: &Path, verbosity: u8, to_terminal: bool) {
         builder.with_writer(Mutex::new(file).and(std::io::stderr.with_max_level(on_terminal))).init();
     } else {
         builder.with_writer(Mutex::new(file)).init();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_are_numbers_with_units_or_off() {
+        let seconds =
+            |text| Every::parse(text).ok().map(|Every(every)| every.map(|every| every.as_secs_f64()));
+        for (text, expected) in [("5min", 300.0), ("0.5 h", 1800.0), ("250ms", 0.25), ("3s", 3.0), ("7", 7.0)]
+        {
+            assert_eq!(seconds(text), Some(Some(expected)), "{text}");
+        }
+        assert_eq!(seconds("off"), Some(None));
+        for text in ["", "min", "-3s", "5 days", "1e400", "nan"] {
+            assert_eq!(seconds(text), None, "{text}");
+        }
     }
 }

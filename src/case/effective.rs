@@ -37,6 +37,11 @@ impl Case {
         Sha256::digest(self.write(false).as_bytes()).into()
     }
 
+    /// SHA-256 of [`Case::effective_toml`]: of all that a run computes and writes.
+    pub fn fingerprint(&self) -> [u8; 32] {
+        Sha256::digest(self.effective_toml().as_bytes()).into()
+    }
+
     /// The effective case without `[output]`, and without the waiting times unless asked for.
     fn write(&self, waiting: bool) -> String {
         let mut text = Lines(String::new());

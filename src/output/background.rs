@@ -46,10 +46,18 @@ pub struct BackgroundWriter {
     path: std::path::PathBuf,
 }
 
+/// What the thread is asked for.
+#[derive(Debug)]
+enum Job {
+    Write(Snapshot),
+    /// Whoever hands this over knows then that all before is written, and counts on it.
+    Meet,
+}
+
 /// The thread, and the way to it.
 #[derive(Debug)]
 struct Thread {
-    sender: SyncSender<Snapshot>,
+    sender: SyncSender<Job>,
     handle: JoinHandle<Result<(), OutputError>>,
 }
 
@@ -70,8 +78,24 @@ impl BackgroundWriter {
     ///
     /// - errors: what went wrong with an earlier snapshot; nothing is written after that.
     pub fn append(&mut self, snapshot: Snapshot) -> Result<(), OutputError> {
+        self.hand_over(Job::Write(snapshot))
+    }
+
+    /// Waits until all snapshots so far are in the file: a checkpoint counts on them.
+    ///
+    /// - errors: what went wrong with one of them.
+    pub fn catch_up(&mut self) -> Result<(), OutputError> {
+        self.hand_over(Job::Meet)
+    }
+
+    /// The file.
+    pub fn path(&self) -> &std::path::Path {
+        &self.path
+    }
+
+    fn hand_over(&mut self, job: Job) -> Result<(), OutputError> {
         let gone = match &self.thread {
-            Some(Thread { sender, .. }) => sender.send(snapshot).is_err(),
+            Some(Thread { sender, .. }) => sender.send(job).is_err(),
             None => true,
         };
         if !gone {
@@ -114,10 +138,14 @@ impl Drop for BackgroundWriter {
 }
 
 /// Writes what comes until nothing more can come.
-fn write_all(mut writer: SeriesWriter, snapshots: &Receiver<Snapshot>) -> Result<(), OutputError> {
-    for snapshot in snapshots {
+fn write_all(mut writer: SeriesWriter, jobs: &Receiver<Job>) -> Result<(), OutputError> {
+    for job in jobs {
+        let Job::Write(snapshot) = job else {
+            writer.count_on_it();
+            continue;
+        };
         let values: Vec<&[f64]> = snapshot.values.iter().map(Vec::as_slice).collect();
         writer.append(snapshot.time, &snapshot.mesh.view(), snapshot.mesh_id, &values)?;
     }
-    Ok(())
+    writer.finish()
 }

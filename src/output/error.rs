@@ -99,11 +99,15 @@ impl OutputError {
 /// What the user can do about an error of the operating system.
 fn remedy(error: &io::Error) -> &'static str {
     use io::ErrorKind::{
-        NotADirectory, NotFound, PermissionDenied, QuotaExceeded, ReadOnlyFilesystem, StorageFull,
+        FileTooLarge, NotADirectory, NotFound, PermissionDenied, QuotaExceeded, ReadOnlyFilesystem,
+        StorageFull,
     };
     match error.kind() {
         PermissionDenied | ReadOnlyFilesystem => "choose a directory you may write to with --out",
         StorageFull | QuotaExceeded => "free some space, or write fewer snapshots",
+        FileTooLarge => {
+            "files may not grow so long here (ulimit -f): raise the limit, or write fewer snapshots"
+        }
         NotADirectory => "part of the path is a file: choose another directory with --out",
         NotFound => "was it moved or deleted? choose another directory with --out",
         _ => "check the path and the disk, or choose another directory with --out",

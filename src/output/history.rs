@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use hdf5::{Dataset, File};
 use ndarray::ArrayView2;
 
-use super::hdf5_attributes::{set_text, set_texts};
+use super::hdf5_attributes::{set_text, set_texts, text};
 use super::{OutputError, safe_file};
 
 /// Shortest time between two batches that [`HistoryFile::flush_if_due`] writes.
@@ -99,7 +99,7 @@ struct StaticArray {
 impl HistoryFile {
     /// Makes the file, empty but for `attributes` (name, value) of its root. An existing one is replaced.
     pub fn create(path: &Path, attributes: &[(&str, &str)]) -> Result<Self, OutputError> {
-        safe_file::replace(path, |temporary| {
+        safe_file::replace_hdf5(path, safe_file::HDF5_OVERHEAD, |temporary| {
             let make = || -> hdf5::Result<()> {
                 let file = File::create(temporary)?;
                 set_texts(&file, attributes)?;
@@ -210,6 +210,28 @@ impl HistoryFile {
         series.written + series.buffered_rows()
     }
 
+    /// Rows of all series, in the order in which they were added.
+    pub fn all_rows(&self) -> Vec<u64> {
+        (0..self.series.len()).map(|number| self.rows(SeriesId(number)) as u64).collect()
+    }
+
+    /// Forgets what was added to any series since [`all_rows`](Self::all_rows) were these; the file follows with the next batch.
+    ///
+    /// - errors: there are other series, or fewer rows.
+    pub fn truncate_all(&mut self, rows: &[u64]) -> Result<(), OutputError> {
+        let found = self.all_rows();
+        let are_there =
+            found.len() == rows.len() && found.iter().zip(rows).all(|(found, wanted)| found >= wanted);
+        if !are_there {
+            let what = format!("its series have {found:?} rows where {rows:?} are looked for");
+            return Err(OutputError::Mismatch { path: self.path.clone(), what });
+        }
+        for (number, rows) in rows.iter().enumerate() {
+            self.truncate(SeriesId(number), *rows as usize);
+        }
+        Ok(())
+    }
+
     /// Forgets the rows from `rows` on, as a restart from an earlier time needs; the file follows with the next batch.
     pub fn truncate(&mut self, id: SeriesId, rows: usize) {
         let series = &mut self.series[id.0];
@@ -241,7 +263,7 @@ impl HistoryFile {
             return Ok(());
         }
         let start = Instant::now();
-        safe_file::update(&self.path, u64::MAX, |copy| {
+        safe_file::update_hdf5(&self.path, self.room(), |copy| {
             // The library serves one thread at a time. As one turn the batch waits once for a thread that compresses
             // snapshots, not at each of its calls.
             hdf5::sync::sync(|| self.write_batch(copy))
@@ -258,6 +280,17 @@ impl HistoryFile {
         self.last_cost = start.elapsed();
         tracing::debug!(seconds = self.last_cost.as_secs_f64(), "wrote a batch of histories");
         Ok(())
+    }
+
+    /// What a batch may take at most, bytes: numbers, and a chunk that is begun for each column.
+    fn room(&self) -> u64 {
+        let number = size_of::<f64>();
+        let of_series = |series: &Series| {
+            number * (series.buffer.len() + 2 * series.columns.len() * CHUNK_VALUES.max(series.width))
+        };
+        let arrays: usize = self.arrays.iter().map(|array| number * array.values.len()).sum();
+        let numbers = arrays + self.series.iter().map(of_series).sum::<usize>();
+        safe_file::HDF5_OVERHEAD + numbers as u64
     }
 
     fn write_batch(&self, copy: &Path) -> hdf5::Result<()> {
@@ -363,6 +396,11 @@ impl OwnedColumn {
         describe(&dataset, &self.unit, &self.description)?;
         Ok(dataset)
     }
+}
+
+/// The name of the case that a file was written for, if it says so.
+pub fn case_name(path: &Path) -> Option<String> {
+    path.exists().then(|| File::open(path).ok().and_then(|file| text(&file, "case_name")))?
 }
 
 /// The path from the root of `name` in `group`.

@@ -28,7 +28,9 @@ pub enum Join {
 /// more than their lengths; the earlier part's is the one that is found.
 pub fn join_histories(directory: &Path, parts: &[&str], how: Join) -> Result<Vec<String>, OutputError> {
     let path = directory.join(HISTORY);
-    safe_file::replace(&path, |temporary| {
+    let lengths = parts.iter().filter_map(|part| std::fs::metadata(directory.join(part)).ok());
+    let copied: u64 = if how == Join::Copy { lengths.map(|part| part.len()).sum() } else { 0 };
+    safe_file::replace_hdf5(&path, safe_file::HDF5_OVERHEAD + copied, |temporary| {
         let join = || -> hdf5::Result<Vec<String>> {
             let joint = File::create(temporary)?;
             let mut differing = Vec::new();

@@ -10,11 +10,13 @@
 //! | [`background`] | the same on a thread of its own |
 //! | [`history`] | `fluid.h5`, `solid.h5`: named series over time |
 //! | [`join`] | `history.h5`: both sides' histories under one roof |
+//! | [`checkpoint`] | a side's state, to go on from |
 //! | [`summary`] | `fluid.json`, `solid.json`, `summary.json` |
 //! | [`run_directory`] | the directory itself: made, kept aside, refused or replaced |
 //! | [`progress`] | a bar or plain lines on standard error |
 
 pub mod background;
+pub mod checkpoint;
 pub mod error;
 mod hdf5_attributes;
 pub mod history;

@@ -5,6 +5,7 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use rustix::io::{FdFlags, fcntl_setfd};
 use serde_json::{Map, Value};
 
 use super::{OutputError, safe_file, summary};
@@ -27,6 +28,8 @@ pub const SOLID_SUMMARY: &str = "solid.json";
 pub const SUMMARY: &str = "summary.json";
 /// The effective case.
 pub const CASE: &str = "case.toml";
+/// The checkpoints of both sides, while the run is not finished.
+pub const CHECKPOINTS: &str = "checkpoints";
 /// The log.
 pub const LOG: &str = "log";
 
@@ -97,6 +100,27 @@ impl RunDirectory {
         Ok(directory)
     }
 
+    /// Lets processes that are started now hold the directory, too, until they end; or no more.
+    pub fn share_lock(&self, is_shared: bool) -> Result<(), OutputError> {
+        let flags = if is_shared { FdFlags::empty() } else { FdFlags::CLOEXEC };
+        let Some(lock) = &self._lock else { return Ok(()) };
+        fcntl_setfd(lock, flags)
+            .map_err(|error| OutputError::io(&self.path, "pass on the lock of")(error.into()))
+    }
+
+    /// Removes what a killed run has left in the making.
+    pub fn tidy(&self) -> Result<(), OutputError> {
+        for name in FILES {
+            remove_if_there(&self.file(&format!("{name}{}", safe_file::TEMPORARY_SUFFIX)), "remove")?;
+        }
+        Ok(())
+    }
+
+    /// Removes the checkpoints: the run is finished.
+    pub fn remove_checkpoints(&self) -> Result<(), OutputError> {
+        remove_checkpoints(&self.path)
+    }
+
     /// Waits until nobody else holds the directory, and holds it until the returned value is dropped.
     pub fn wait_for_lock(&self) -> Result<File, OutputError> {
         let directory =
@@ -155,19 +179,31 @@ fn content(path: &Path) -> Result<Content, OutputError> {
 
 /// Deletes the files of a run, those in the making included, and leaves any others.
 fn delete_run(path: &Path) -> Result<(), OutputError> {
+    remove_checkpoints(path)?;
     // The summary last: if this is interrupted, what is left is still known as a run's.
     for name in FILES.iter().filter(|name| **name != SUMMARY).chain([&SUMMARY]) {
-        for suffix in [safe_file::TEMPORARY_SUFFIX, ""] {
-            let file = path.join(format!("{name}{suffix}"));
-            match fs::remove_file(&file) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                    return Err(OutputError::io(&file, "delete the earlier run's file")(error));
-                }
-                _ => {}
-            }
+        for suffix in safe_file::SUFFIXES.into_iter().chain([""]) {
+            remove_if_there(&path.join(format!("{name}{suffix}")), "delete the earlier run's file")?;
         }
     }
     Ok(())
+}
+
+fn remove_checkpoints(path: &Path) -> Result<(), OutputError> {
+    let checkpoints = path.join(CHECKPOINTS);
+    match fs::remove_dir_all(&checkpoints) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(OutputError::io(&checkpoints, "remove the checkpoints in")(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn remove_if_there(file: &Path, action: &'static str) -> Result<(), OutputError> {
+    match fs::remove_file(file) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::io(file, action)(error)),
+        _ => Ok(()),
+    }
 }
 
 /// The path from the root, so that it stays right when the working directory itself is renamed.

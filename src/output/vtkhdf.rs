@@ -10,7 +10,7 @@ use hdf5::{File, Group};
 
 use super::hdf5_attributes::text;
 use super::{OutputError, safe_file};
-use layout::{append_rows, create_datasets, set_rows, write_mesh, write_step_count};
+use layout::{LARGEST_CHUNK, append_rows, create_datasets, set_rows, write_mesh, write_step_count};
 
 mod layout;
 
@@ -60,6 +60,8 @@ pub struct SeriesWriter {
     /// The mesh of the last snapshot, if this writer wrote it.
     mesh_id: Option<u64>,
     copy_limit: u64,
+    /// Whether a checkpoint counts on what is in the file now: the next change must leave a version of it.
+    is_counted_on: bool,
 }
 
 #[derive(Debug)]
@@ -101,7 +103,7 @@ impl SeriesWriter {
         compression: u8,
         attributes: &[(&str, &str)],
     ) -> Result<Self, OutputError> {
-        safe_file::replace(path, |temporary| {
+        safe_file::replace_hdf5(path, safe_file::HDF5_OVERHEAD, |temporary| {
             create_datasets(temporary, fields, compression, attributes)
                 .map_err(OutputError::hdf5(path, "create"))
         })?;
@@ -119,11 +121,14 @@ impl SeriesWriter {
             end: End::default(),
             mesh_id: None,
             copy_limit: COPY_LIMIT,
+            is_counted_on: false,
         })
     }
 
-    /// Opens a file written before, to append to its snapshots. The fields and their order are the file's.
+    /// Opens a file written before, to append to its snapshots. The fields and their order are the file's. If a kill has left it
+    /// half changed, it is as it was at the last checkpoint, or somewhat later.
     pub fn open(path: &Path) -> Result<Self, OutputError> {
+        safe_file::recover(path)?;
         let read = || -> hdf5::Result<(Vec<Field>, End)> {
             let root = File::open(path)?.group("VTKHDF")?;
             let steps: i64 = root.group("Steps")?.attr("NSteps")?.read_scalar()?;
@@ -133,15 +138,33 @@ impl SeriesWriter {
             Ok((fields, End::read(&root, steps.max(0) as usize)?))
         };
         let (fields, end) = read().map_err(OutputError::hdf5(path, "open as a series of snapshots"))?;
-        Ok(Self { path: path.to_path_buf(), fields, end, mesh_id: None, copy_limit: COPY_LIMIT })
+        Ok(Self {
+            path: path.to_path_buf(),
+            fields,
+            end,
+            mesh_id: None,
+            copy_limit: COPY_LIMIT,
+            is_counted_on: true,
+        })
     }
 
     /// Sets the length in bytes above which the file is extended in place, 256 MiB if not set. In place a kill within the
-    /// few milliseconds in which HDF5 updates its indices may spoil the file; in a copy it cannot.
+    /// few milliseconds in which HDF5 updates its indices may spoil the file; [`open`](Self::open) then takes the version that
+    /// was kept at the last checkpoint.
     #[must_use]
     pub fn with_copy_limit(mut self, bytes: u64) -> Self {
         self.copy_limit = bytes;
         self
+    }
+
+    /// A checkpoint counts on what is in the file now.
+    pub fn count_on_it(&mut self) {
+        self.is_counted_on = true;
+    }
+
+    /// Removes what was kept for the case of a kill: nothing more is to come.
+    pub fn finish(&mut self) -> Result<(), OutputError> {
+        safe_file::forget_before(&self.path)
     }
 
     /// The file.
@@ -154,20 +177,29 @@ impl SeriesWriter {
         self.end.steps
     }
 
-    /// Forgets the snapshots from number `steps` on, as a restart from an earlier time needs.
+    /// Which mesh the last snapshot is on, where another writer has written it: the next one on the same mesh does not store it
+    /// again.
+    #[must_use]
+    pub fn with_mesh(mut self, mesh_id: Option<u64>) -> Self {
+        self.mesh_id = mesh_id;
+        self
+    }
+
+    /// Forgets the snapshots from number `steps` on, as a restart from an earlier time needs; nothing of them is left.
+    ///
+    /// - errors: there are fewer, or the file cannot be changed.
     pub fn truncate(&mut self, steps: usize) -> Result<(), OutputError> {
-        if steps >= self.end.steps {
-            return Ok(());
+        if steps > self.end.steps {
+            let what = format!("it has {} snapshots where {steps} are looked for", self.end.steps);
+            return Err(OutputError::Mismatch { path: self.path.clone(), what });
         }
-        let end = self.update(|path| {
+        let end = self.update(0, |path| {
             let shorten = || -> hdf5::Result<End> {
                 let file = File::open_rw(path)?;
                 let root = file.group("VTKHDF")?;
                 let end = End::read(&root, steps)?;
-                for name in STEP_DATASETS {
-                    set_rows(&root.group("Steps")?.dataset(name)?, steps)?;
-                }
                 write_step_count(&root, steps)?;
+                end.cut(&root)?;
                 drop(root);
                 file.close()?;
                 Ok(end)
@@ -192,7 +224,9 @@ impl SeriesWriter {
         self.check_lengths(mesh, values)?;
         let is_new_mesh = self.mesh_id != Some(mesh_id);
         let end = self.end.after(mesh, is_new_mesh);
-        self.update(|path| {
+        let values_len: usize = values.iter().map(|values| values.len()).sum();
+        let mesh_len = if is_new_mesh { mesh.points.len() + 8 * mesh.quads.len() } else { 0 };
+        self.update(size_of::<f64>() * (values_len + mesh_len), |path| {
             let write = || -> hdf5::Result<()> {
                 let file = File::open_rw(path)?;
                 let root = file.group("VTKHDF")?;
@@ -212,15 +246,30 @@ impl SeriesWriter {
         })?;
         self.end = end;
         self.mesh_id = Some(mesh_id);
+        self.is_counted_on = false;
         Ok(())
     }
 
     /// Changes the file: a copy that replaces it, or, when it is long and nobody reads it just then, the file itself.
-    fn update<T>(&self, change: impl FnOnce(&Path) -> Result<T, OutputError>) -> Result<T, OutputError> {
+    ///
+    /// - `more`: bytes of the numbers that are added.
+    fn update<T>(
+        &self,
+        more: usize,
+        change: impl FnOnce(&Path) -> Result<T, OutputError>,
+    ) -> Result<T, OutputError> {
+        // A chunk that is begun for each dataset, besides.
+        let room = safe_file::HDF5_OVERHEAD + (more + (self.fields.len() + 4) * LARGEST_CHUNK) as u64;
         let is_long = std::fs::metadata(&self.path).is_ok_and(|file| file.len() > self.copy_limit);
+        if is_long && self.is_counted_on {
+            safe_file::keep_before(&self.path)?;
+        }
         // A reader that has the file open holds a lock on it, under which HDF5 refuses to write.
-        let is_read = is_long && File::open_rw(&self.path).is_err();
-        safe_file::update(&self.path, if is_read { u64::MAX } else { self.copy_limit }, change)
+        if !is_long || self.is_counted_on || File::open_rw(&self.path).is_err() {
+            safe_file::update_hdf5(&self.path, room, change)
+        } else {
+            safe_file::change_hdf5(&self.path, room, change)
+        }
     }
 
     fn check_lengths(&self, mesh: &QuadMesh<'_>, values: &[&[f64]]) -> Result<(), OutputError> {
@@ -279,6 +328,32 @@ impl End {
             end.next.connectivity += 4 * mesh.quads.len();
         }
         end
+    }
+
+    /// Cuts all datasets down to this end.
+    fn cut(&self, root: &Group) -> hdf5::Result<()> {
+        let of_steps = root.group("Steps")?;
+        for name in STEP_DATASETS {
+            set_rows(&of_steps.dataset(name)?, self.steps)?;
+        }
+        for offsets in of_steps.group("CellDataOffsets")?.datasets()? {
+            set_rows(&offsets, self.steps)?;
+        }
+        let Offsets { meshes, points, cells, connectivity } = self.next;
+        for name in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"] {
+            set_rows(&root.dataset(name)?, meshes)?;
+        }
+        let per_mesh = [
+            ("Points", points),
+            ("Connectivity", connectivity),
+            // One offset more than cells for each mesh.
+            ("Offsets", cells + meshes),
+            ("Types", cells),
+        ];
+        for (name, rows) in per_mesh {
+            set_rows(&root.dataset(name)?, rows)?;
+        }
+        root.group("CellData")?.datasets()?.iter().try_for_each(|field| set_rows(field, self.field_rows))
     }
 
     /// The end of the first `steps` snapshots of a file, from what the last of them points to.

@@ -6,7 +6,8 @@
 
 use coupler::{Aitken, FluidTrace, Kappa, KappaFactor, Participant, Scheme};
 use fluid::{FluidSolver, WallState};
-use mesh::BLOCK;
+use mesh::{BLOCK, Misfit};
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::case::CouplingCase;
@@ -38,7 +39,7 @@ pub struct CellExchange {
 }
 
 /// How often the strong scheme has repeated its steps.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Iterations {
     steps: u64,
     total: u64,
@@ -46,7 +47,56 @@ struct Iterations {
     unsettled: u64,
 }
 
+/// What lasts from one step to the next.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct CellsState {
+    factor: KappaFactor,
+    received: Vec<f64>,
+    relaxation: f64,
+    iterations: Iterations,
+}
+
 impl CellExchange {
+    /// What has to be kept of it between two steps.
+    pub fn saved(&self) -> CellsState {
+        // Field by field, so that a new one cannot be forgotten here.
+        let Self {
+            scheme: _,
+            first: _,
+            kappa: _,
+            factor,
+            kappa_now: _,
+            tolerance: _,
+            most: _,
+            received,
+            own: _,
+            aitken,
+            iterate: _,
+            image: _,
+            made: _,
+            iterations,
+        } = self;
+        CellsState {
+            factor: *factor,
+            received: received.clone(),
+            relaxation: aitken.factor(),
+            iterations: *iterations,
+        }
+    }
+
+    /// Takes up what was kept, at a wall of the same faces.
+    pub fn restore(&mut self, saved: CellsState) -> Result<(), Misfit> {
+        let CellsState { factor, received, relaxation, iterations } = saved;
+        if received.len() != self.received.len() {
+            return Err(Misfit(format!("{} velocities are not the wall's", received.len())));
+        }
+        self.factor = factor;
+        self.received = received;
+        self.aitken = Aitken::from_factor(relaxation);
+        self.iterations = iterations;
+        Ok(())
+    }
+
     /// For a fluid at a wall that is at rest.
     pub fn new(coupling: &CouplingCase, faces: usize) -> Self {
         Self {

@@ -1,8 +1,10 @@
 //! The collapse time: the first minimum of the gas volume.
 
+use serde::{Deserialize, Serialize};
+
 /// Follows the gas volume from step to step and finds its first minimum below half the initial volume that a
 /// rise of one per cent follows; the time by a parabola through the three steps about it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct CollapseFinder {
     initial: Option<f64>,
     /// The last two samples (time, volume).
@@ -15,7 +17,7 @@ pub struct CollapseFinder {
 }
 
 /// The first minimum of the gas volume.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Collapse {
     /// When, s.
     pub time: f64,

@@ -35,6 +35,9 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     }
     whole.insert("warnings".to_owned(), json!(warnings));
     summary::write(directory, SUMMARY, &whole)?;
+    if completed {
+        directory.remove_checkpoints()?;
+    }
     Ok(whole)
 }
 
@@ -56,7 +59,7 @@ fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
     let wall = whole.get("wall_seconds")?.as_f64()?;
     let mut rest = wall;
     for side in ["fluid", "solid"] {
-        for key in ["seconds_computing", "seconds_recording"] {
+        for key in ["seconds_computing", "seconds_recording", "seconds_checkpointing"] {
             rest -= whole.get("coupling")?.get(side)?.get(key)?.as_f64()?;
         }
     }

@@ -5,13 +5,15 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use coupler::{Endpoint, Link, LinkCounters, Participant, ProcessLink};
+use coupler::{Endpoint, Link, LinkCounters, Participant, ProcessLink, Scheme};
 use serde_json::{Map, Value, json};
 
 use super::RunError;
+use super::checkpoints::{Checkpoints, Keeper};
 use super::fluid_side::{FluidSide, Turn};
+use super::past::Past;
 use super::session::{Session, Solvers};
 use super::solid_side::SolidSide;
 use super::stop::Stop;
@@ -41,24 +43,35 @@ pub trait Side {
     fn reached(&self) -> (f64, u64);
     /// Where the wall time went.
     fn clock(&self) -> Clock;
+    /// Since when, and what was done before.
+    fn past(&self) -> &Past;
+    /// Keeps a checkpoint of a side that steps alone, if it is time to or the run is stopped.
+    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError>;
     /// What a progress line says of it; `cells` are its own and those of the other side that it knows of, `wall` is
     /// left at 0.
     fn line(&self) -> ProgressLine;
 }
 
-/// A side's progress since `begin`.
-pub(super) fn line(side: &impl Side, begin: Instant) -> ProgressLine {
-    ProgressLine { wall: begin.elapsed().as_secs_f64(), ..side.line() }
+/// A side's progress.
+pub(super) fn line(side: &impl Side) -> ProgressLine {
+    ProgressLine { wall: side.past().wall().as_secs_f64(), ..side.line() }
 }
 
 /// All media of a case in this process, turn by turn through the same frames.
 pub fn in_process(
     case: &Case,
     directory: &RunDirectory,
+    keeping: Keeping,
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {
-    let mut session = Session::new(case, Some(directory), Solvers::default())?;
+    let mut session = match keeping.from {
+        Some(step) => Session::resume(case, directory, step)?,
+        None => Session::new(case, Some(directory), Solvers::default())?,
+    };
+    if let Some(every) = keeping.every {
+        session.keep_checkpoints(case, directory, every);
+    }
     let result = loop {
         match session.step(stop) {
             Ok(Turn::Continues) => on_step(&session.line()),
@@ -68,12 +81,23 @@ pub fn in_process(
     session.end(Some(directory), result)
 }
 
+/// Where a run begins, and how often it keeps a checkpoint.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Keeping {
+    /// The step of the checkpoint to go on from; `None` at t = 0.
+    pub from: Option<u64>,
+    /// After how much wall time each; `None` for none at all.
+    pub every: Option<Duration>,
+}
+
 /// How a side of a two-process run is called and who it is.
 pub struct Joining {
     /// The run's id, the same on both sides.
     pub run_id: String,
     /// Which side.
     pub participant: Participant,
+    /// Told what the user should know while this side waits.
+    pub notice: Option<coupler::Notice>,
 }
 
 /// One side of a run in two processes: connects, makes its part of every step, ends.
@@ -83,6 +107,7 @@ pub fn joined(
     case: &Case,
     joining: Joining,
     directory: impl FnOnce() -> Result<RunDirectory, RunError> + Send,
+    keeping: Keeping,
     stop: &Stop,
     on_step: &mut OnStep<'_>,
 ) -> Result<(), RunError> {
@@ -90,6 +115,7 @@ pub fn joined(
     let mut endpoint = Endpoint::new(joining.run_id, joining.participant, case.hash());
     endpoint.connect_timeout = Duration::from_secs_f64(case.coupling.connect_timeout);
     endpoint.patience = Duration::from_secs_f64(case.coupling.patience);
+    endpoint.notice = joining.notice;
     endpoint.interrupt = Some(stop.hook(Arc::clone(&connected)));
     let mut link = match ProcessLink::connect(endpoint) {
         // A request to stop that came while waiting is no failure of the coupling.
@@ -100,36 +126,55 @@ pub fn joined(
     };
     connected.store(true, Ordering::Relaxed);
     let directory = directory()?;
-    let begin = Instant::now();
+    let checkpoints = Checkpoints::of(case, &directory);
+    // A program elsewhere keeps none.
+    let every = keeping.every.filter(|_| case.coupling.scheme != Scheme::External);
+    let keeper = every.map(|every| Keeper::new(checkpoints.clone(), every));
     let side = joining.participant.name();
     match joining.participant {
         Participant::Fluid => {
             let fluid = case.fluid.as_ref().ok_or(RunError::NoPeer { side })?;
-            let mut side = told(FluidSide::new(case, fluid, Some(&directory)), &mut link)?;
+            let side = match keeping.from {
+                Some(step) => (checkpoints.read(Participant::Fluid, step))
+                    .and_then(|saved| FluidSide::resumed(case, fluid, &directory, saved)),
+                None => FluidSide::new(case, fluid, Some(&directory)),
+            };
+            let mut side = told(side, &mut link)?;
+            if let Some(keeper) = keeper {
+                side.keep_with(keeper);
+            }
             let result = loop {
                 match side.turn(&mut link, stop) {
-                    Ok(Turn::Continues) => on_step(&line(&side, begin)),
+                    Ok(Turn::Continues) => on_step(&line(&side)),
                     other => break other,
                 }
             };
             let result = tell(result, &mut link, side.solver().steps());
-            end(&mut side, Some(&directory), result, link.counters(), begin)
+            end(&mut side, Some(&directory), result, link.counters())
         }
         Participant::Solid => {
             let solid = case.solid.as_ref().ok_or(RunError::NoPeer { side })?;
-            let mut side = told(SolidSide::new(case, solid, Some(&directory)), &mut link)?;
+            let side = match keeping.from {
+                Some(step) => (checkpoints.read(Participant::Solid, step))
+                    .and_then(|saved| SolidSide::resumed(case, solid, &directory, saved)),
+                None => SolidSide::new(case, solid, Some(&directory)),
+            };
+            let mut side = told(side, &mut link)?;
+            if let Some(keeper) = keeper {
+                side.keep_with(keeper);
+            }
             let mut rounds = || -> Result<Turn, RunError> {
                 side.open(&mut link, stop)?;
                 loop {
                     match side.turn(&mut link, stop)? {
-                        Turn::Continues => on_step(&line(&side, begin)),
+                        Turn::Continues => on_step(&line(&side)),
                         over => return Ok(over),
                     }
                 }
             };
             let result = rounds();
             let result = tell(result, &mut link, side.solver().steps());
-            end(&mut side, Some(&directory), result, link.counters(), begin)
+            end(&mut side, Some(&directory), result, link.counters())
         }
     }
 }
@@ -156,12 +201,11 @@ pub(super) fn end<S: Side>(
     directory: Option<&RunDirectory>,
     result: Result<Turn, RunError>,
     counters: LinkCounters,
-    begin: Instant,
 ) -> Result<(), RunError> {
     let failed = matches!(&result, Err(error) if error.exit_code() == 3);
     side.close(failed)?;
     if let Some(directory) = directory {
-        summary::write(directory, S::SUMMARY, &part(side, &result, begin, counters))?;
+        summary::write(directory, S::SUMMARY, &part(side, &result, counters))?;
     }
     concluded(result)
 }
@@ -170,11 +214,10 @@ pub(super) fn end<S: Side>(
 pub(super) fn part<S: Side>(
     side: &S,
     result: &Result<Turn, RunError>,
-    begin: Instant,
     counters: LinkCounters,
 ) -> Map<String, Value> {
     let mut part = side.summary();
-    part.extend(progress_part(side, result, begin, counters));
+    part.extend(progress_part(side, result, counters));
     part
 }
 
@@ -189,11 +232,11 @@ fn concluded(result: Result<Turn, RunError>) -> Result<(), RunError> {
 fn progress_part<S: Side>(
     side: &S,
     result: &Result<Turn, RunError>,
-    begin: Instant,
     counters: LinkCounters,
 ) -> Map<String, Value> {
     let completed = matches!(result, Ok(Turn::Over(0)));
     let ((time, steps), clock) = (side.reached(), side.clock());
+    let counters = side.past().exchanged(counters);
     let mut coupling = json!({
         "exchanges": counters.received,
         "bytes": counters.bytes,
@@ -202,14 +245,22 @@ fn progress_part<S: Side>(
         "seconds_computing": clock.computing.as_secs_f64(),
         "seconds_adapting": clock.adapting.as_secs_f64(),
         "seconds_recording": clock.recording.as_secs_f64(),
+        "seconds_checkpointing": clock.checkpointing.as_secs_f64(),
         "seconds_waited": counters.waited.as_secs_f64(),
         "seconds_exchanging": counters.exchanging.as_secs_f64(),
+        "exchange_seconds": {
+            "p50": counters.latencies.percentile(0.5),
+            "p90": counters.latencies.percentile(0.9),
+            "p99": counters.latencies.percentile(0.99),
+            "p999": counters.latencies.percentile(0.999),
+            "largest": counters.latencies.percentile(1.0),
+        },
     });
     let mut part = Map::new();
     part.insert("completed".to_owned(), json!(completed));
     part.insert("t_end".to_owned(), json!(time));
     part.insert("steps".to_owned(), json!(steps));
-    part.insert("wall_seconds".to_owned(), json!(begin.elapsed().as_secs_f64()));
+    part.insert("wall_seconds".to_owned(), json!(side.past().wall().as_secs_f64()));
     part.insert("coupling".to_owned(), coupling);
     if let Err(error) = result {
         part.insert("error".to_owned(), json!(error.to_string()));

@@ -67,6 +67,17 @@ pub enum RunError {
         /// The exit code to pass on.
         code: u8,
     },
+    /// A run cannot be taken up again.
+    #[error("cannot go on with the run in {}: {reason}", path.display())]
+    Resume {
+        /// Its directory, or the file in question.
+        path: std::path::PathBuf,
+        /// Why not, and what helps.
+        reason: String,
+    },
+    /// A checkpoint does not belong to what the case makes.
+    #[error("the checkpoint does not fit the case: {0}; run the case anew in another directory")]
+    Misfit(#[from] mesh::Misfit),
     /// Output could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -90,7 +101,12 @@ impl RunError {
     /// The process's exit code, see `docs/command-line.md`.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Directory(_) | Self::NoPeer { .. } | Self::PeerIsElsewhere { .. } => 2,
+            Self::Case(_)
+            | Self::Directory(_)
+            | Self::NoPeer { .. }
+            | Self::PeerIsElsewhere { .. }
+            | Self::Resume { .. }
+            | Self::Misfit(_) => 2,
             Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
             Self::Coupler(_) | Self::Start { .. } => 4,
@@ -111,6 +127,8 @@ impl RunError {
             Self::Case(_)
             | Self::NoPeer { .. }
             | Self::PeerIsElsewhere { .. }
+            | Self::Resume { .. }
+            | Self::Misfit(_)
             | Self::Child { .. }
             | Self::Start { .. } => Fault::Other,
         }

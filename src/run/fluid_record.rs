@@ -2,6 +2,7 @@
 
 use fluid::{Bubble, BubbleCuts, FluidSolver};
 use mesh::{BLOCK, Geometry, Side};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use super::collapse::CollapseFinder;
@@ -13,6 +14,8 @@ use super::wall_faces::WallFaces;
 use crate::case::{Case, FLUID_FIELDS, Medium};
 use crate::output::run_directory::{FLUID_FIELDS as FIELDS_FILE, FLUID_HISTORY};
 use crate::output::{Column, FieldSpec, HistoryFile, OutputError, RunDirectory, SeriesId, Storage};
+
+pub mod saved;
 
 /// Everything that the fluid's side writes.
 pub struct FluidRecord {
@@ -37,7 +40,7 @@ pub struct FluidRecord {
 }
 
 /// Largest values so far, with their times.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Peaks {
     wall: [f64; 2],
     wall_anywhere: [f64; 2],
@@ -53,14 +56,22 @@ impl FluidRecord {
         directory: Option<&RunDirectory>,
         solver: &FluidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
+        let mut record = Self::on(case, SideFiles::create(case, directory, names())?, solver)?;
+        record.cells.see(solver.mesh().cells());
+        record.write(solver, 0.0)?;
+        record.snapshot(solver)?;
+        record.files.history.flush()?;
+        Ok(record)
+    }
+
+    /// Brings everything so far to the disk.
+    pub fn settle(&mut self) -> Result<(), OutputError> {
+        self.files.settle()
+    }
+
+    /// A record in these files of a fluid as it is, with nothing written.
+    fn on(case: &Case, mut files: SideFiles, solver: &FluidSolver<BLOCK>) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
-        let names = SideNames {
-            history: FLUID_HISTORY,
-            snapshots: FIELDS_FILE,
-            fields: FLUID_FIELDS.to_vec(),
-            spec: field_spec,
-        };
-        let mut files = SideFiles::create(case, directory, names)?;
         let history = &mut files.history;
         let cuts = case.fluid.as_ref().map(|fluid| BubbleCuts::of(&fluid.initial)).unwrap_or_default();
         let steps = history.add_series("", &STEP_COLUMNS)?;
@@ -83,7 +94,7 @@ impl FluidRecord {
         let conservation = history.add_series("/conservation/fluid", &CONSERVATION_COLUMNS)?;
         let interface_z = case.solid.as_ref().map(|_| mesh.domain().z[0]);
         let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, history)?;
-        let mut record = Self {
+        Ok(Self {
             files,
             steps,
             interface,
@@ -103,12 +114,7 @@ impl FluidRecord {
             }),
             cuts,
             bubbles,
-        };
-        record.cells.see(mesh.cells());
-        record.write(solver, 0.0)?;
-        record.snapshot(solver)?;
-        record.files.history.flush()?;
-        Ok(record)
+        })
     }
 
     /// The histories.
@@ -390,6 +396,15 @@ const PROBE_COLUMNS: [Column<'static>; 6] = [
     column("velocity_r", "m/s", "radial velocity"),
     column("gas_fraction", "1", "gas fraction"),
 ];
+
+fn names() -> SideNames {
+    SideNames {
+        history: FLUID_HISTORY,
+        snapshots: FIELDS_FILE,
+        fields: FLUID_FIELDS.to_vec(),
+        spec: field_spec,
+    }
+}
 
 fn field_spec(name: &'static str) -> FieldSpec<'static> {
     let spec =

@@ -9,17 +9,20 @@ mod cells;
 use std::time::{Duration, Instant};
 
 use coupler::{
-    CommonRefinement, FrameHeader, FrameKind, Link, Meeting, RegisterRow, StarSolver, TraceRow, WallRegister,
+    CommonRefinement, FrameHeader, FrameKind, Link, LinkCounters, Meeting, RegisterRow, StarSolver, TraceRow,
+    WallRegister,
 };
 use fluid::FluidSolver;
-use mesh::{BLOCK, GroupStep};
+use mesh::{BLOCK, GroupStep, Misfit};
 use serde_json::{Map, Value};
 
 use super::RunError;
 use super::cell_exchange::CellExchange;
+use super::checkpoints::Keeper;
 use super::drive::Side;
 use super::fluid_record::FluidRecord;
 use super::medium::{self, StepRule};
+use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
 use super::setup::fluid_solver;
 use super::stop::Stop;
@@ -27,6 +30,8 @@ use super::timed::{Clock, Timed};
 use crate::case::{Case, FluidCase, Medium};
 use crate::output::run_directory::FLUID_SUMMARY;
 use crate::output::{ProgressLine, RunDirectory};
+
+pub mod saved;
 
 /// What a turn came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +76,12 @@ pub struct FluidSide {
     smallest_step: f64,
     last_dt: f64,
     clock: Clock,
+    keeper: Option<Keeper>,
+    /// Whether the frame that this turn ends with asks the solid for its part of a checkpoint.
+    tells_of_checkpoint: bool,
+    /// Whether the solid's first word is about going on.
+    is_resumed: bool,
+    past: Past,
 }
 
 /// A step shorter than this share of the run means that the solution has gone bad.
@@ -105,7 +116,16 @@ impl FluidSide {
             smallest_step: SMALLEST_SHARE * case.time.end,
             last_dt: 0.0,
             clock: Clock::default(),
+            keeper: None,
+            tells_of_checkpoint: false,
+            is_resumed: false,
+            past: Past::after(Done::default()),
         }
+    }
+
+    /// Keeps checkpoints from now on.
+    pub fn keep_with(&mut self, keeper: Keeper) {
+        self.keeper = Some(keeper);
     }
 
     /// The solver.
@@ -142,6 +162,9 @@ impl FluidSide {
             self.step_shortly(link, plan)?;
             return Ok(true);
         }
+        if self.is_resumed {
+            return self.hear_of_going_on(link).map(|()| true);
+        }
         self.answer = self.take_answer(link)?;
         match pending {
             Some(Pending::Long(plan, step)) => {
@@ -159,13 +182,29 @@ impl FluidSide {
         Ok(true)
     }
 
+    /// Takes the solid's first word after a run was taken up again: where it is. Its last answer is known.
+    fn hear_of_going_on(&mut self, link: &mut impl Link) -> Result<(), RunError> {
+        let word = self.take_answer(link)?;
+        self.is_resumed = false;
+        self.past.leave_out(link.counters());
+        let time = self.solver.time();
+        if (word.time - time).abs() > 1e-9 * time {
+            let what = format!("the fluid is at t = {time:e} s, the solid at {:e} s", word.time);
+            return Err(Misfit(what).into());
+        }
+        Ok(())
+    }
+
     /// Begins a step: plans it and sends the trace on the wall, or asks the solid for its own.
     pub fn begin(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         let stopped =
             self.answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
-        if stopped != 0 || self.schedule.is_over() {
-            let header =
-                FrameHeader { flags: stopped | FrameHeader::LAST, ..self.header(FrameKind::Trace, 0, 0.0) };
+        let is_over = stopped != 0 || self.schedule.is_over();
+        let is_due = stopped != 0 || !is_over && self.keeper.as_ref().is_some_and(Keeper::is_due);
+        self.tells_of_checkpoint = is_due && self.solver.steps() > 0 && self.keep(link.counters())?;
+        if is_over {
+            let mut header = self.header(FrameKind::Trace, 0, 0.0);
+            header.flags |= stopped | FrameHeader::LAST;
             link.send(header, |_| {})?;
             return Ok(Turn::Over(stopped));
         }
@@ -190,6 +229,7 @@ impl FluidSide {
         } else {
             self.ask_for_trace(link, plan)?
         }
+        self.tells_of_checkpoint = false;
         Ok(Turn::Continues)
     }
 
@@ -264,11 +304,12 @@ impl FluidSide {
     /// Reads the solid's register frame in place.
     fn take_answer(&mut self, link: &mut impl Link) -> Result<FrameHeader, RunError> {
         let faces = self.solver.wall_faces();
+        let is_first_word = self.solver.steps() == 0 || self.is_resumed;
         let (solver, cells) = (&mut self.solver, &mut self.cells);
         let header = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
-            if frame.header.count == 0 && solver.steps() == 0 {
-                // The first word, before the solid knows of any faces: it is at rest.
+            if frame.header.count == 0 && is_first_word {
+                // The first word, before the solid knows of any faces: it is at rest, or where it was.
                 return Ok(*frame.header);
             }
             frame.require_shape(RegisterRow::COUNT, faces)?;
@@ -326,6 +367,7 @@ impl FluidSide {
             time: self.solver.time(),
             dt,
             count: count as u64,
+            flags: if self.tells_of_checkpoint { FrameHeader::CHECKPOINT } else { 0 },
             ..FrameHeader::new(kind)
         }
     }
@@ -379,6 +421,17 @@ impl Side for FluidSide {
 
     fn clock(&self) -> Clock {
         self.clock
+    }
+
+    fn past(&self) -> &Past {
+        &self.past
+    }
+
+    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError> {
+        if is_stopped || self.keeper.as_ref().is_some_and(Keeper::is_due) {
+            self.keep(LinkCounters::default())?;
+        }
+        Ok(())
     }
 
     fn line(&self) -> ProgressLine {

@@ -1,6 +1,8 @@
 //! The history of the interface on a fixed radial grid, whatever faces the mesh has there.
 
 use coupler::CommonRefinement;
+use mesh::Misfit;
+use serde::{Deserialize, Serialize};
 
 use super::record::column;
 use super::wall_faces::WallFaces;
@@ -21,7 +23,44 @@ pub struct InterfaceHistory {
     impulse: Vec<f64>,
 }
 
+/// What of it changes in time, and what hangs on the faces that there were at t = 0.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct InterfaceState {
+    grid: Vec<f64>,
+    initial: Vec<f64>,
+    pressure: Vec<f64>,
+    impulse: Vec<f64>,
+}
+
 impl InterfaceHistory {
+    /// What has to be kept of it.
+    pub fn saved(&self) -> InterfaceState {
+        let Self { series: _, map: _, axisymmetric: _, grid, initial, pressure, impulse } = self;
+        InterfaceState {
+            grid: grid.clone(),
+            initial: initial.clone(),
+            pressure: pressure.clone(),
+            impulse: impulse.clone(),
+        }
+    }
+
+    /// Takes up what was kept of the same history; `faces` are those of now.
+    pub fn restore(
+        &mut self,
+        saved: InterfaceState,
+        faces: &WallFaces,
+        history: &mut HistoryFile,
+    ) -> Result<(), Misfit> {
+        let InterfaceState { grid, initial, pressure, impulse } = saved;
+        if [grid.len(), initial.len(), pressure.len(), impulse.len()] != [self.grid.len(); 4] {
+            return Err(Misfit(format!("the interface's history has {} cells", grid.len())));
+        }
+        (self.grid, self.initial, self.pressure, self.impulse) = (grid, initial, pressure, impulse);
+        put_centres(faces.begin(), &self.grid, history);
+        self.follow(faces);
+        Ok(())
+    }
+
     /// Adds `/interface` to a history: `cells` of equal width, `pressures` on the faces at t = 0.
     pub fn create(
         faces: &WallFaces,
@@ -35,9 +74,7 @@ impl InterfaceHistory {
         let grid: Vec<f64> = (1..=cells)
             .map(|k| if k == cells { end } else { begin + (end - begin) * k as f64 / cells as f64 })
             .collect();
-        let centres: Vec<f64> =
-            (0..cells).map(|k| 0.5 * (grid[k] + if k == 0 { begin } else { grid[k - 1] })).collect();
-        history.put("/interface/r", "m", "centres of the radial grid", &centres);
+        put_centres(begin, &grid, history);
         let wide = |name, unit, description| Column { name, unit, description, width: cells };
         let series = history.add_series(
             "/interface",
@@ -97,6 +134,13 @@ impl InterfaceHistory {
         row.extend_from_slice(&self.impulse);
         history.push(self.series, &row)
     }
+}
+
+/// Sets `/interface/r` to the centres of the cells that have these outer radii.
+fn put_centres(begin: f64, grid: &[f64], history: &mut HistoryFile) {
+    let centre = |k: usize| 0.5 * (grid[k] + if k == 0 { begin } else { grid[k - 1] });
+    let centres: Vec<f64> = (0..grid.len()).map(centre).collect();
+    history.put("/interface/r", "m", "centres of the radial grid", &centres);
 }
 
 #[cfg(test)]

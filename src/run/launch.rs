@@ -9,9 +9,11 @@ use std::time::{Duration, Instant, SystemTime};
 
 use coupler::{Participant, Scheme, clean_up_dead};
 use rustix::process::{Pid, Signal, kill_process};
+use serde_json::Map;
 
+use super::checkpoints::Checkpoints;
 use super::conclusion::{closing_words, conclude};
-use super::drive::in_process;
+use super::drive::{Keeping, in_process};
 use super::stop::Stop;
 use super::{RunError, drive};
 use crate::case::Case;
@@ -33,12 +35,25 @@ pub struct Options {
     pub in_process: bool,
     /// `--threads`, per process.
     pub threads: Option<usize>,
+    /// `--checkpoint-every`; `None` for no checkpoints.
+    pub checkpoint_every: Option<Duration>,
+    /// The step of the checkpoint to go on from.
+    pub from: Option<u64>,
+    /// What the case is called, if not as its file.
+    pub name: Option<String>,
     /// The command that is this program, for the children; this process's own executable if empty.
     pub program: Vec<OsString>,
     /// `-q`.
     pub quiet: bool,
     /// `-v`, counted.
     pub verbosity: u8,
+}
+
+impl Options {
+    /// What of them is about checkpoints.
+    fn keeping(&self) -> Keeping {
+        Keeping { from: self.from, every: self.checkpoint_every }
+    }
 }
 
 /// How long the other child may take to end after one has failed.
@@ -69,6 +84,16 @@ pub fn run(
     }
     let directory = prepare(case, options)?;
     on_directory(directory.path());
+    carry_out(case, options, &directory, stop)
+}
+
+/// Runs a case in its directory, from the start or from a checkpoint.
+pub(super) fn carry_out(
+    case: &Case,
+    options: &Options,
+    directory: &RunDirectory,
+    stop: &Stop,
+) -> Result<PathBuf, RunError> {
     log_case(case);
     let coupled = case.fluid.is_some() && case.solid.is_some();
     let mut progress = Progress::new(case.time.end, options.quiet, options.verbosity);
@@ -77,20 +102,33 @@ pub fn run(
         progress.message(&format!("warning: {warning}"));
     }
     let result = if coupled && !options.in_process {
-        two_processes(options, &directory, stop, &mut progress)
+        two_processes(options, directory, stop, &mut progress)
     } else {
         let threads = thread_pool(options.threads)?;
         let mut on_step = |line: &ProgressLine| progress.update(line);
-        threads.install(|| in_process(case, &directory, stop, &mut on_step))
+        threads.install(|| in_process(case, directory, options.keeping(), stop, &mut on_step))
     };
-    let whole = conclude(&directory)?;
+    let whole = match (conclude(directory), &result) {
+        (Ok(whole), _) => whole,
+        (Err(error), Ok(())) => return Err(error),
+        (Err(error), Err(_)) => {
+            // What went wrong first says more.
+            tracing::warn!("{error}");
+            Map::new()
+        }
+    };
     match &result {
         Ok(()) => {
             let words = closing_words(&whole, directory.path());
             tracing::info!("{words}");
             progress.finish(&words);
         }
-        Err(_) => progress.clear(),
+        Err(_) => {
+            progress.clear();
+            if Checkpoints::of(case, directory).are_there() {
+                progress.message(&format!("go on with: cav run --resume {}", directory.path().display()));
+            }
+        }
     }
     result.map(|()| directory.path().to_path_buf())
 }
@@ -139,6 +177,8 @@ fn two_processes(
     let run_id = new_run_id();
     let (lines, received) = mpsc::channel::<ProgressLine>();
     let mut sides = Vec::new();
+    // If the launcher is killed, they hold the directory until they have ended.
+    directory.share_lock(true)?;
     for participant in [Participant::Fluid, Participant::Solid] {
         match start(participant.name(), &run_id, options, directory, lines.clone()) {
             Ok(side) => sides.push(side),
@@ -149,6 +189,7 @@ fn two_processes(
         }
     }
     drop(lines);
+    directory.share_lock(false)?;
     let mut asked = 0;
     let mut first_end: Option<Instant> = None;
     let mut joined = false;
@@ -217,6 +258,18 @@ fn start(
     }
     if let Some(threads) = options.threads {
         command.args(["--threads", &threads.to_string()]);
+    }
+    let every =
+        options.checkpoint_every.map_or_else(|| "off".to_owned(), |every| every.as_secs_f64().to_string());
+    command.args(["--checkpoint-every", &every]);
+    if let Some(step) = options.from {
+        command.args(["--from", &step.to_string()]);
+    }
+    if let Some(name) = &options.name {
+        command.args(["--name", name]);
+    }
+    if options.quiet {
+        command.arg("-q");
     }
     command.args((0..options.verbosity).map(|_| "-v"));
     // A group of its own: Ctrl-C reaches the launcher alone, which passes it on.
@@ -331,16 +384,24 @@ pub fn run_side(
     };
     let mut progress = Progress::new(case.time.end, options.quiet || child || !leads, options.verbosity);
     let mut throttle = crate::output::progress::Throttle::new(Duration::from_millis(100));
+    let participant = joining.participant;
     let mut on_step = |line: &ProgressLine| {
-        if child && joining.participant == Participant::Fluid && throttle.is_due() {
+        if child && participant == Participant::Fluid && throttle.is_due() {
             announce(line);
         }
         progress.update(line);
     };
     let threads = thread_pool(options.threads)?;
     let result = threads.install(|| {
-        let joining = drive::Joining { run_id: joining.run_id.clone(), participant: joining.participant };
-        drive::joined(case, joining, directory, stop, &mut on_step)
+        let quiet = options.quiet;
+        let notice: coupler::Notice = Box::new(move |words| {
+            tracing::warn!("{words}");
+            if !quiet {
+                eprintln!("{words}");
+            }
+        });
+        let joining = drive::Joining { notice: Some(notice), ..joining };
+        drive::joined(case, joining, directory, options.keeping(), stop, &mut on_step)
     });
     if !child && path.exists() {
         let directory = RunDirectory::open(&path).map_err(RunError::Directory)?;

@@ -2,6 +2,9 @@
 //!
 //! | module | is |
 //! |---|---|
+//! | [`checkpoints`] | states to go on from: written, kept, chosen |
+//! | [`past`] | what was done before a run was taken up again |
+//! | [`mod@resume`] | a run directory taken up again |
 //! | [`setup`] | a case made into solvers |
 //! | [`schedule`] | when to stop, when to write, and so how long a step may be |
 //! | [`fluid_side`], [`solid_side`] | one side's part of the step loop |
@@ -20,6 +23,7 @@
 //! | [`error`] | what can go wrong, and the exit code it means |
 
 pub mod cell_exchange;
+pub mod checkpoints;
 pub mod collapse;
 pub mod conclusion;
 pub mod drive;
@@ -30,7 +34,9 @@ pub mod interface_history;
 pub mod launch;
 pub mod load;
 pub mod medium;
+pub mod past;
 pub mod record;
+pub mod resume;
 pub mod schedule;
 pub mod session;
 pub mod setup;
@@ -43,3 +49,4 @@ pub mod wall_faces;
 
 pub use error::RunError;
 pub use launch::{Options, run};
+pub use resume::resume;

@@ -1,6 +1,7 @@
 //! What both sides' records have in common.
 
-use mesh::{BLOCK, Limiter, Mesh};
+use mesh::{BLOCK, Limiter, Mesh, Misfit};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::case::{Case, Probe};
@@ -31,7 +32,7 @@ pub fn cell_geometry(mesh: &Mesh<BLOCK>) -> OwnedQuadMesh {
 }
 
 /// How many cells there were.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct CellCount {
     last: usize,
     largest: usize,
@@ -59,7 +60,7 @@ impl CellCount {
 }
 
 /// Events at fixed intervals of simulated time, at the first step at or after each.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Ticker {
     every: f64,
     next: f64,
@@ -105,7 +106,7 @@ pub struct ProbeSeries {
 ///
 /// A mean is the value at mid-step; taken for the one at the step's end it is late by half a step, an error of first order.
 /// It is continued with the smaller of the last two rates of change, so that a front makes no overshoot.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct StepEnds {
     last: Option<([f64; 2], f64)>,
     rates: [f64; 2],
@@ -126,6 +127,21 @@ impl StepEnds {
         self.last = Some((means, middle));
         std::array::from_fn(|c| means[c] + (time - middle) * self.limited[c])
     }
+}
+
+/// What of probes lasts from one step to the next.
+pub fn saved_probes(probes: &[ProbeSeries]) -> Vec<StepEnds> {
+    let kept = |ProbeSeries { probe: _, series: _, on_interface: _, star }: &ProbeSeries| *star;
+    probes.iter().map(kept).collect()
+}
+
+/// Takes up what was kept of the same probes.
+pub fn restore_probes(probes: &mut [ProbeSeries], saved: Vec<StepEnds>) -> Result<(), Misfit> {
+    if probes.len() != saved.len() {
+        return Err(Misfit(format!("it has {} probes where the case has {}", saved.len(), probes.len())));
+    }
+    probes.iter_mut().zip(saved).for_each(|(probe, star)| probe.star = star);
+    Ok(())
 }
 
 /// Makes the series `/probes/NAME` of all probes of one medium.

@@ -1,5 +1,7 @@
 //! When to stop, when to write, and so how long a step may be.
 
+use serde::{Deserialize, Serialize};
+
 /// A step about to be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
@@ -7,6 +9,13 @@ pub struct Plan {
     pub dt: f64,
     /// Whether a snapshot is due at its end.
     pub snapshot: bool,
+}
+
+/// How far a schedule is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Progressed {
+    next: usize,
+    landing: Option<f64>,
 }
 
 /// The times at which snapshots are due; the run ends with the last one.
@@ -22,6 +31,18 @@ impl Schedule {
     /// From ascending times, the last of which is the end of the run. Times at or before 0 are taken as done.
     pub fn new(times: &[f64]) -> Self {
         Self { times: times.to_vec(), next: times.partition_point(|t| *t <= 0.0), landing: None }
+    }
+
+    /// How far it is.
+    pub fn saved(&self) -> Progressed {
+        let Self { times: _, next, landing } = self;
+        Progressed { next: *next, landing: *landing }
+    }
+
+    /// Goes on where a schedule of the same times was.
+    pub fn restore(&mut self, Progressed { next, landing }: Progressed) {
+        self.next = next.min(self.times.len());
+        self.landing = landing;
     }
 
     /// Whether the end has been reached.

@@ -1,14 +1,15 @@
 //! A run in this process, step by step: what `cav run --in-process` and Python drive.
 
-use std::time::Instant;
+use std::time::Duration;
 
-use coupler::{DirectLink, FrameHeader, Link, LinkCounters, Scheme, direct_pair};
+use coupler::{DirectLink, FrameHeader, Link, LinkCounters, Participant, Scheme, direct_pair};
 use fluid::FluidSolver;
 use mesh::BLOCK;
 use serde_json::{Map, Value};
 use solid::SolidSolver;
 
 use super::RunError;
+use super::checkpoints::{Checkpoints, Keeper};
 use super::drive::{Side, end, line, part};
 use super::fluid_record::FluidRecord;
 use super::fluid_side::{FluidSide, Turn};
@@ -23,7 +24,6 @@ use crate::output::{HistoryFile, ProgressLine, RunDirectory, summary};
 /// A run in this process. Between two steps both media are at the same time.
 pub struct Session {
     sides: Sides,
-    begin: Instant,
 }
 
 enum Sides {
@@ -97,6 +97,30 @@ impl Session {
             }
             None => None,
         };
+        Ok(Self::of(case, fluid, solid))
+    }
+
+    /// A run that goes on from the checkpoint of a step.
+    pub fn resume(case: &Case, directory: &RunDirectory, step: u64) -> Result<Self, RunError> {
+        let checkpoints = Checkpoints::of(case, directory);
+        let fluid = match &case.fluid {
+            Some(fluid) => {
+                let saved = checkpoints.read(Participant::Fluid, step)?;
+                Some(FluidSide::resumed(case, fluid, directory, saved)?)
+            }
+            None => None,
+        };
+        let solid = match &case.solid {
+            Some(solid) => {
+                let saved = checkpoints.read(Participant::Solid, step)?;
+                Some(SolidSide::resumed(case, solid, directory, saved)?)
+            }
+            None => None,
+        };
+        Ok(Self::of(case, fluid, solid))
+    }
+
+    fn of(case: &Case, fluid: Option<FluidSide>, solid: Option<SolidSide>) -> Self {
         let sides = match (fluid, solid) {
             (Some(fluid), Some(solid)) => {
                 let (to_solid, to_fluid) = direct_pair(case.hash());
@@ -106,7 +130,20 @@ impl Session {
             (None, Some(solid)) => Sides::Solid(Box::new(solid)),
             (None, None) => unreachable!("a case has at least one medium"),
         };
-        Ok(Self { sides, begin: Instant::now() })
+        Self { sides }
+    }
+
+    /// Keeps checkpoints in the run's directory from now on: one after `every` of wall time, and when it is stopped.
+    pub fn keep_checkpoints(&mut self, case: &Case, directory: &RunDirectory, every: Duration) {
+        let keeper = || Keeper::new(Checkpoints::of(case, directory), every);
+        match &mut self.sides {
+            Sides::Fluid(side) => side.keep_with(keeper()),
+            Sides::Solid(side) => side.keep_with(keeper()),
+            Sides::Both(both) => {
+                both.fluid.keep_with(keeper());
+                both.solid.keep_with(keeper());
+            }
+        }
     }
 
     /// Makes a step of all media. [`Turn::Over`] if there was none left to make or `stop` asked for the end.
@@ -126,17 +163,16 @@ impl Session {
         directory: Option<&RunDirectory>,
         result: Result<Turn, RunError>,
     ) -> Result<(), RunError> {
-        let begin = self.begin;
         match &mut self.sides {
-            Sides::Fluid(side) => end(side.as_mut(), directory, result, LinkCounters::default(), begin),
-            Sides::Solid(side) => end(side.as_mut(), directory, result, LinkCounters::default(), begin),
+            Sides::Fluid(side) => end(side.as_mut(), directory, result, LinkCounters::default()),
+            Sides::Solid(side) => end(side.as_mut(), directory, result, LinkCounters::default()),
             Sides::Both(both) => {
                 let result_of_solid = match &result {
                     Ok(turn) => Ok(*turn),
                     Err(_) => Ok(Turn::Over(FrameHeader::STOP_TERMINATE)),
                 };
-                let fluid = end(&mut both.fluid, directory, result, both.to_solid.counters(), begin);
-                let solid = end(&mut both.solid, directory, result_of_solid, both.to_fluid.counters(), begin);
+                let fluid = end(&mut both.fluid, directory, result, both.to_solid.counters());
+                let solid = end(&mut both.solid, directory, result_of_solid, both.to_fluid.counters());
                 fluid.and(solid)
             }
         }
@@ -144,13 +180,12 @@ impl Session {
 
     /// The summary as far as it is known, `completed` if the last step came to `result`.
     pub fn summary(&self, result: &Result<Turn, RunError>) -> Map<String, Value> {
-        let begin = self.begin;
         match &self.sides {
-            Sides::Fluid(side) => part(side.as_ref(), result, begin, LinkCounters::default()),
-            Sides::Solid(side) => part(side.as_ref(), result, begin, LinkCounters::default()),
+            Sides::Fluid(side) => part(side.as_ref(), result, LinkCounters::default()),
+            Sides::Solid(side) => part(side.as_ref(), result, LinkCounters::default()),
             Sides::Both(both) => summary::merge(&[
-                part(&both.solid, result, begin, both.to_fluid.counters()),
-                part(&both.fluid, result, begin, both.to_solid.counters()),
+                part(&both.solid, result, both.to_fluid.counters()),
+                part(&both.fluid, result, both.to_solid.counters()),
             ]),
         }
     }
@@ -158,9 +193,9 @@ impl Session {
     /// How far the run is.
     pub fn line(&self) -> ProgressLine {
         match &self.sides {
-            Sides::Fluid(side) => line(side.as_ref(), self.begin),
-            Sides::Solid(side) => line(side.as_ref(), self.begin),
-            Sides::Both(both) => line(&both.fluid, self.begin),
+            Sides::Fluid(side) => line(side.as_ref()),
+            Sides::Solid(side) => line(side.as_ref()),
+            Sides::Both(both) => line(&both.fluid),
         }
     }
 
@@ -209,10 +244,10 @@ impl Session {
 }
 
 fn step_alone(side: &mut impl Side, stop: &Stop) -> Result<Turn, RunError> {
-    let made = side.step_alone()?;
-    Ok(match stop.flags() {
-        _ if !made => Turn::Over(0),
-        0 => Turn::Continues,
-        flags => Turn::Over(flags),
-    })
+    if !side.step_alone()? {
+        return Ok(Turn::Over(0));
+    }
+    let flags = stop.flags();
+    side.keep_alone(flags != 0)?;
+    Ok(if flags == 0 { Turn::Continues } else { Turn::Over(flags) })
 }

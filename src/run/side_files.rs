@@ -1,15 +1,17 @@
 //! The files of one side: its histories and its snapshots.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
 use mesh::{BLOCK, Mesh};
+use serde::{Deserialize, Serialize};
 
 use super::record::{attributes, cell_geometry};
 use crate::case::Case;
 use crate::output::{
     BackgroundWriter, FieldSpec, HistoryFile, OutputError, OwnedQuadMesh, RunDirectory, SeriesWriter,
-    Snapshot,
+    Snapshot, safe_file,
 };
 
 /// What the files of a side are called and what its snapshots may hold.
@@ -24,6 +26,17 @@ pub struct SideNames {
     pub spec: fn(&'static str) -> FieldSpec<'static>,
 }
 
+impl SideNames {
+    /// The fields that the case asks for.
+    fn wanted(&self, case: &Case) -> Vec<&'static str> {
+        let is_wanted = |name: &&str| match &case.output.fields {
+            Some(wanted) => wanted.iter().any(|w| w == name),
+            None => true,
+        };
+        self.fields.iter().copied().filter(is_wanted).collect()
+    }
+}
+
 /// The files of one side.
 pub struct SideFiles {
     /// Its histories.
@@ -31,8 +44,20 @@ pub struct SideFiles {
     /// Where snapshots go; without a directory nowhere.
     snapshots: Option<BackgroundWriter>,
     fields: Vec<&'static str>,
-    /// The mesh of the last snapshot with its generation.
-    geometry: Option<(u64, Arc<OwnedQuadMesh>)>,
+    /// How many snapshots there are.
+    taken: u64,
+    /// The generation of the last one's mesh.
+    mesh_id: Option<u64>,
+    /// That mesh.
+    geometry: Option<Arc<OwnedQuadMesh>>,
+}
+
+/// How far the files of a side are.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct FilesState {
+    rows: Vec<u64>,
+    taken: u64,
+    mesh_id: Option<u64>,
 }
 
 impl SideFiles {
@@ -43,27 +68,64 @@ impl SideFiles {
         names: SideNames,
     ) -> Result<Self, OutputError> {
         let Some(directory) = directory else {
-            return Ok(Self {
-                history: HistoryFile::in_memory(),
-                snapshots: None,
-                fields: vec![],
-                geometry: None,
-            });
+            return Ok(Self::of(HistoryFile::in_memory(), None, vec![]));
         };
         let owned = attributes(case);
         let attributes: Vec<(&str, &str)> =
             owned.iter().map(|(name, value)| (*name, value.as_str())).collect();
         let history = HistoryFile::create(&directory.file(names.history), &attributes)?;
-        let wanted = |name: &&str| match &case.output.fields {
-            Some(wanted) => wanted.iter().any(|w| w == name),
-            None => true,
-        };
-        let fields: Vec<&'static str> = names.fields.into_iter().filter(wanted).collect();
+        let fields = names.wanted(case);
         let specs: Vec<FieldSpec<'_>> = fields.iter().map(|name| (names.spec)(name)).collect();
         let path = directory.file(names.snapshots);
         let writer = SeriesWriter::create(&path, &specs, case.output.compression, &attributes)?;
-        let snapshots = Some(BackgroundWriter::start(writer)?);
-        Ok(Self { history, snapshots, fields, geometry: None })
+        Ok(Self::of(history, Some(BackgroundWriter::start(writer)?), fields))
+    }
+
+    /// Opens the files of a run that is taken up again and forgets the snapshots made since `state`; the rows go when all series
+    /// have been added, see [`SideFiles::forget_rows`].
+    pub fn resume(
+        case: &Case,
+        directory: &RunDirectory,
+        names: SideNames,
+        state: &FilesState,
+    ) -> Result<Self, OutputError> {
+        let history = HistoryFile::open(&directory.file(names.history))?;
+        let mut writer = SeriesWriter::open(&directory.file(names.snapshots))?;
+        writer.truncate(state.taken as usize)?;
+        let writer = BackgroundWriter::start(writer.with_mesh(state.mesh_id))?;
+        let files = Self::of(history, Some(writer), names.wanted(case));
+        Ok(Self { taken: state.taken, mesh_id: state.mesh_id, ..files })
+    }
+
+    fn of(history: HistoryFile, snapshots: Option<BackgroundWriter>, fields: Vec<&'static str>) -> Self {
+        Self { history, snapshots, fields, taken: 0, mesh_id: None, geometry: None }
+    }
+
+    /// Forgets the rows made since `state`.
+    pub fn forget_rows(&mut self, state: &FilesState) -> Result<(), OutputError> {
+        self.history.truncate_all(&state.rows)?;
+        self.history.flush()
+    }
+
+    /// How far the files are.
+    pub fn saved(&self) -> FilesState {
+        let Self { history, snapshots: _, fields: _, taken, mesh_id, geometry: _ } = self;
+        FilesState { rows: history.all_rows(), taken: *taken, mesh_id: *mesh_id }
+    }
+
+    /// Brings everything so far to the disk.
+    pub fn settle(&mut self) -> Result<(), OutputError> {
+        self.history.flush()?;
+        let mut paths: Vec<_> = self.history.path().map(Path::to_path_buf).into_iter().collect();
+        if let Some(snapshots) = &mut self.snapshots {
+            snapshots.catch_up()?;
+            paths.push(snapshots.path().to_path_buf());
+        }
+        for path in &paths {
+            safe_file::sync(path)?;
+        }
+        // They were renamed to their names.
+        paths.first().and_then(|path| path.parent()).map_or(Ok(()), safe_file::sync)
     }
 
     /// Hands a snapshot over to be written: `values` gives the fields of these names, cell by cell.
@@ -76,13 +138,14 @@ impl SideFiles {
         let Some(snapshots) = &mut self.snapshots else { return Ok(()) };
         let start = Instant::now();
         let mesh_id = mesh.generation();
-        let geometry = match self.geometry.take() {
-            Some((id, geometry)) if id == mesh_id => geometry,
-            _ => Arc::new(cell_geometry(mesh)),
-        };
-        self.geometry = Some((mesh_id, Arc::clone(&geometry)));
+        let is_same = self.mesh_id == Some(mesh_id);
+        let known = self.geometry.take().filter(|_| is_same);
+        let geometry = known.unwrap_or_else(|| Arc::new(cell_geometry(mesh)));
+        self.geometry = Some(Arc::clone(&geometry));
         let values = values(&self.fields);
         snapshots.append(Snapshot { time, mesh: geometry, mesh_id, values })?;
+        self.taken += 1;
+        self.mesh_id = Some(mesh_id);
         tracing::debug!(time, seconds = start.elapsed().as_secs_f64(), "handed a snapshot over");
         Ok(())
     }

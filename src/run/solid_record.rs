@@ -1,12 +1,16 @@
 //! What the solid's side writes: snapshots, histories, its part of the summary.
 
 use mesh::BLOCK;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use solid::SolidSolver;
 
-use super::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
+use super::RunError;
+use super::record::{
+    CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
+};
 use super::schedule::Plan;
-use super::side_files::{SideFiles, SideNames};
+use super::side_files::{FilesState, SideFiles, SideNames};
 use super::wall_faces::WallFaces;
 use crate::case::{Case, Medium, SOLID_FIELDS};
 use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
@@ -27,12 +31,23 @@ pub struct SolidRecord {
     initial_energy: f64,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Peak {
     stress: f64,
     time: f64,
     position: [f64; 2],
     yielded: f64,
+}
+
+/// What of a record changes in time, and what hangs on the state at t = 0.
+#[derive(Serialize, Deserialize)]
+pub struct SolidRecordState {
+    files: FilesState,
+    ticker: Ticker,
+    probes: Vec<StepEnds>,
+    cells: CellCount,
+    peak: Peak,
+    initial_energy: f64,
 }
 
 impl SolidRecord {
@@ -43,17 +58,66 @@ impl SolidRecord {
         directory: Option<&RunDirectory>,
         solver: &SolidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
+        let mut record = Self::on(case, SideFiles::create(case, directory, names(solver))?, solver)?;
+        record.cells.see(solver.mesh().cells());
+        record.write(solver, 0.0)?;
+        record.snapshot(solver)?;
+        record.files.history.flush()?;
+        Ok(record)
+    }
+
+    /// Takes up the files of a run, and what was kept of its record; what was written since is forgotten.
+    pub fn resume(
+        case: &Case,
+        directory: &RunDirectory,
+        solver: &SolidSolver<BLOCK>,
+        saved: SolidRecordState,
+    ) -> Result<Self, RunError> {
+        let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
+        let mut record = Self::on(case, files, solver)?;
+        let SolidRecordState { files, ticker, probes, cells, peak, initial_energy } = saved;
+        record.ticker = ticker;
+        restore_probes(&mut record.probes, probes)?;
+        record.cells = cells;
+        record.peak = peak;
+        record.initial_energy = initial_energy;
+        record.files.forget_rows(&files)?;
+        Ok(record)
+    }
+
+    /// What has to be kept of it.
+    pub fn saved(&self) -> SolidRecordState {
+        // Field by field, so that a new one cannot be forgotten here.
+        let Self {
+            files,
+            steps: _,
+            time: _,
+            conservation: _,
+            ticker,
+            probes,
+            faces: _,
+            cells,
+            peak,
+            initial_energy,
+        } = self;
+        SolidRecordState {
+            files: files.saved(),
+            ticker: *ticker,
+            probes: saved_probes(probes),
+            cells: *cells,
+            peak: *peak,
+            initial_energy: *initial_energy,
+        }
+    }
+
+    /// Brings everything so far to the disk.
+    pub fn settle(&mut self) -> Result<(), OutputError> {
+        self.files.settle()
+    }
+
+    /// A record in these files of a solid as it is, with nothing written.
+    fn on(case: &Case, mut files: SideFiles, solver: &SolidSolver<BLOCK>) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
-        // A material without a yield strength has no yield function.
-        let has_yield_strength = solver.setup().yield_strength.is_finite();
-        let fields = SOLID_FIELDS.into_iter().filter(|name| has_yield_strength || *name != "yield_function");
-        let names = SideNames {
-            history: SOLID_HISTORY,
-            snapshots: FIELDS_FILE,
-            fields: fields.collect(),
-            spec: field_spec,
-        };
-        let mut files = SideFiles::create(case, directory, names)?;
         let history = &mut files.history;
         let steps = history.add_series("/solid", &STEP_COLUMNS)?;
         let time = match &case.fluid {
@@ -66,7 +130,7 @@ impl SolidRecord {
         let interface_z = covered.then(|| mesh.domain().z[1]);
         let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, history)?;
         let totals = solver.totals();
-        let mut record = Self {
+        Ok(Self {
             files,
             steps,
             time,
@@ -77,12 +141,7 @@ impl SolidRecord {
             cells: CellCount::default(),
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
-        };
-        record.cells.see(mesh.cells());
-        record.write(solver, 0.0)?;
-        record.snapshot(solver)?;
-        record.files.history.flush()?;
-        Ok(record)
+        })
     }
 
     /// The histories.
@@ -251,6 +310,13 @@ const PROBE_COLUMNS: [Column<'static>; 7] = [
     column("stress_rr", "Pa", "radial stress"),
     column("stress_phiphi", "Pa", "hoop stress"),
 ];
+
+fn names(solver: &SolidSolver<BLOCK>) -> SideNames {
+    // A material without a yield strength has no yield function.
+    let has_yield_strength = solver.setup().yield_strength.is_finite();
+    let fields = SOLID_FIELDS.into_iter().filter(|name| has_yield_strength || *name != "yield_function");
+    SideNames { history: SOLID_HISTORY, snapshots: FIELDS_FILE, fields: fields.collect(), spec: field_spec }
+}
 
 fn field_spec(name: &'static str) -> FieldSpec<'static> {
     let spec =

@@ -5,18 +5,20 @@ mod cells;
 use std::time::{Duration, Instant};
 
 use coupler::{
-    Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme, StarSolver,
-    TraceRow, WallRegister,
+    Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, LinkCounters, Meeting, RegisterRow, Scheme,
+    StarSolver, TraceRow, WallRegister,
 };
 use mesh::{BLOCK, GroupStep};
 use serde_json::{Map, Value, json};
 use solid::{Interface, SolidSolver};
 
 use super::RunError;
+use super::checkpoints::Keeper;
 use super::drive::Side;
 use super::fluid_side::Turn;
 use super::load::Load;
 use super::medium::{self, Medium, StepRule};
+use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
 use super::setup::solid_solver;
 use super::solid_record::SolidRecord;
@@ -25,6 +27,8 @@ use super::timed::{Clock, Timed};
 use crate::case::{Case, SolidCase};
 use crate::output::run_directory::SOLID_SUMMARY;
 use crate::output::{ProgressLine, RunDirectory};
+
+pub mod saved;
 
 /// The solid with its place in a run.
 pub struct SolidSide {
@@ -53,6 +57,8 @@ pub struct SolidSide {
     end: f64,
     last_dt: f64,
     clock: Clock,
+    keeper: Option<Keeper>,
+    past: Past,
 }
 
 impl SolidSide {
@@ -88,7 +94,14 @@ impl SolidSide {
             end: case.time.end * (1.0 - 1e-12),
             last_dt: 0.0,
             clock: Clock::default(),
+            keeper: None,
+            past: Past::after(Done::default()),
         }
+    }
+
+    /// Keeps checkpoints from now on.
+    pub fn keep_with(&mut self, keeper: Keeper) {
+        self.keeper = Some(keeper);
     }
 
     /// The solver.
@@ -116,9 +129,12 @@ impl SolidSide {
         self.last_dt
     }
 
-    /// The first word: how long a step the solid allows. It is at rest.
+    /// The first word: how long a step the solid allows. It is at rest; or it says at what time it goes on.
     pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
         link.send(self.header(FrameKind::Register, 0, stop), |_| {})?;
+        if self.solver.steps() > 0 {
+            self.past.leave_out(link.counters());
+        }
         Ok(())
     }
 
@@ -296,17 +312,23 @@ impl Side for SolidSide {
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         self.settle(link)?;
+        let counters = link.counters();
         let header = link.receive(|frame| {
+            if frame.header.has(FrameHeader::CHECKPOINT) {
+                self.keep(frame.header.step, counters)?;
+            }
             if frame.require(FrameKind::Yours).is_err() {
                 frame.require(FrameKind::Trace)?;
                 if !frame.header.has(FrameHeader::LAST | FrameHeader::SETTLED) {
                     self.read_trace(frame)?;
                 }
             }
-            Ok::<_, coupler::CouplerError>(*frame.header)
+            Ok::<_, RunError>(*frame.header)
         })??;
         if header.has(FrameHeader::LAST) {
-            return Ok(Turn::Over(header.flags & !FrameHeader::LAST));
+            return Ok(Turn::Over(
+                header.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE),
+            ));
         }
         let plan = Plan { dt: header.dt, snapshot: header.has(FrameHeader::SNAPSHOT) };
         if header.kind == FrameKind::Yours as u32 {
@@ -345,6 +367,17 @@ impl Side for SolidSide {
 
     fn clock(&self) -> Clock {
         self.clock
+    }
+
+    fn past(&self) -> &Past {
+        &self.past
+    }
+
+    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError> {
+        if is_stopped || self.keeper.as_ref().is_some_and(Keeper::is_due) {
+            self.keep(self.solver.steps(), LinkCounters::default())?;
+        }
+        Ok(())
     }
 
     fn line(&self) -> ProgressLine {

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use fluid::FluidSolver;
 use mesh::BLOCK;
+use serde::{Deserialize, Serialize};
 use solid::SolidSolver;
 
 use super::RunError;
@@ -14,7 +15,7 @@ use super::solid_record::SolidRecord;
 use crate::output::OutputError;
 
 /// Shares of the run's wall time.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Clock {
     /// Time in the solver and in the exchange's own computation.
     pub computing: Duration,
@@ -22,6 +23,8 @@ pub struct Clock {
     pub adapting: Duration,
     /// Time in diagnostics and output.
     pub recording: Duration,
+    /// Time in checkpoints, what they wait for in output included.
+    pub checkpointing: Duration,
 }
 
 /// What takes notice of a solver's steps.

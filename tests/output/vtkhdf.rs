@@ -53,6 +53,79 @@ fn snapshots_on_a_changing_mesh_are_read_back_by_the_rules_of_the_format() {
 }
 
 #[test]
+fn what_is_cut_off_leaves_nothing_behind() {
+    let directory = tempfile::tempdir().unwrap();
+    let (coarse, fine) = (squares(20, 30), squares(50, 40));
+    let paths = ["straight", "cut"].map(|name| directory.path().join(name));
+    for (path, detour) in paths.iter().zip([false, true]) {
+        let mut writer = SeriesWriter::create(path, &FIELDS, 1, &[]).unwrap();
+        append(&mut writer, &coarse, 3).unwrap();
+        if detour {
+            append(&mut writer, &fine, 4).unwrap();
+            append(&mut writer, &coarse, 5).unwrap();
+            drop(writer);
+            writer = SeriesWriter::open(path).unwrap();
+            writer.truncate(1).unwrap();
+            writer = writer.with_mesh(Some(3));
+        }
+        // On the mesh of the first snapshot, which is not stored again.
+        append(&mut writer, &coarse, 3).unwrap();
+        assert!(writer.truncate(3).is_err(), "there are only two");
+    }
+    let [straight, cut] = paths.map(|path| {
+        let root = File::open(path).unwrap().group("VTKHDF").unwrap();
+        let shape = |name: &str| (name.to_owned(), root.dataset(name).unwrap().shape());
+        let names = [
+            "NumberOfPoints",
+            "NumberOfCells",
+            "NumberOfConnectivityIds",
+            "Points",
+            "Connectivity",
+            "Offsets",
+        ];
+        let of_steps =
+            ["Types", "CellData/velocity", "CellData/level", "Steps/Values", "Steps/CellDataOffsets/level"];
+        names.into_iter().chain(of_steps).map(shape).collect::<Vec<_>>()
+    });
+    assert_eq!(straight, cut);
+}
+
+#[test]
+fn a_long_file_spoilt_by_a_kill_is_as_it_was_at_the_last_checkpoint() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("fluid.vtkhdf");
+    let beside = |suffix: &str| directory.path().join(format!("fluid.vtkhdf{suffix}"));
+    let mesh = squares(20, 30);
+    let mut writer = SeriesWriter::create(&path, &FIELDS, 1, &[]).unwrap().with_copy_limit(0);
+    append(&mut writer, &mesh, 0).unwrap();
+    append(&mut writer, &mesh, 0).unwrap();
+    assert!(!beside(".before").exists(), "nobody counts on it yet");
+    writer.count_on_it();
+    append(&mut writer, &mesh, 0).unwrap();
+    append(&mut writer, &mesh, 0).unwrap();
+    assert!(beside(".before").exists() && !beside(".changing").exists());
+    drop(writer);
+
+    // Killed in the middle of a change.
+    let length = std::fs::metadata(&path).unwrap().len();
+    std::fs::OpenOptions::new().write(true).open(&path).unwrap().set_len(length / 2).unwrap();
+    std::fs::write(beside(".changing"), b"").unwrap();
+    let mut writer = SeriesWriter::open(&path).unwrap();
+    assert_eq!(writer.steps(), 2, "as many as the checkpoint counts on");
+    append(&mut writer, &mesh, 1).unwrap();
+    let root = File::open(&path).unwrap().group("VTKHDF").unwrap();
+    (0..3).for_each(|step| check_step(&root, step, &mesh));
+    assert!(!beside(".changing").exists());
+    writer.finish().unwrap();
+    assert!(!beside(".before").exists());
+
+    // Without a version of before there is nothing to go on from, and that is said.
+    std::fs::write(beside(".changing"), b"").unwrap();
+    let error = SeriesWriter::open(&path).expect_err("half changed");
+    assert!(error.to_string().contains("whole version"), "{error}");
+}
+
+#[test]
 fn a_file_opened_again_goes_on_where_it_or_an_earlier_snapshot_ends() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("solid.vtkhdf");

@@ -12,6 +12,8 @@ use iceoryx2::prelude::{
     set_log_level_from_env_or,
 };
 
+use rustix::fs::{Access, access, statvfs};
+
 use crate::error::CouplerError;
 
 /// Ports can move to the thread that uses them, so the thread-safe flavour.
@@ -57,6 +59,20 @@ impl Domain {
         config.global.set_root_path(&root);
         Ok(config)
     }
+}
+
+/// Where shared memory lies.
+const SHARED_MEMORY: &str = "/dev/shm";
+
+/// Whether shared memory can be written to and has room for so many bytes. To be asked before it is taken: memory that turns
+/// out not to be there kills the process that touches it.
+pub(crate) fn require_room(needed: u64) -> Result<(), CouplerError> {
+    let not_writable = |cause: rustix::io::Errno| CouplerError::NotWritable { cause: cause.to_string() };
+    access(SHARED_MEMORY, Access::WRITE_OK | Access::EXEC_OK).map_err(not_writable)?;
+    let room = statvfs(SHARED_MEMORY).map_err(not_writable)?;
+    let [free, total] = [room.f_bavail, room.f_blocks].map(|blocks| blocks.saturating_mul(room.f_frsize));
+    // A file system that does not count its blocks has no bound.
+    if total > 0 && free < needed { Err(CouplerError::NoRoom { needed, free, total }) } else { Ok(()) }
 }
 
 /// Held by every participant for as long as it may have shared objects; the system lets go of it if it is killed.

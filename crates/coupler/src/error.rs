@@ -34,6 +34,30 @@ pub enum CouplerError {
         /// What iceoryx2 said.
         cause: String,
     },
+    /// Shared memory cannot be used at all.
+    #[error(
+        "shared memory cannot be written to: /dev/shm: {cause}; mount it so that you may write there, or run both sides in \
+         one process (--in-process)"
+    )]
+    NotWritable {
+        /// What the system says.
+        cause: String,
+    },
+    /// Shared memory is full, or too small.
+    #[error(
+        "shared memory is too small: /dev/shm has {} KiB free of {} KiB, about {} KiB are needed; enlarge it \
+         (mount -o remount,size=1G /dev/shm; in a container --shm-size=1g), remove what others have left in it, or run \
+         both sides in one process (--in-process)",
+        free / 1024, total / 1024, needed / 1024
+    )]
+    NoRoom {
+        /// Bytes that are needed.
+        needed: u64,
+        /// Bytes that are free.
+        free: u64,
+        /// Bytes there are.
+        total: u64,
+    },
     /// Somebody else already plays this part in this run.
     #[error("run {run_id:?} already has a {name} (process {pid}); end it, or choose another run id")]
     NameTaken {

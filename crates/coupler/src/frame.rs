@@ -3,6 +3,7 @@
 use std::fmt;
 
 use iceoryx2::prelude::ZeroCopySend;
+use serde::{Deserialize, Serialize};
 
 use crate::error::CouplerError;
 
@@ -93,7 +94,7 @@ impl fmt::Display for Fault {
 ///
 /// The caller sets what the frame is about; the link stamps `version`, `case_hash`, `pid` and `sequence`.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, ZeroCopySend)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, ZeroCopySend, Serialize, Deserialize)]
 #[type_name("cav_frame_header")]
 pub struct FrameHeader {
     /// [`FRAME_VERSION`] of the sender.
@@ -104,7 +105,8 @@ pub struct FrameHeader {
     pub case_hash: [u8; 32],
     /// The sender's process.
     pub pid: u32,
-    /// Any of [`STOP_INTERRUPT`](Self::STOP_INTERRUPT), [`STOP_TERMINATE`](Self::STOP_TERMINATE), [`LAST`](Self::LAST).
+    /// Any of [`STOP_INTERRUPT`](Self::STOP_INTERRUPT), [`STOP_TERMINATE`](Self::STOP_TERMINATE), [`LAST`](Self::LAST),
+    /// [`SNAPSHOT`](Self::SNAPSHOT), [`CHECKPOINT`](Self::CHECKPOINT).
     pub flags: u32,
     /// Counts the sender's frames, from 1.
     pub sequence: u64,
@@ -145,6 +147,8 @@ impl FrameHeader {
     pub const SETTLED: u32 = 32;
     /// The sender makes its steps within the receiver's, whatever its `dt_max` says.
     pub const FOLLOWS: u32 = 64;
+    /// The sender has kept a checkpoint of its state before the step `step`; the receiver does likewise, before anything else.
+    pub const CHECKPOINT: u32 = 128;
     /// Set by the link: longer than all before, so its memory is new and the sender wants to know that it was read.
     pub(crate) const GROWN: u32 = 1 << 31;
 

@@ -3,8 +3,11 @@
 use std::fmt;
 use std::time::{Duration, SystemTime};
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::CouplerError;
 use crate::frame::{Expected, Fault, Frame, FrameHeader, FrameKind};
+use crate::latency::Latencies;
 
 /// The two parts of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -40,7 +43,7 @@ impl fmt::Display for Participant {
 }
 
 /// What a link has done so far. Greetings and goodbyes count, too.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct LinkCounters {
     /// Frames sent.
     pub sent: u64,
@@ -53,6 +56,36 @@ pub struct LinkCounters {
     /// What the exchange itself cost: from the moment when a frame was complete and its reader asked for it, to
     /// the moment when the reader had it.
     pub exchanging: Duration,
+    /// The same frame by frame.
+    pub latencies: Latencies,
+}
+
+impl LinkCounters {
+    /// What was done here and in `other`.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            sent: self.sent + other.sent,
+            received: self.received + other.received,
+            bytes: self.bytes + other.bytes,
+            waited: self.waited + other.waited,
+            exchanging: self.exchanging + other.exchanging,
+            latencies: self.latencies.zip(other.latencies, |a, b| a + b),
+        }
+    }
+
+    /// What was done since these counters stood at `earlier`.
+    #[must_use]
+    pub fn since(self, earlier: Self) -> Self {
+        Self {
+            sent: self.sent - earlier.sent,
+            received: self.received - earlier.received,
+            bytes: self.bytes - earlier.bytes,
+            waited: self.waited.saturating_sub(earlier.waited),
+            exchanging: self.exchanging.saturating_sub(earlier.exchanging),
+            latencies: self.latencies.zip(earlier.latencies, u64::saturating_sub),
+        }
+    }
 }
 
 /// One end of the way between two participants.
@@ -170,7 +203,9 @@ impl Conversation {
         self.counters.received += 1;
         let now = now_ns();
         let both_there = self.asking_since.take().unwrap_or(now).max(frame.header.ready_ns);
-        self.counters.exchanging += Duration::from_nanos(now.saturating_sub(both_there));
+        let latency = Duration::from_nanos(now.saturating_sub(both_there));
+        self.counters.exchanging += latency;
+        self.counters.latencies.add(latency);
         self.counters.bytes += frame_bytes(frame.payload.len());
         match kind {
             FrameKind::Fault => Err(CouplerError::PeerFailed {

@@ -161,6 +161,29 @@ impl Meeting {
         });
     }
 
+    /// What of it counts beyond the end of a long step: the number of [`Meeting::floored`]. The rest is made anew in the next.
+    pub fn saved(&self) -> u64 {
+        // Field by field, so that a new one cannot be forgotten here.
+        let Self {
+            refinement: _,
+            edges: _,
+            generation: _,
+            trace: _,
+            others: _,
+            own: _,
+            begin: _,
+            stars: _,
+            means: _,
+            floored,
+        } = self;
+        *floored
+    }
+
+    /// As it was when this was [`Meeting::saved`].
+    pub fn restored(floored: u64) -> Self {
+        Self { floored, ..Self::default() }
+    }
+
     /// Star states that had to be lifted to the lowest admissible pressure so far.
     pub fn floored(&self) -> u64 {
         self.floored

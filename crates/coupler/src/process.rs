@@ -7,12 +7,23 @@ use std::time::{Duration, Instant};
 use iceoryx2::config::Config;
 use iceoryx2::port::SendError;
 
-use crate::domain::{Domain, Presence, remove_dead};
+use crate::domain::{Domain, Presence, remove_dead, require_room};
 use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader, FrameKind};
 use crate::link::{Conversation, Link, LinkCounters, Participant, now_ns};
 use crate::ports::{Ports, failed, pid_of};
 use crate::watch::{LINGER, PeerWatch, SLICE};
+
+/// What a participant's services take besides its frames, bytes.
+const ROOM_TO_BEGIN: u64 = 1 << 20;
+
+/// What frames of `len` numbers take at most, bytes: a few of them are there at once, and memory grows by doubling.
+fn room_for(len: usize) -> u64 {
+    8 * size_of::<f64>() as u64 * len as u64
+}
+
+/// Told what the user should know while a participant waits.
+pub type Notice = Box<dyn FnMut(&str) + Send>;
 
 /// Asked about ten times a second while a participant waits; its error ends the wait.
 pub type Interrupt = Box<dyn FnMut() -> Result<(), CouplerError> + Send>;
@@ -33,6 +44,8 @@ pub struct Endpoint {
     pub patience: Duration,
     /// Ends waits early, e.g. when the launcher is gone.
     pub interrupt: Option<Interrupt>,
+    /// Told when the peer is silent for long, and when it goes on.
+    pub notice: Option<Notice>,
     /// Where shared objects live; the default unless runs must not see each other at all.
     pub domain: Domain,
 }
@@ -48,6 +61,7 @@ impl Endpoint {
             connect_timeout: Duration::from_secs(10),
             patience: Duration::from_secs(600),
             interrupt: None,
+            notice: None,
             domain: Domain::default(),
         }
     }
@@ -99,6 +113,7 @@ impl ProcessLink {
             connect_timeout,
             patience,
             mut interrupt,
+            notice,
             domain,
         } = endpoint;
         check_run_id(&run_id)?;
@@ -108,7 +123,8 @@ impl ProcessLink {
         if removed > 0 {
             tracing::info!(removed, "cleared away participants that were killed");
         }
-        let watch = Arc::new(PeerWatch::new(config.clone(), patience));
+        require_room(ROOM_TO_BEGIN + room_for(initial_len))?;
+        let watch = Arc::new(PeerWatch::new(config.clone(), patience, notice));
         let ports = Ports::open(&config, &run_id, name, initial_len, &watch)?;
 
         let start = Instant::now();
@@ -130,6 +146,7 @@ impl ProcessLink {
         };
         watch.set_peer(peer);
         let peer_pid = pid_of(peer);
+        watch.silence().set_peer(name.peer(), peer_pid);
         tracing::debug!(peer = %name.peer(), peer_pid, run_id, waited = ?start.elapsed(), "connected");
 
         let mut talk = Conversation::new(name.peer(), case_hash);
@@ -181,12 +198,15 @@ impl ProcessLink {
     }
 
     fn block(&mut self) -> Result<(), CouplerError> {
-        let start = Instant::now();
+        self.watch.silence().begin();
         loop {
             if self.has_frame()? {
+                self.watch.silence().end();
                 return Ok(());
             }
-            if !self.sleep() {
+            let is_quiet = self.sleep();
+            let waited = self.watch.silence().grows();
+            if !is_quiet {
                 continue;
             }
             ask(&mut self.interrupt)?;
@@ -194,12 +214,12 @@ impl ProcessLink {
                 // Its last frame may have come since the look above.
                 return if self.has_frame()? { Ok(()) } else { Err(self.lost()) };
             }
-            if start.elapsed() >= self.patience {
+            if waited >= self.patience {
                 return Err(CouplerError::PeerSilent {
                     peer: self.talk.peer,
                     pid: self.peer_pid,
                     step: self.talk.step,
-                    waited: start.elapsed(),
+                    waited,
                 });
             }
         }
@@ -242,14 +262,18 @@ impl Link for ProcessLink {
         let (mut header, len) = self.talk.stamp(header)?;
         let grown = self.longest.is_none_or(|longest| len > longest);
         header.flags |= if grown { FrameHeader::GROWN } else { 0 };
+        if grown {
+            require_room(room_for(len))?;
+        }
         let mut sample =
             self.ports.publisher.loan_slice(len).map_err(failed("taking shared memory for a frame"))?;
         fill(sample.payload_mut());
         header.ready_ns = now_ns();
         *sample.user_header_mut() = header;
         let start = Instant::now();
+        self.watch.silence().begin();
         match sample.send() {
-            Ok(1) => {}
+            Ok(1) => self.watch.silence().end(),
             // The peer's receiving end is gone.
             Ok(_) if self.watch.is_peer_alive() => {
                 self.parted = true;

@@ -1,7 +1,7 @@
 //! Whether the peer's process is alive.
 
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
 
 use iceoryx2::config::Config;
@@ -10,6 +10,8 @@ use iceoryx2::port::{BackpressureAction, BackpressureInfo};
 use iceoryx2::prelude::{Node, NodeState};
 
 use crate::domain::Ipc;
+use crate::process::Notice;
+use crate::silence::Silence;
 
 /// How often a blocked participant looks after its peer. One look takes well under a millisecond.
 pub(crate) const SLICE: Duration = Duration::from_millis(100);
@@ -24,17 +26,25 @@ pub(crate) struct PeerWatch {
     peer: OnceLock<UniqueNodeId>,
     leaving: AtomicBool,
     looked_ms: AtomicU64,
+    silence: Mutex<Silence>,
 }
 
 impl PeerWatch {
-    pub(crate) fn new(config: Config, patience: Duration) -> Self {
+    pub(crate) fn new(config: Config, patience: Duration, notice: Option<Notice>) -> Self {
         Self {
             config,
             patience,
             peer: OnceLock::new(),
             leaving: AtomicBool::new(false),
             looked_ms: AtomicU64::new(0),
+            silence: Mutex::new(Silence::new(notice, patience)),
         }
+    }
+
+    /// The wait for the peer.
+    pub(crate) fn silence(&self) -> MutexGuard<'_, Silence> {
+        // A notice that panicked leaves plain numbers behind.
+        self.silence.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// From now on this is the peer.
@@ -56,15 +66,12 @@ impl PeerWatch {
     pub(crate) fn while_blocked(&self, info: &BackpressureInfo) -> BackpressureAction {
         let limit =
             if self.leaving.load(Ordering::Relaxed) { self.patience.min(LINGER) } else { self.patience };
-        if info.elapsed_time >= limit {
-            return BackpressureAction::DiscardDataAndFail;
-        }
         let now = info.elapsed_time.as_millis() as u64;
         let last = self.looked_ms.load(Ordering::Relaxed);
         // `last` may stem from an earlier, longer send.
         if now < last || now - last >= SLICE.as_millis() as u64 {
             self.looked_ms.store(now, Ordering::Relaxed);
-            if !self.is_peer_alive() {
+            if self.silence().grows() >= limit || !self.is_peer_alive() {
                 return BackpressureAction::DiscardDataAndFail;
             }
         }

@@ -1,5 +1,7 @@
 //! The paper's damping factors for the weak scheme.
 
+use serde::{Deserialize, Serialize};
+
 /// The largest Courant number of the paper's scheme, ν₀ in (38).
 const LARGEST_COURANT: f64 = 0.5;
 /// The paper's empirical exponents q₁ and q_∞ in (42).
@@ -10,7 +12,7 @@ const EXPONENT_AT_INFINITY: f64 = 0.5;
 ///
 /// Paper eqs. (40)–(43): ν = Δt λ_max/h, ratio = ν₀/ν, κ = ratio^(q₁ + (2/π) arctan(ratio) (q_∞ − q₁)),
 /// κ̂ = (κⁿ + κⁿ⁻¹)/2.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct KappaFactor {
     previous: Option<f64>,
 }

@@ -1,6 +1,7 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
 use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
+use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
@@ -88,7 +89,7 @@ impl<const N: usize> BlockScratch<N> {
 }
 
 /// What one block tells of its step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct BlockReport<const N: usize> {
     pub extremes: Extremes,
     /// Whether there is gas in the block, or a trace of its mass.
@@ -106,6 +107,7 @@ pub(crate) struct BlockReport<const N: usize> {
     /// What came in through each side of the domain: mass, axial momentum, energy (per radian).
     pub inflow: [[f64; 3]; 4],
     /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
+    #[serde(with = "mesh::array")]
     pub wall_pressure: [f64; N],
 }
 

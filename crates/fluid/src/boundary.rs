@@ -1,6 +1,7 @@
 //! What bounds the fluid: ghost cells before the slopes, outer states and wall fluxes after them.
 
 use mesh::{Mesh, Padded, Side, SideStates};
+use serde::{Deserialize, Serialize};
 
 use crate::hllc::Face;
 use crate::rows::{FaceRows, Reconstruction};
@@ -40,7 +41,7 @@ pub(crate) struct Boundaries {
 }
 
 /// The state of the wall during a step: means over it of p*, v* and p*v*.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WallState {
     /// Mean pressure, Pa.
     pub pressure: f64,

@@ -1,6 +1,7 @@
 //! The gas as a whole, and bubbles told apart along the axis.
 
 use mesh::Geometry;
+use serde::{Deserialize, Serialize};
 
 use crate::state::conserved::{GAS, PHI};
 use crate::{Bubble, FluidSolver, InitialCondition, Phase, Shape};
@@ -22,7 +23,7 @@ const OF_A_BUBBLE: f64 = 0.5;
 /// a bubble that its jet has pierced or torn stay one bubble.
 ///
 /// Valid for: bubbles beside each other along z. Tests: two and three bubbles that move, merge and vanish.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BubbleCuts {
     cuts: Vec<f64>,
 }

@@ -1,13 +1,14 @@
 //! Numbers that are read off the fluid's state.
 
 use mesh::{Field, GHOSTS, Padded, limited_differences};
+use serde::{Deserialize, Serialize};
 
 use crate::block::{BlockScratch, StepContext, reconstruct};
 use crate::state::conserved::{COUNT, ENERGY, MOMENTUM_Z, PHI, RHO};
 use crate::{FluidSolver, Primitive};
 
 /// The gas as a whole, or of one of several bubbles.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bubble {
     /// ∫ φ [φ > 1e-6] dV, m³ (planar: m² per metre of depth).
     pub volume: f64,

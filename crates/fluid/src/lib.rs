@@ -29,6 +29,7 @@ mod predictor;
 mod rayleigh;
 mod reflux;
 mod rows;
+mod saved;
 mod solver;
 mod state;
 mod steps;
@@ -45,5 +46,6 @@ pub use initial::{InitialCondition, InitialPressure, Phase, PhaseState, Pulse, P
 pub use mixture::Mixture;
 pub use options::{Boundary, Model, RiemannSolver, Sharpening};
 pub use rayleigh::{RayleighError, RayleighField};
+pub use saved::FluidState;
 pub use solver::{BoundaryLedger, Fixups, FluidSetup, FluidSolver};
 pub use state::Primitive;

@@ -5,6 +5,8 @@ use mesh::{
     maximum,
 };
 
+use serde::{Deserialize, Serialize};
+
 use crate::analysis::{Analysis, Scales};
 use crate::block::{BlockReport, BlockScratch, Marks};
 use crate::boundary::{Boundaries, PressureHistory, WallState};
@@ -57,7 +59,7 @@ pub(crate) type InitialState<'a> = dyn Fn([f64; 2], [f64; 2]) -> Contents + Sync
 pub(crate) type AsksForFiner<'a> = dyn Fn([f64; 2], [f64; 2], [f64; 2]) -> bool + Sync + 'a;
 
 /// Corrections that were made where the scheme left the admissible states.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Fixups {
     /// Cell-steps at first order, because a reconstructed face state was not admissible.
     pub first_order: u64,
@@ -76,7 +78,7 @@ pub struct Fixups {
 /// What crossed the sides of the domain since the start, inwards, in the order of [`Side::ALL`].
 ///
 /// Per radian in axial symmetry, per metre of depth in planar geometry.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryLedger {
     /// Mass, kg.
     pub mass: [f64; 4],

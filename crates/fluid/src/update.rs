@@ -2,11 +2,13 @@
 
 use mesh::maximum;
 
+use serde::{Deserialize, Serialize};
+
 use crate::Mixture;
 use crate::rows::{FaceRows, Rows};
 
 /// Reductions over a block's new cells.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Extremes {
     /// Largest |v_z| + c, infinite if a cell is not admissible.
     pub speed_z: f64,

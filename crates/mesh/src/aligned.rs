@@ -2,6 +2,8 @@
 
 use std::ops::{Deref, DerefMut, Range};
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 /// Numbers in a cache line.
 const LINE: usize = 8;
 
@@ -64,6 +66,21 @@ impl Clone for AlignedRow {
         let mut copy = Self::zeros(self.len, self.first);
         copy.copy_from_slice(self);
         copy
+    }
+}
+
+impl Serialize for AlignedRow {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        (self.first, &self[..]).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for AlignedRow {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let (first, numbers) = <(usize, Vec<f64>)>::deserialize(deserializer)?;
+        let mut row = Self::zeros(numbers.len(), first % LINE);
+        row.copy_from_slice(&numbers);
+        Ok(row)
     }
 }
 

@@ -38,6 +38,23 @@ pub enum MeshError {
         /// The nearest admissible number of finest cells.
         nearest: usize,
     },
+    /// Leaves that do not tile the domain.
+    #[error("{blocks} blocks do not tile the domain")]
+    NoTiling {
+        /// How many they are.
+        blocks: usize,
+    },
+}
+
+/// A saved state that belongs to another setup.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{0}")]
+pub struct Misfit(pub String);
+
+impl From<MeshError> for Misfit {
+    fn from(error: MeshError) -> Self {
+        Self(error.to_string())
+    }
 }
 
 /// Blocks of N × N cells over a domain.
@@ -105,6 +122,16 @@ impl<const N: usize> Mesh<N> {
             radial: Arc::clone(&self.radial),
             generation: self.generation + 1,
         }
+    }
+
+    /// The same domain under the leaves that another mesh of it had, and with its generation.
+    ///
+    /// - errors: [`MeshError::NoTiling`]: they are no such leaves.
+    pub fn restored(&self, leaves: Vec<BlockId>, generation: u64) -> Result<Self, MeshError> {
+        let blocks = leaves.len();
+        let tree = self.tree.with_foreign_leaves(leaves).ok_or(MeshError::NoTiling { blocks })?;
+        let Self { domain, coarsest, tree: _, radial, generation: _ } = self;
+        Ok(Self { domain: *domain, coarsest: *coarsest, tree, radial: Arc::clone(radial), generation })
     }
 
     /// A number that grows whenever the leaves change.

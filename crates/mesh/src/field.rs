@@ -1,9 +1,11 @@
 //! Cell averages of several components on all blocks.
 
+use serde::{Deserialize, Serialize};
+
 use crate::AlignedRow;
 
 /// Cell averages, one allocation, laid out `[slot][component][j][i]` without ghosts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Field {
     components: usize,
     cells: usize,
@@ -19,6 +21,13 @@ impl Field {
     /// Makes room for so many blocks. What they hold then is not said: memory at hand is used again as it is.
     pub fn resize(&mut self, blocks: usize) {
         self.data.resize(blocks * self.block_len());
+    }
+
+    /// Whether it holds so many blocks of `cells` cells with `components` numbers each.
+    pub fn has_shape(&self, blocks: usize, cells: usize, components: usize) -> bool {
+        self.components == components
+            && self.cells == cells
+            && Some(self.data.len()) == cells.checked_mul(components).and_then(|n| n.checked_mul(blocks))
     }
 
     /// Numbers per cell.

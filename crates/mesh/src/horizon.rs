@@ -1,10 +1,12 @@
 //! When to adapt next.
 
+use serde::{Deserialize, Serialize};
+
 /// How long the marks of an adaptation hold.
 ///
 /// Blocks are kept fine as far as waves travel until the next adaptation; if steps grow, or waves would get
 /// farther than the next block, it comes sooner than its number of steps says.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Horizon {
     steps: u32,
     until: f64,

@@ -18,6 +18,7 @@
 mod adaptation;
 mod ahead;
 mod aligned;
+pub mod array;
 mod curvature;
 mod details;
 mod domain;
@@ -45,7 +46,7 @@ mod side_states;
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use aligned::{AlignedRow, whole_lines};
 pub use curvature::curvature_share;
-pub use domain::{Domain, Mesh, MeshError};
+pub use domain::{Domain, Mesh, MeshError, Misfit};
 pub use field::Field;
 pub use geometry::{Geometry, Side};
 pub use horizon::Horizon;

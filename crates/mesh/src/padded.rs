@@ -125,7 +125,7 @@ impl<const N: usize> Padded<N> {
     }
 
     /// Fills the ghosts beyond a side of one component by continuing its inner differences: by the parabola through three
-    /// cells where the data are smooth, see [`continued`].
+    /// cells where the data are smooth, see `continued`.
     pub fn extrapolate(row: &mut [f64], side: Side) {
         let n = N as isize;
         for along in ghost_range(N) {

@@ -1,9 +1,10 @@
 //! The quadtree of blocks: leaves in Morton order and their neighbours.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// A block's place: its refinement level and its position in units of blocks on that level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct BlockId {
     /// Refinement level; level ℓ has 2^ℓ times the coarsest grid's cells in each direction.
     pub level: u8,
@@ -115,6 +116,39 @@ impl Quadtree {
         tree
     }
 
+    /// [`Quadtree::with_leaves`] for leaves that come from elsewhere; `None` if they are no such leaves.
+    pub(crate) fn with_foreign_leaves(&self, leaves: Vec<BlockId>) -> Option<Self> {
+        let within = |id: &BlockId| {
+            (self.root_level..=self.finest).contains(&id.level) && {
+                let [i, j] = self.blocks_on(id.level);
+                id.i < i && id.j < j
+            }
+        };
+        if !leaves.iter().all(within) {
+            return None;
+        }
+        // A block's finest cells are one stretch of the order: leaves that do not overlap and have the area of the whole tile
+        // it.
+        let area = |level: u8| 1_u64 << (2 * u32::from(self.finest - level));
+        let keys: Vec<u64> = leaves.iter().map(|id| morton(id, self.finest)).collect();
+        let ends = || keys.iter().zip(&leaves).map(|(key, id)| key + area(id.level));
+        let are_apart = ends().zip(keys.iter().skip(1)).all(|(end, next)| end <= *next);
+        let whole = area(self.root_level) * self.roots.map(u64::from).iter().product::<u64>();
+        if !are_apart || leaves.iter().map(|id| area(id.level)).sum::<u64>() != whole {
+            return None;
+        }
+        let tree = Self { leaves, keys, neighbours: Vec::new(), ..self.shell() };
+        let is_graded = |id: &BlockId| {
+            let coarsest = Offset::ALL.iter().filter_map(|offset| tree.place(*id, *offset));
+            let slots = coarsest.filter_map(|there| tree.covering(there));
+            slots.into_iter().all(|slot| tree.leaves[slot].level + 1 >= id.level)
+        };
+        if !tree.leaves.iter().all(is_graded) {
+            return None;
+        }
+        Some(self.with_leaves(tree.leaves))
+    }
+
     /// The forest without its leaves.
     fn shell(&self) -> Self {
         Self { leaves: Vec::new(), keys: Vec::new(), neighbours: Vec::new(), ..*self }
@@ -166,7 +200,8 @@ impl Quadtree {
         self.keys.partition_point(|key| *key <= morton(&id, self.finest)).checked_sub(1)
     }
 
-    fn find(&self, id: BlockId, offset: Offset) -> Neighbour {
+    /// The block of the same level beyond a side or corner; `None` outside the domain.
+    fn place(&self, id: BlockId, offset: Offset) -> Option<BlockId> {
         let extent = self.blocks_on(id.level);
         let place = |at: u32, step: i8, extent: u32, periodic: bool| -> Option<u32> {
             let moved = i64::from(at) + i64::from(step);
@@ -182,8 +217,11 @@ impl Quadtree {
             extent[1],
             self.periodic[1],
         ));
-        let Some((i, j)) = there else { return Neighbour::Boundary };
-        let there = BlockId { level: id.level, i, j };
+        there.map(|(i, j)| BlockId { level: id.level, i, j })
+    }
+
+    fn find(&self, id: BlockId, offset: Offset) -> Neighbour {
+        let Some(there) = self.place(id, offset) else { return Neighbour::Boundary };
         let slot = self.covering(there).expect("the place is within the domain");
         match self.leaves[slot].level {
             level if level == id.level => Neighbour::Same(slot),
@@ -197,7 +235,7 @@ impl Quadtree {
                 };
                 Neighbour::Finer([0, 1].map(|child| {
                     let (a, b) = (facing(offset.i, child), facing(offset.j, child));
-                    let child = BlockId { level: id.level + 1, i: 2 * i + a, j: 2 * j + b };
+                    let child = BlockId { level: id.level + 1, i: 2 * there.i + a, j: 2 * there.j + b };
                     self.slot(child).expect("neighbours are one level apart at most")
                 }))
             }
@@ -248,6 +286,36 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn leaves_from_elsewhere_are_taken_only_if_they_tile_the_domain_in_order_and_are_graded() {
+        let tree = Quadtree::uniform(1, [3, 2], 2, 4, [true, false]);
+        let refined = |tree: &Quadtree, slot: usize| {
+            let id = tree.leaves()[slot];
+            let mut leaves = tree.leaves().to_vec();
+            let child = |k: u32| BlockId { level: id.level + 1, i: 2 * id.i + k % 2, j: 2 * id.j + k / 2 };
+            leaves.splice(slot..=slot, (0..4).map(child));
+            leaves
+        };
+        let good = tree.with_foreign_leaves(refined(&tree, 5)).expect("one level finer");
+        assert_eq!(good.neighbours, tree.with_leaves(refined(&tree, 5)).neighbours);
+        let two_finer = (0..4).find_map(|k| good.with_foreign_leaves(refined(&good, 5 + k)));
+        assert!(two_finer.is_none(), "its coarse neighbours are two levels coarser");
+
+        let change = |change: &dyn Fn(&mut Vec<BlockId>)| {
+            let mut leaves = tree.leaves().to_vec();
+            change(&mut leaves);
+            tree.with_foreign_leaves(leaves).is_some()
+        };
+        assert!(change(&|_| {}));
+        assert!(!change(&|leaves| leaves.swap(3, 4)), "out of order");
+        assert!(!change(&|leaves| leaves.truncate(5)), "a gap");
+        assert!(!change(&|leaves| leaves[7] = leaves[6]), "twice the same");
+        assert!(!change(&|leaves| leaves[0].level = 9), "a level there is not");
+        assert!(!change(&|leaves| leaves[0].level = 0), "coarser than the roots");
+        assert!(!change(&|leaves| leaves[2].i = u32::MAX), "outside");
+        assert!(!change(&|leaves| leaves.clear()), "none");
     }
 
     #[test]

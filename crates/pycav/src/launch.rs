@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::time::Duration;
 
+use cav::run::checkpoints::DEFAULT_INTERVAL;
 use cav::run::launch::{Options, run};
 use cav::run::stop::Stop;
 use pyo3::prelude::*;
@@ -38,6 +39,9 @@ pub fn run_in_processes(
         force,
         in_process: false,
         threads,
+        checkpoint_every: Some(DEFAULT_INTERVAL),
+        from: None,
+        name: None,
         program,
         quiet: !progress,
         verbosity: 0,

@@ -1,6 +1,7 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
 use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, curvature_share, limited_differences, maximum};
+use serde::{Deserialize, Serialize};
 
 use crate::Boundary;
 use crate::analysis::Analysis;
@@ -66,7 +67,7 @@ impl<const N: usize> BlockScratch<N> {
 }
 
 /// What one block tells of its step.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct BlockReport {
     /// Largest squared von Mises stress, Pa²; infinite if a number is not finite.
     pub mises_squared: f64,

@@ -1,6 +1,7 @@
 //! What bounds the solid: ghost cells before the slopes, outer states and interface tractions after them.
 
 use mesh::{Mesh, Padded, Side, SideStates};
+use serde::{Deserialize, Serialize};
 
 use crate::riemann::{Outward, star_interface};
 use crate::rows::{Elasticity, FaceRows, Reconstruction};
@@ -16,7 +17,7 @@ pub(crate) struct Boundaries {
 }
 
 /// The state of the surface under the fluid during a step: means over it of p*, v* and p*v*.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceState {
     /// Mean pressure of the fluid, Pa.
     pub pressure: f64,

@@ -4,6 +4,8 @@ use mesh::{
     Adaptation, Domain, Field, Horizon, LevelSteps, Limiter, Mesh, Patch, ScratchPool, Side, SideStates,
 };
 
+use serde::{Deserialize, Serialize};
+
 use crate::analysis::Analysis;
 use crate::block::{BlockReport, BlockScratch, StepContext, report_stresses};
 use crate::boundary::{Boundaries, SurfaceState};
@@ -39,7 +41,7 @@ pub struct SolidSetup {
 /// What crossed the sides of the domain since the start, inwards, in the order of [`Side::ALL`].
 ///
 /// Per radian in axial symmetry, per metre of depth in planar geometry.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryLedger {
     /// Axial momentum (the impulse of the tractions), N s.
     pub momentum: [f64; 4],

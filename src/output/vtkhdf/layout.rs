@@ -11,6 +11,8 @@ use super::{End, FieldSpec, QuadMesh, Storage};
 
 /// Cells (or points) per chunk, 64 KiB of a scalar field.
 const CHUNK_ROWS: usize = 8192;
+/// Bytes of the largest chunk, of three components or of the points of the cells.
+pub(super) const LARGEST_CHUNK: usize = 4 * CHUNK_ROWS * size_of::<f64>();
 /// Rows written in one call of the HDF5 library, which serves one thread at a time: so many chunks that are compressed
 /// before another thread has its turn.
 const PIECE_ROWS: usize = 4 * CHUNK_ROWS;

@@ -1,0 +1,8 @@
+//! See `targets::case_file`.
+
+#![no_main]
+
+#[path = "../targets.rs"]
+mod targets;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| targets::case_file(bytes));

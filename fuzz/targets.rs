@@ -1,0 +1,113 @@
+//! What reads bytes that others have made: none of them may panic, hang, or take memory without bounds.
+//!
+//! The same functions are run by cargo-fuzz for hours and by `tests/hostile.rs` for seconds.
+
+#![allow(dead_code, clippy::unwrap_used)]
+
+use std::cell::RefCell;
+use std::fs;
+
+use cav::case::Case;
+use cav::output::checkpoint::{self, Head, VERSION};
+use cav::output::{RunDirectory, summary};
+use cav::run::checkpoints::Checkpoints;
+use cav::run::fluid_side::saved::FluidSideState;
+use cav::run::setup::{fluid_solver, solid_solver};
+use cav::run::solid_side::saved::SolidSideState;
+use coupler::{Expected, Frame, FrameHeader, FrameKind, RegisterRow, TraceRow};
+use fluid::{FluidSolver, FluidState};
+use mesh::BLOCK;
+use sha2::{Digest, Sha256};
+use solid::{SolidSolver, SolidState};
+
+/// A small coupled case.
+pub const SMALL: &str = include_str!("small.toml");
+
+/// A case file: refused with a message, or read; and what is read is read the same from its effective text.
+pub fn case_file(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    match Case::from_toml(text, "hostile", &[]) {
+        Err(errors) => assert!(!errors.to_string().is_empty()),
+        Ok(case) => {
+            let written = case.effective_toml();
+            let again =
+                Case::from_toml(&written, "hostile", &[]).unwrap_or_else(|e| panic!("{e}\n{written}"));
+            assert_eq!(case.hash(), again.hash(), "{written}");
+        }
+    }
+}
+
+/// A frame: a header as it is encoded, then its payload as numbers.
+pub fn interface_frame(bytes: &[u8]) {
+    let Ok((header, rest)) = postcard::take_from_bytes::<FrameHeader>(bytes) else { return };
+    let payload: Vec<f64> = rest.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
+    let frame = Frame { header: &header, payload: &payload };
+    for sequence in [1, header.sequence] {
+        let expected = Expected { case_hash: header.case_hash, sequence, pid: Some(header.pid) };
+        if frame.check(&expected).is_err() {
+            continue;
+        }
+        assert_eq!(header.sequence, sequence, "replayed and reordered frames are refused");
+        assert_eq!(header.len(), Some(payload.len()), "wrong lengths are refused");
+        for kind in [FrameKind::Trace, FrameKind::Register, FrameKind::Yours] {
+            let _ = frame.require(kind);
+        }
+        let count = header.count as usize;
+        if frame.require_shape(TraceRow::COUNT, count).is_ok() {
+            assert_eq!(TraceRow::Impedance.of(&payload, count).len(), count);
+        }
+        if frame.require_shape(RegisterRow::COUNT, count).is_ok() {
+            assert_eq!(RegisterRow::Shear.of(&payload, count).len(), count);
+        }
+    }
+}
+
+thread_local! {
+    /// What hostile states are restored into; made once.
+    static SOLVERS: RefCell<(FluidSolver<BLOCK>, SolidSolver<BLOCK>)> = RefCell::new({
+        let case = Case::from_toml(SMALL, "small", &[]).unwrap();
+        (
+            fluid_solver(&case, case.fluid.as_ref().unwrap()).unwrap(),
+            solid_solver(&case, case.solid.as_ref().unwrap()).unwrap(),
+        )
+    });
+}
+
+/// The bytes as a file; and as the content of one whose checksum is right.
+pub fn checkpoint(bytes: &[u8]) {
+    let _ = checkpoint::decode::<FluidSideState<'static>>(bytes);
+    let head = Head { program: String::new(), case: [0; 32], side: "fluid".to_owned(), step: 1 };
+    let mut file =
+        [&b"cav\0ckpt"[..], &VERSION.to_le_bytes(), &postcard::to_stdvec(&head).unwrap(), bytes].concat();
+    let sum = Sha256::digest(&file);
+    file.extend(sum);
+    let _ = checkpoint::decode::<FluidSideState<'static>>(&file);
+    let _ = checkpoint::decode::<SolidSideState<'static>>(&file);
+    SOLVERS.with_borrow_mut(|(fluid, solid)| {
+        // Bytes after the state do not matter here: prefixes of whole checkpoints are states.
+        if let Ok((state, _)) = postcard::take_from_bytes::<FluidState<'_, BLOCK>>(bytes) {
+            let _ = fluid.restore(state);
+        }
+        if let Ok((state, _)) = postcard::take_from_bytes::<SolidState<'_>>(bytes) {
+            let _ = solid.restore(state);
+        }
+    });
+}
+
+/// A run directory: the bytes in every file that `--resume` reads.
+pub fn run_directory(bytes: &[u8]) {
+    let place = tempfile::tempdir().unwrap();
+    let case = Case::from_toml(SMALL, "small", &[]).unwrap();
+    let directory = RunDirectory::resume(place.path()).unwrap();
+    fs::write(directory.file("summary.json"), bytes).unwrap();
+    let _ = summary::read(&directory.file("summary.json"));
+    let checkpoints = Checkpoints::of(&case, &directory);
+    fs::create_dir(directory.file("checkpoints")).unwrap();
+    for name in ["fluid-000000000007.ckpt", "solid-000000000007.ckpt", "fluid-x.ckpt", "solid-1.ckpt.tmp"] {
+        fs::write(directory.file("checkpoints").join(name), bytes).unwrap();
+    }
+    let name: String =
+        String::from_utf8_lossy(bytes).chars().filter(|c| !"/\0".contains(*c)).take(40).collect();
+    let _ = fs::write(directory.file("checkpoints").join(format!("fluid-{name}")), b"");
+    assert!(!matches!(checkpoints.newest(|_| {}), Ok(Some(_))), "bytes of any kind are no checkpoint");
+}

@@ -1,0 +1,226 @@
+//! The checkpoints of a run: when one is due, where its parts are, which are kept, and which is the one to go on from.
+//!
+//! In a coupled run each side writes its own part, at the same coupled time: the fluid before the step that it is about to
+//! plan, the solid when the fluid's next frame tells it to, before it looks at anything else in it. A checkpoint counts when
+//! all parts are there. The last two are kept.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use coupler::Participant;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::RunError;
+use crate::case::Case;
+use crate::output::checkpoint::{self, CheckpointFault, Head};
+use crate::output::run_directory::CHECKPOINTS;
+use crate::output::safe_file::TEMPORARY_SUFFIX;
+use crate::output::{OutputError, RunDirectory};
+
+/// How often, if nothing else is said.
+pub const DEFAULT_INTERVAL: Duration = Duration::from_secs(300);
+
+/// How many are kept.
+const KEPT: usize = 2;
+
+const SUFFIX: &str = ".ckpt";
+
+/// The checkpoints in a run directory.
+#[derive(Clone, Debug)]
+pub struct Checkpoints {
+    directory: PathBuf,
+    case: [u8; 32],
+    sides: Vec<Participant>,
+}
+
+/// Writes checkpoints at intervals of wall time.
+#[derive(Clone, Debug)]
+pub struct Keeper {
+    checkpoints: Checkpoints,
+    every: Duration,
+    last: Instant,
+}
+
+impl Checkpoints {
+    /// Those of a case in a directory.
+    pub fn of(case: &Case, directory: &RunDirectory) -> Self {
+        let fluid = case.fluid.as_ref().map(|_| Participant::Fluid);
+        let solid = case.solid.as_ref().map(|_| Participant::Solid);
+        Self {
+            directory: directory.file(CHECKPOINTS),
+            case: case.fingerprint(),
+            // In the order in which the parts are written.
+            sides: fluid.into_iter().chain(solid).collect(),
+        }
+    }
+
+    /// Where a part is.
+    pub fn path(&self, side: Participant, step: u64) -> PathBuf {
+        self.directory.join(format!("{side}-{step:012}{SUFFIX}"))
+    }
+
+    /// Writes a side's part; with the last part of it, forgets older checkpoints.
+    pub fn write(&self, side: Participant, step: u64, state: &impl Serialize) -> Result<(), OutputError> {
+        let start = Instant::now();
+        match fs::create_dir(&self.directory) {
+            Err(error) if error.kind() != std::io::ErrorKind::AlreadyExists => {
+                return Err(OutputError::io(&self.directory, "make")(error));
+            }
+            _ => {}
+        }
+        let path = self.path(side, step);
+        let program = format!("{} {}", env!("CARGO_PKG_VERSION"), env!("CAV_GIT_REVISION"));
+        let head = Head { program, case: self.case, side: side.name().to_owned(), step };
+        checkpoint::write(&path, &head, state)?;
+        let bytes = fs::metadata(&path).map_or(0, |file| file.len());
+        tracing::info!(%side, step, bytes, seconds = start.elapsed().as_secs_f64(), "checkpoint");
+        if self.sides.last() == Some(&side) {
+            let whole = self.whole()?;
+            if let Some(oldest) = whole.iter().rev().nth(KEPT - 1) {
+                self.forget(|side, step| side.is_some() && step < *oldest)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A side's part of a checkpoint.
+    pub fn read<T: DeserializeOwned>(&self, side: Participant, step: u64) -> Result<T, RunError> {
+        let path = self.path(side, step);
+        let fault =
+            |fault: CheckpointFault| RunError::Resume { path: path.clone(), reason: fault.to_string() };
+        let (head, state) = checkpoint::read(&path).map_err(fault)?;
+        self.check(&path, side, &head).map(|()| state)
+    }
+
+    /// The newest checkpoint that can be gone on from, by its step; `None` if there has not been any. Newer ones that are
+    /// damaged or have not all parts are removed.
+    ///
+    /// - `warn`: told of each that is damaged.
+    /// - errors: all are damaged, or the case was another one.
+    pub fn newest(&self, mut warn: impl FnMut(String)) -> Result<Option<u64>, RunError> {
+        let mut faults = Vec::new();
+        let mut found = None;
+        for step in self.whole()?.into_iter().rev() {
+            match self.verify(step)? {
+                None => {
+                    found = Some(step);
+                    break;
+                }
+                Some(fault) => faults.push((step, fault)),
+            }
+        }
+        for (step, fault) in &faults {
+            let then = found.map_or_else(String::new, |good| format!("; going on from that of step {good}"));
+            warn(format!("the checkpoint of step {step} cannot be used: {fault}{then}"));
+        }
+        if let (None, Some((_, fault))) = (found, faults.last()) {
+            let reason = format!(
+                "none of its checkpoints can be used ({fault}); run the case anew in another directory"
+            );
+            return Err(RunError::Resume { path: self.directory.clone(), reason });
+        }
+        self.forget(|side, step| side.is_none() || found.is_none_or(|found| step > found))?;
+        Ok(found)
+    }
+
+    /// Whether there is one that has all parts.
+    pub fn are_there(&self) -> bool {
+        self.whole().is_ok_and(|whole| !whole.is_empty())
+    }
+
+    /// What is wrong with a checkpoint, if anything is.
+    ///
+    /// - errors: it is whole, but of another case.
+    fn verify(&self, step: u64) -> Result<Option<String>, RunError> {
+        for side in &self.sides {
+            let path = self.path(*side, step);
+            match checkpoint::verify(&path) {
+                Ok(head) => self.check(&path, *side, &head)?,
+                Err(fault) => return Ok(Some(format!("{}: {fault}", path.display()))),
+            }
+        }
+        Ok(None)
+    }
+
+    fn check(&self, path: &Path, side: Participant, head: &Head) -> Result<(), RunError> {
+        if head.side != side.name() || !path.ends_with(self.path(side, head.step)) {
+            let reason = format!("it is the {}'s of step {}, under another name", head.side, head.step);
+            return Err(RunError::Resume { path: path.to_path_buf(), reason });
+        }
+        if head.case != self.case {
+            let reason = format!(
+                "it is of another case than case.toml beside it, or written by another version ({}); put the case back as \
+                 it was, or run the changed one in another directory",
+                head.program
+            );
+            return Err(RunError::Resume { path: path.to_path_buf(), reason });
+        }
+        Ok(())
+    }
+
+    /// The steps of the checkpoints that have all parts, ascending.
+    fn whole(&self) -> Result<Vec<u64>, OutputError> {
+        let mut parts = BTreeMap::<u64, usize>::new();
+        for (side, step, _) in self.parts()? {
+            *parts.entry(step).or_default() +=
+                usize::from(side.is_some_and(|side| self.sides.contains(&side)));
+        }
+        Ok(parts.into_iter().filter(|(_, count)| *count == self.sides.len()).map(|(step, _)| step).collect())
+    }
+
+    /// Removes some files, by their side, if they are whole, and their step.
+    fn forget(&self, is_old: impl Fn(Option<Participant>, u64) -> bool) -> Result<(), OutputError> {
+        for (side, step, path) in self.parts()? {
+            if is_old(side, step) {
+                fs::remove_file(&path).map_err(OutputError::io(&path, "remove"))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// All files of checkpoints, whole ones with their sides.
+    fn parts(&self) -> Result<Vec<(Option<Participant>, u64, PathBuf)>, OutputError> {
+        let entries = match fs::read_dir(&self.directory) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+            other => other.map_err(OutputError::io(&self.directory, "list"))?,
+        };
+        let mut parts = Vec::new();
+        for entry in entries {
+            let path = entry.map_err(OutputError::io(&self.directory, "list"))?.path();
+            let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let (whole, is_made) = match name.strip_suffix(TEMPORARY_SUFFIX) {
+                Some(whole) => (whole.to_owned(), false),
+                None => (name, true),
+            };
+            for side in [Participant::Fluid, Participant::Solid] {
+                let number = whole.strip_prefix(side.name()).and_then(|rest| rest.strip_prefix('-'));
+                if let Some(step) = number.and_then(|rest| rest.strip_suffix(SUFFIX)?.parse().ok()) {
+                    parts.push((is_made.then_some(side), step, path.clone()));
+                }
+            }
+        }
+        Ok(parts)
+    }
+}
+
+impl Keeper {
+    /// The first is due in `every` from now.
+    pub fn new(checkpoints: Checkpoints, every: Duration) -> Self {
+        Self { checkpoints, every, last: Instant::now() }
+    }
+
+    /// Whether it is time for the next one.
+    pub fn is_due(&self) -> bool {
+        self.last.elapsed() >= self.every
+    }
+
+    /// Writes a side's part.
+    pub fn write(&mut self, side: Participant, step: u64, state: &impl Serialize) -> Result<(), OutputError> {
+        self.checkpoints.write(side, step, state)?;
+        self.last = Instant::now();
+        Ok(())
+    }
+}

@@ -1,0 +1,19 @@
+//! Runs that survive: checkpoints, and what happens to runs.
+
+// Long ones tell what they have measured.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+#[path = "reliability/cases.rs"]
+mod cases;
+#[path = "reliability/compare.rs"]
+mod compare;
+#[path = "reliability/faults.rs"]
+mod faults;
+#[path = "reliability/going_on.rs"]
+mod going_on;
+#[path = "reliability/long.rs"]
+mod long;
+#[path = "reliability/processes.rs"]
+mod processes;
+#[path = "reliability/refused.rs"]
+mod refused;

@@ -1,0 +1,195 @@
+//! A run that is cut off and taken up again, over and over, leaves what an undisturbed one does: every dataset to the last bit,
+//! for every scheme and model, on an adaptive grid, with local and different steps, under other numbers of threads.
+
+use std::path::Path;
+use std::time::Duration;
+
+use cav::case::Case;
+use cav::output::RunDirectory;
+use cav::run::checkpoints::Checkpoints;
+use cav::run::conclusion::conclude;
+use cav::run::drive::{Keeping, in_process};
+use cav::run::fluid_side::Turn;
+use cav::run::session::{Session, Solvers};
+use cav::run::stop::Stop;
+
+use crate::cases::{COUPLED, LOADED, SECOND_BUBBLE, SOLID, fluid_alone};
+use crate::compare::{assert_same, datasets};
+use crate::processes::alone;
+
+/// Never, within a test.
+const NEVER: Duration = Duration::from_secs(1 << 20);
+
+fn pool(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
+}
+
+fn undisturbed(case: &Case, path: &Path) {
+    let directory = RunDirectory::prepare(path, false).unwrap();
+    in_process(case, &directory, Keeping::default(), &Stop::default(), &mut |_| {}).unwrap();
+    conclude(&directory).unwrap();
+}
+
+/// Runs a case in pieces of `piece` steps. After each a checkpoint is kept; then some more steps are made and written, and all
+/// that is in memory is lost.
+///
+/// - returns: how many pieces there were.
+fn in_pieces(case: &Case, path: &Path, piece: usize) -> usize {
+    drop(RunDirectory::prepare(path, false).unwrap());
+    let mut pieces = 0;
+    loop {
+        let directory = RunDirectory::resume(path).unwrap();
+        let from = Checkpoints::of(case, &directory).newest(|warning| panic!("{warning}")).unwrap();
+        assert_eq!(from.is_some(), pieces > 0);
+        let is_over = pool(1 + pieces % 3).install(|| {
+            let mut session = match from {
+                Some(step) => Session::resume(case, &directory, step).unwrap(),
+                None => Session::new(case, Some(&directory), Solvers::default()).unwrap(),
+            };
+            let stop = Stop::default();
+            let mut result = Ok(Turn::Continues);
+            // More steps than to the checkpoint, and not always as many.
+            for step in 0..piece + 1 + pieces % 4 {
+                session.keep_checkpoints(
+                    case,
+                    &directory,
+                    if step == piece - 1 { Duration::ZERO } else { NEVER },
+                );
+                result = session.step(&stop);
+                if !matches!(result, Ok(Turn::Continues)) {
+                    session.end(Some(&directory), result).unwrap();
+                    return true;
+                }
+            }
+            assert!(matches!(result, Ok(Turn::Continues)));
+            if pieces % 2 == 0 {
+                session.flush().unwrap();
+            }
+            false
+        });
+        pieces += 1;
+        if is_over {
+            conclude(&directory).unwrap();
+            assert!(!path.join("checkpoints").exists(), "a finished run keeps no checkpoints");
+            return pieces;
+        }
+    }
+}
+
+fn check(what: &str, text: &str, sets: &[&str], piece: usize) {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let case = Case::from_toml(text, "pieces", &sets).unwrap_or_else(|errors| panic!("{what}: {errors}"));
+    let workshop = tempfile::tempdir().unwrap();
+    let [whole, parts] = ["whole", "parts"].map(|name| workshop.path().join(name));
+    undisturbed(&case, &whole);
+    let pieces = in_pieces(&case, &parts, piece);
+    assert!(pieces > 3, "{what}: only {pieces} pieces");
+    assert!(assert_same(what, &whole, &parts, true) > 20, "{what}");
+}
+
+#[test]
+fn the_riemann_scheme() {
+    let _turn = alone();
+    check("riemann", COUPLED, &[], 31);
+    check("short pieces", COUPLED, &["time.end=1e-5"], 7);
+}
+
+#[test]
+fn the_five_equation_model() {
+    let _turn = alone();
+    check("five-equation", COUPLED, &["fluid.model=five-equation"], 37);
+}
+
+#[test]
+fn the_weak_scheme() {
+    let _turn = alone();
+    for kappa in ["off", "printed", "jump"] {
+        let sets = ["coupling.scheme=weak", &format!("coupling.kappa={kappa}"), "time.end=2e-5"];
+        check(&format!("weak, {kappa}"), COUPLED, &sets, 41);
+    }
+}
+
+#[test]
+fn the_papers_other_schemes() {
+    for scheme in ["explicit", "weak", "strong"] {
+        for first in ["fluid", "solid"] {
+            if scheme == "explicit" && first == "solid" {
+                continue;
+            }
+            let mut sets = vec![format!("coupling.scheme={scheme}"), "time.end=1.2e-5".to_owned()];
+            if scheme != "explicit" {
+                sets.push(format!("coupling.first={first}"));
+            }
+            let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+            check(&format!("{scheme}, {first} first"), COUPLED, &sets, 29);
+        }
+    }
+}
+
+#[test]
+fn steps_that_are_the_same_on_both_sides() {
+    let _turn = alone();
+    check("one step", COUPLED, &["coupling.step_ratio=1", "time.end=2e-5"], 41);
+}
+
+#[test]
+fn local_steps_where_the_fluids_are_the_longer() {
+    let _turn = alone();
+    check("local", COUPLED, &["time.local_steps=true"], 13);
+}
+
+#[test]
+fn local_steps_where_the_solids_are_the_longer() {
+    let _turn = alone();
+    let soft = "solid.material={ density = 1100.0, c1 = 1550.0, c2 = 20.0 }";
+    check("soft", COUPLED, &[soft, "time.local_steps=true", "time.end=2e-5"], 5);
+    check("soft, common", COUPLED, &[soft, "time.end=2e-5"], 9);
+}
+
+#[test]
+fn several_bubbles() {
+    let _turn = alone();
+    check("bubbles", &format!("{COUPLED}{SECOND_BUBBLE}"), &["time.end=2e-5"], 23);
+}
+
+#[test]
+fn a_fluid_alone() {
+    let _turn = alone();
+    check("fluid", &fluid_alone(), &[], 43);
+    check("fluid, local", &fluid_alone(), &["time.local_steps=true", "fluid.model=five-equation"], 17);
+}
+
+#[test]
+fn a_solid_under_a_load() {
+    check("load", LOADED, &[], 7);
+    check("load, local", LOADED, &["time.local_steps=true"], 5);
+}
+
+#[test]
+fn a_solid_alone() {
+    let _turn = alone();
+    check("solid", SOLID, &[], 11);
+    check("solid, local", SOLID, &["time.local_steps=true"], 5);
+}
+
+/// The comparison sees a number that is off by one bit.
+#[test]
+fn one_bit_would_be_seen() {
+    let _turn = alone();
+    let case = Case::from_toml(SOLID, "bit", &[]).unwrap();
+    let workshop = tempfile::tempdir().unwrap();
+    undisturbed(&case, &workshop.path().join("one"));
+    undisturbed(&case, &workshop.path().join("other"));
+    let path = workshop.path().join("other/solid.vtkhdf");
+    let file = hdf5::File::open_rw(&path).unwrap();
+    let dataset = file.dataset("VTKHDF/CellData/stress_zz").unwrap();
+    let mut numbers: Vec<f64> = dataset.read_raw().unwrap();
+    numbers[777] = f64::from_bits(numbers[777].to_bits() ^ 1);
+    dataset.write(&numbers).unwrap();
+    file.close().unwrap();
+    let seen = std::panic::catch_unwind(|| {
+        assert_same("bit", &workshop.path().join("one"), &workshop.path().join("other"), true)
+    });
+    assert!(seen.is_err());
+    assert!(datasets(&path).len() > 10);
+}
