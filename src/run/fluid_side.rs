@@ -5,21 +5,19 @@
 //! for its trace and answers. In the paper's schemes cell values cross instead, see [`super::cell_exchange`].
 
 mod cells;
+mod side;
 
 use std::time::{Duration, Instant};
 
 use coupler::{
-    CommonRefinement, FrameHeader, FrameKind, Link, LinkCounters, Meeting, RegisterRow, StarSolver, TraceRow,
-    WallRegister,
+    CommonRefinement, FrameHeader, FrameKind, Link, Meeting, RegisterRow, StarSolver, TraceRow, WallRegister,
 };
 use fluid::FluidSolver;
 use mesh::{BLOCK, GroupStep, Misfit};
-use serde_json::{Map, Value};
 
 use super::RunError;
 use super::cell_exchange::CellExchange;
 use super::checkpoints::Keeper;
-use super::drive::Side;
 use super::fluid_record::FluidRecord;
 use super::medium::{self, StepRule};
 use super::past::{Done, Past};
@@ -28,8 +26,7 @@ use super::setup::fluid_solver;
 use super::stop::Stop;
 use super::timed::{Clock, Timed};
 use crate::case::{Case, FluidCase, Medium};
-use crate::output::run_directory::FLUID_SUMMARY;
-use crate::output::{ProgressLine, RunDirectory};
+use crate::output::RunDirectory;
 
 pub mod saved;
 
@@ -379,69 +376,5 @@ impl FluidSide {
         }
         self.clock.recording += start.elapsed();
         Ok(())
-    }
-}
-
-impl Side for FluidSide {
-    const NAME: &'static str = "fluid";
-    const SUMMARY: &'static str = FLUID_SUMMARY;
-
-    fn step_alone(&mut self) -> Result<bool, RunError> {
-        let own = self.rule.alone(&self.solver).limit;
-        let Some(plan) = self.plan(own, f64::INFINITY)? else { return Ok(false) };
-        let timed = Timed::new(&mut self.clock);
-        let after = timed.recorded(&mut self.record, plan);
-        medium::step_alone(&mut self.solver, plan.dt, &self.rule, |_, _| (), after)?;
-        self.adapt_if_due();
-        Ok(true)
-    }
-
-    fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
-        if self.complete(link)? { self.begin(link, stop) } else { Ok(Turn::Continues) }
-    }
-
-    fn close(&mut self, failed: bool) -> Result<(), RunError> {
-        if let Some(record) = &mut self.record {
-            record.close(&self.solver, failed)?;
-        }
-        Ok(())
-    }
-
-    fn summary(&self) -> Map<String, Value> {
-        let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
-        if let Some(iterations) = self.cells.as_ref().and_then(CellExchange::summary) {
-            part.insert("coupling_iterations".to_owned(), iterations);
-        }
-        part
-    }
-
-    fn reached(&self) -> (f64, u64) {
-        (self.solver.time(), self.solver.steps())
-    }
-
-    fn clock(&self) -> Clock {
-        self.clock
-    }
-
-    fn past(&self) -> &Past {
-        &self.past
-    }
-
-    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError> {
-        if is_stopped || self.keeper.as_ref().is_some_and(Keeper::is_due) {
-            self.keep(LinkCounters::default())?;
-        }
-        Ok(())
-    }
-
-    fn line(&self) -> ProgressLine {
-        ProgressLine {
-            time: self.solver.time(),
-            step: self.solver.steps(),
-            dt: self.last_dt,
-            limited_by: self.limited_by.to_owned(),
-            cells: self.solver.mesh().cells() as u64 + self.answer.cells,
-            wall: 0.0,
-        }
     }
 }

@@ -16,7 +16,7 @@
 //! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`session`] | a run in one process, step by step |
 //! | [`drive`] | the step loop of a run in one process, of one of two processes |
-//! | [`launch`] | `cav run`: two processes started and watched |
+//! | [`launch`] | `cav run`; in `children`, two processes started and watched |
 //! | [`timed`] | where the wall time goes |
 //! | [`conclusion`] | one history and one summary of both sides' parts |
 //! | [`stop`] | signals, and a launcher that is gone |
@@ -24,6 +24,7 @@
 
 pub mod cell_exchange;
 pub mod checkpoints;
+mod children;
 pub mod collapse;
 pub mod conclusion;
 pub mod drive;
