@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use crate::cases::COUPLED;
@@ -12,17 +13,25 @@ use crate::processes::{
     until_checkpoint, wait_until,
 };
 
-/// Some seconds' work: 128 × 128 cells a side, levels with steps of their own.
-const LONGER: [&str; 8] = [
-    "--set",
-    "fluid.levels=5",
-    "--set",
-    "solid.levels=5",
-    "--set",
-    "time.local_steps=true",
-    "--set",
-    "time.end=2e-5",
-];
+/// Work for this time and more: long enough to be disturbed again and again.
+const WORK: Duration = Duration::from_secs(5);
+
+/// 128 × 128 cells a side, levels with steps of their own, for [`WORK`] on this machine as fast as it is now.
+fn longer() -> Vec<&'static str> {
+    static END: OnceLock<String> = OnceLock::new();
+    const GRID: [&str; 6] =
+        ["--set", "fluid.levels=5", "--set", "solid.levels=5", "--set", "time.local_steps=true"];
+    const END_OF_TRIAL: f64 = 1e-5;
+    let end = END.get_or_init(|| {
+        let workshop = Workshop::with(COUPLED);
+        let trial = format!("time.end={END_OF_TRIAL:e}");
+        let begin = Instant::now();
+        workshop.done("trial", &[&GRID[..], &["--set", &trial, "-q"]].concat());
+        let factor = WORK.as_secs_f64() / begin.elapsed().as_secs_f64();
+        format!("time.end={:e}", END_OF_TRIAL * factor.clamp(2.0, 40.0))
+    });
+    [&GRID[..], &["--set", end]].concat()
+}
 
 /// Far longer than any test waits.
 const ENDLESS: [&str; 4] = ["--set", "time.end=1e-2", "--set", "time.snapshot_every=1e-3"];
@@ -32,7 +41,7 @@ const ENDLESS: [&str; 4] = ["--set", "time.end=1e-2", "--set", "time.snapshot_ev
 fn what_happens_to_runs() {
     let _turn = alone();
     let workshop = Workshop::with(COUPLED);
-    workshop.done("whole", &[&LONGER[..], &["-q"]].concat());
+    workshop.done("whole", &[&longer()[..], &["-q"]].concat());
     in_other_processes_under_other_numbers_of_threads(&workshop);
     killed_at_any_time(&workshop);
     a_stopped_side_is_waited_for(&workshop);
@@ -57,7 +66,7 @@ fn in_other_processes_under_other_numbers_of_threads(workshop: &Workshop) {
         ];
         let way = ways[number % 4];
         let mut run = if number == 0 {
-            workshop.cav("often", &[&LONGER[..], &["-q"], way].concat()).spawn().unwrap()
+            workshop.cav("often", &[&longer()[..], &["-q"], way].concat()).spawn().unwrap()
         } else {
             workshop.resume("often", &[&["-q"], way].concat()).spawn().unwrap()
         };
@@ -82,7 +91,7 @@ fn in_other_processes_under_other_numbers_of_threads(workshop: &Workshop) {
 fn killed_at_any_time(workshop: &Workshop) {
     let out = workshop.file("killed");
     let every = ["-q", "--checkpoint-every", "40ms"];
-    let mut run = workshop.cav("killed", &[&LONGER[..], &every].concat()).spawn().unwrap();
+    let mut run = workshop.cav("killed", &[&longer()[..], &every].concat()).spawn().unwrap();
     for (number, milliseconds) in [420_u64, 310, 500, 270, 390, 350].into_iter().enumerate() {
         std::thread::sleep(Duration::from_millis(milliseconds));
         let victim = ["fluid", "solid", "run"][number % 3];
@@ -122,8 +131,10 @@ pub fn victim_of(run: &mut Child, out: &Path, name: &str) -> Option<u32> {
 fn a_stopped_side_is_waited_for(workshop: &Workshop) {
     for victim in ["fluid", "solid"] {
         let out = workshop.file(victim);
-        let mut run =
-            workshop.cav(victim, &[&LONGER[..], &["--checkpoint-every", "200ms"]].concat()).spawn().unwrap();
+        let mut run = workshop
+            .cav(victim, &[&longer()[..], &["--checkpoint-every", "200ms"]].concat())
+            .spawn()
+            .unwrap();
         until_checkpoint(&out, &mut run);
         let pid = process_of(&out, victim).unwrap();
         signal(pid, "-STOP");
@@ -161,8 +172,10 @@ fn a_side_that_stays_stopped_is_given_up() {
 /// A limit on the length of files stands for a full disk: the system refuses to write more in the same way.
 fn no_room_on_the_disk(workshop: &Workshop) {
     let out = workshop.file("full");
-    let mut run =
-        workshop.cav("full", &[&LONGER[..], &["-q", "--checkpoint-every", "40ms"]].concat()).spawn().unwrap();
+    let mut run = workshop
+        .cav("full", &[&longer()[..], &["-q", "--checkpoint-every", "40ms"]].concat())
+        .spawn()
+        .unwrap();
     until_checkpoint(&out, &mut run);
     signal(run.id(), "-INT");
     assert_eq!(run.wait().unwrap().code(), Some(130));
@@ -230,7 +243,7 @@ fn no_room_in_shared_memory() {
 
 fn what_dead_runs_left_goes_and_what_living_ones_have_stays() {
     let workshop = Workshop::with(COUPLED);
-    let mut living = workshop.cav("living", &[&LONGER[..], &["-q"]].concat()).spawn().unwrap();
+    let mut living = workshop.cav("living", &[&longer()[..], &["-q"]].concat()).spawn().unwrap();
     let mut dead =
         workshop.cav("dead", &[&ENDLESS[..], &["-q", "--checkpoint-every", "0"]].concat()).spawn().unwrap();
     until_checkpoint(&workshop.file("dead"), &mut dead);
