@@ -7,52 +7,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-/// A small coupled case: a bubble over steel, adaptive on three levels, up to 64 × 64 cells a side.
-const SMALL: &str = r#"
-[time]
-end = 4e-5
-snapshots = [1e-5]
-[fluid]
-z = [0.01, 0.06]
-r = [0.0, 0.05]
-cells = [4, 4]
-levels = 4
-adapt_every = 3
-limiter = "minmod"
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.gas]
-gamma = 1.4
-pi = 0.0
-[fluid.ambient]
-phase = "liquid"
-density = 1000.0
-pressure = 5e7
-[[fluid.region]]
-shape = "sphere"
-centre = [0.03, 0.0]
-radius = 0.01
-phase = "gas"
-density = 0.0266
-pressure = 2118.0
-[solid]
-z = [-0.04, 0.01]
-r = [0.0, 0.05]
-cells = [4, 4]
-levels = 4
-adapt_every = 3
-limiter = "minmod"
-material = "structural-steel"
-[[probe]]
-name = "wall"
-position = [0.01, 0.0]
-medium = "fluid"
-[[probe]]
-name = "steel"
-position = [0.01, 0.004]
-medium = "solid"
-"#;
+#[path = "reliability/cases.rs"]
+#[allow(dead_code, reason = "not all of its cases are run here")]
+mod cases;
+
+/// A bubble over steel, adaptive on three levels, with one snapshot before the end.
+fn small() -> String {
+    cases::COUPLED.replace("snapshot_every = 1.3e-6", "snapshots = [1e-5]")
+}
 
 struct Workshop {
     directory: tempfile::TempDir,
@@ -61,7 +23,7 @@ struct Workshop {
 impl Workshop {
     fn new() -> Self {
         let directory = tempfile::tempdir().expect("a temporary directory");
-        fs::write(directory.path().join("case.toml"), SMALL).expect("the case is written");
+        fs::write(directory.path().join("case.toml"), small()).expect("the case is written");
         Self { directory }
     }
 

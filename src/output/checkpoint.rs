@@ -11,7 +11,7 @@
 //! also after a loss of power.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
@@ -117,15 +117,11 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<(Head, T), Checkpoint
 }
 
 fn read_whole(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let file = File::open(path)?;
     // Something else than a file could go on for ever.
-    if !file.metadata()?.is_file() {
+    if !fs::metadata(path)?.is_file() {
         return Err(io::Error::other("not a file"));
     }
-    bytes.reserve(usize::try_from(fs::metadata(path)?.len()).unwrap_or(0));
-    file.take(u64::MAX).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    fs::read(path)
 }
 
 /// What is between the format's number and the checksum.

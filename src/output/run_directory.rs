@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use rustix::io::{FdFlags, fcntl_setfd};
 use serde_json::{Map, Value};
 
+use super::safe_file::remove_if_there;
 use super::{OutputError, safe_file, summary};
 
 /// Snapshots of the fluid.
@@ -195,13 +196,6 @@ fn remove_checkpoints(path: &Path) -> Result<(), OutputError> {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
             Err(OutputError::io(&checkpoints, "remove the checkpoints in")(error))
         }
-        _ => Ok(()),
-    }
-}
-
-fn remove_if_there(file: &Path, action: &'static str) -> Result<(), OutputError> {
-    match fs::remove_file(file) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::io(file, action)(error)),
         _ => Ok(()),
     }
 }

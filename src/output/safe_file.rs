@@ -119,11 +119,15 @@ pub fn recover(path: &Path) -> Result<bool, OutputError> {
 
 /// Removes what [`keep_before`] has kept.
 pub fn forget_before(path: &Path) -> Result<(), OutputError> {
-    let kept = beside(path, BEFORE_SUFFIX);
-    match fs::remove_file(&kept) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(OutputError::io(&kept, "remove")(error))
-        }
+    remove_if_there(&beside(path, BEFORE_SUFFIX), "remove")
+}
+
+/// Removes a file that need not be there.
+///
+/// - `action`: what an error calls it.
+pub fn remove_if_there(file: &Path, action: &'static str) -> Result<(), OutputError> {
+    match fs::remove_file(file) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::io(file, action)(error)),
         _ => Ok(()),
     }
 }

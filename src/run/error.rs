@@ -1,8 +1,8 @@
 //! What can go wrong in a run, and the exit code it means.
 
-use coupler::{CouplerError, Fault};
+use coupler::{CouplerError, Fault, Scheme};
 
-use crate::case::CaseErrors;
+use crate::case::{Case, CaseErrors};
 use crate::output::OutputError;
 
 /// The end of a run other than by completion.
@@ -98,6 +98,12 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// An error if a case leaves one side to another program, so that this one cannot run it as a whole.
+    pub fn unless_whole(case: &Case) -> Result<(), Self> {
+        let side = if case.fluid.is_some() { "fluid" } else { "solid" };
+        if case.coupling.scheme == Scheme::External { Err(Self::PeerIsElsewhere { side }) } else { Ok(()) }
+    }
+
     /// The process's exit code, see `docs/command-line.md`.
     pub fn exit_code(&self) -> u8 {
         match self {

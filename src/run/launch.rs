@@ -70,10 +70,7 @@ pub fn run(
     stop: &Stop,
     on_directory: impl FnOnce(&Path),
 ) -> Result<PathBuf, RunError> {
-    if case.coupling.scheme == Scheme::External {
-        let side = if case.fluid.is_some() { "fluid" } else { "solid" };
-        return Err(RunError::PeerIsElsewhere { side });
-    }
+    RunError::unless_whole(case)?;
     let directory = prepare(case, options)?;
     on_directory(directory.path());
     carry_out(case, options, &directory, stop)

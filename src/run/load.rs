@@ -1,9 +1,9 @@
 //! A given pressure on the surface of a solid without a fluid, scheme `"load"`.
 
-use coupler::{SolidTrace, TraceRow, solid_under_pressure};
+use coupler::{SolidTrace, solid_under_pressure};
 use fluid::PressureHistory;
 use mesh::{BLOCK, Geometry, GroupStep};
-use solid::SolidSolver;
+use solid::{SolidSolver, SurfaceTrace};
 
 use super::wall_faces::WallFaces;
 use crate::case::LoadCase;
@@ -16,7 +16,7 @@ pub struct Load {
     faces: WallFaces,
     /// Means of the profile over the faces.
     profile: Vec<f64>,
-    traces: Vec<SolidTrace>,
+    traces: Vec<SurfaceTrace>,
 }
 
 impl Load {
@@ -43,22 +43,13 @@ impl Load {
         if self.faces.update(generation, || solver.surface_edges()) {
             self.measure(geometry);
         }
-        let half = 0.5 * step.dt;
+        solver.group_traces_at_mid_step(step, &mut self.traces);
         let impedance = solver.setup().speeds.z1();
-        self.traces.clear();
-        self.traces.resize(self.profile.len(), SolidTrace { pressure: 0.0, velocity: 0.0, impedance });
-        let traces = &mut self.traces;
-        solver.write_group_trace(step, |row, face, value| match row {
-            TraceRow::Pressure => traces[face].pressure += value,
-            TraceRow::PressureRate => traces[face].pressure += half * value,
-            TraceRow::NormalVelocity => traces[face].velocity += value,
-            TraceRow::NormalVelocityRate => traces[face].velocity += half * value,
-            _ => {}
-        });
-        let now = self.amplitude * self.factor.at(step.begin + half);
-        for (face, trace) in self.traces.iter().enumerate() {
+        let now = self.amplitude * self.factor.at(step.begin + 0.5 * step.dt);
+        for (face, &SurfaceTrace { pressure, velocity, .. }) in self.traces.iter().enumerate() {
             if solver.group_of_face(face) == step.group {
-                let star = solid_under_pressure(trace, now * self.profile[face]);
+                let trace = SolidTrace { pressure, velocity, impedance };
+                let star = solid_under_pressure(&trace, now * self.profile[face]);
                 solver.set_surface_face(face, [star.pressure, star.velocity, star.pressure * star.velocity]);
             }
         }

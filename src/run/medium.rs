@@ -246,14 +246,6 @@ fn end_sub_step<M: Medium>(
     Ok(medium.clock().is_over())
 }
 
-/// Begins a step of all cells alike that is tried until both sides agree on the interface.
-pub fn begin_trial<M: Medium>(medium: &mut M, dt: f64) -> Result<GroupStep, RunError> {
-    medium.begin_step(dt, u8::MAX);
-    let step = medium.start(f64::INFINITY);
-    medium.run(step, Part::AwayFromInterface)?;
-    Ok(step)
-}
-
 /// Begins to meet the other side's trace.
 pub fn begin_meeting<M: Medium>(medium: &M, meeting: &mut Meeting, trace: (&[f64], usize)) {
     let mesh = medium.grid();

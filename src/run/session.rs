@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use coupler::{DirectLink, FrameHeader, Link, LinkCounters, Participant, Scheme, direct_pair};
+use coupler::{DirectLink, FrameHeader, Link, LinkCounters, Participant, direct_pair};
 use fluid::FluidSolver;
 use mesh::BLOCK;
 use serde_json::{Map, Value};
@@ -77,10 +77,7 @@ impl Session {
     ///
     /// - errors: see [`RunError`]; with scheme `"external"` the other side is not in this process.
     pub fn new(case: &Case, directory: Option<&RunDirectory>, solvers: Solvers) -> Result<Self, RunError> {
-        if case.coupling.scheme == Scheme::External {
-            let side = if case.fluid.is_some() { "fluid" } else { "solid" };
-            return Err(RunError::PeerIsElsewhere { side });
-        }
+        RunError::unless_whole(case)?;
         let fluid = match &case.fluid {
             Some(fluid) => {
                 let solver = solvers.fluid.map_or_else(|| fluid_solver(case, fluid), Ok)?;

@@ -82,12 +82,12 @@ impl<const N: usize> FluidSolver<N> {
         is_due: impl Fn(usize) -> bool,
         mut put: impl FnMut(TraceRow, usize, f64),
     ) {
+        let context = self.context(dt);
         for slot in self.wall_blocks.iter().copied().filter(|slot| is_due(*slot)) {
             let first = self.wall_first[slot];
             let id = self.mesh.tree().leaves()[slot];
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
             self.scratch.with(|scratch| {
-                let context = self.context(dt);
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
                 let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);

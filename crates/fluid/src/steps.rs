@@ -155,15 +155,17 @@ impl<const N: usize> FluidSolver<N> {
             self.redo(context, &marks, next, register, reports, &is_due);
         }
         for _ in 0..ROUNDS {
-            let failed = failed_cells(&self.mesh, &self.mixture, next, reports, &is_due);
-            let known = marks.clone();
-            for (slot, cells) in failed {
-                let of_block = marks.entry(slot).or_default();
-                of_block.extend(cells);
-                of_block.sort_unstable();
-                of_block.dedup();
+            let mut is_new = false;
+            for (slot, cells) in failed_cells(&self.mesh, &self.mixture, next, reports, &is_due) {
+                let known = marks.entry(slot).or_default();
+                for cell in cells {
+                    if !known.contains(&cell) {
+                        known.push(cell);
+                        is_new = true;
+                    }
+                }
             }
-            if marks == known {
+            if !is_new {
                 return;
             }
             self.redo(context, &marks, next, register, reports, &is_due);

@@ -191,7 +191,15 @@ def test_two_threads_do_not_wait_for_each_other(small):
     assert refused > 0 and simulation.time == pytest.approx(2e-5)
 
 
-def test_ctrl_c_stops_within_a_step_and_the_run_can_go_on(small):
+@pytest.fixture
+def heeds_ctrl_c():
+    """In the background of a shell processes are born deaf to interrupts, and Python leaves it at that."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_stops_within_a_step_and_the_run_can_go_on(small, heeds_ctrl_c):
     simulation = pycav.Simulation(small.with_({"fluid.levels": 6, "solid.levels": 4}))
     simulation.step()
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
@@ -203,7 +211,8 @@ def test_ctrl_c_stops_within_a_step_and_the_run_can_go_on(small):
 
 
 def test_ctrl_c_stops_two_processes(small, tmp_path):
-    code = ("import pycav, sys; case = pycav.Case(sys.argv[1]).with_(**{'fluid.levels': 6, 'solid.levels': 4});"
+    code = ("import pycav, signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler);"
+            "case = pycav.Case(sys.argv[1]).with_(**{'fluid.levels': 6, 'solid.levels': 4});"
             "pycav.run(case, sys.argv[2], processes=True)")
     path = tmp_path / "case.toml"
     path.write_text(small.to_toml())

@@ -78,12 +78,12 @@ impl<const N: usize> SolidSolver<N> {
         is_due: impl Fn(usize) -> bool,
         mut put: impl FnMut(TraceRow, usize, f64),
     ) {
+        let context = self.context(dt);
         for slot in self.surface_blocks.iter().copied().filter(|slot| is_due(*slot)) {
             let first = self.surface_first[slot];
             let id = self.mesh.tree().leaves()[slot];
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
             self.scratch.with(|scratch| {
-                let context = self.context(dt);
                 let [share, _] = context.curvature(id.level, 0);
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
@@ -201,13 +201,22 @@ impl<const N: usize> SolidSolver<N> {
 
     /// The own traces on the surface at the middle of a step of length `dt`, face by face.
     pub fn traces_at_mid_step(&self, dt: f64, traces: &mut Vec<SurfaceTrace>) {
+        self.mid_step_of(dt, |_| true, traces);
+    }
+
+    /// [`SolidSolver::traces_at_mid_step`] for the faces of the levels that are about to make a step; of others, nothing.
+    pub fn group_traces_at_mid_step(&self, step: GroupStep, traces: &mut Vec<SurfaceTrace>) {
+        self.mid_step_of(step.dt, |slot| self.levels.group_of(&self.mesh, slot) == step.group, traces);
+    }
+
+    fn mid_step_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, traces: &mut Vec<SurfaceTrace>) {
         traces.clear();
         traces.resize(self.surface.len(), SurfaceTrace::default());
         if traces.is_empty() {
             return;
         }
         let half = 0.5 * dt;
-        self.write_trace(dt, |row, face, value| {
+        self.write_trace_of(dt, is_due, |row, face, value| {
             let trace = &mut traces[face];
             match row {
                 TraceRow::Pressure => trace.pressure += value,

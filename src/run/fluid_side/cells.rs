@@ -23,7 +23,7 @@ impl FluidSide {
         match (scheme, first) {
             (Scheme::Strong, _) => {
                 let start = Instant::now();
-                let step = medium::begin_trial(&mut self.solver, plan.dt)?;
+                let step = medium::begin_long(&mut self.solver, plan.dt, &self.rule)?;
                 self.clock.computing += start.elapsed();
                 self.try_step(link, plan, step)?;
             }

@@ -37,7 +37,7 @@ impl SolidSide {
         let start = Instant::now();
         let step = match self.trial {
             Some(step) => step,
-            None => medium::begin_trial(&mut self.solver, plan.dt)?,
+            None => medium::begin_long(&mut self.solver, plan.dt, &self.rule)?,
         };
         self.trial = Some(step);
         Medium::run(&mut self.solver, step, Part::AtInterface)?;
