@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
+use crate::even::{even_slopes, predict_beside_mirrors};
 use crate::exact_rows::exact_faces;
-use crate::five_equation::{GasBlock, GasScratch};
+use crate::five_equation::{GasBlock, GasScratch, is_near_gas};
 use crate::options::TwoPhaseOptions;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
@@ -132,7 +133,9 @@ impl<const N: usize> Default for BlockReport<N> {
 /// Assembles a block with its ghosts: primitive variables in `cells`.
 fn assemble<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    cells.assemble(ctx.mesh, ctx.old, slot, ctx.analysis, patch);
+    // The gas's mass is looked at where there is some.
+    let components = if is_near_gas(ctx, slot) { ctx.old.components() } else { COUNT };
+    cells.assemble_first(components, ctx.mesh, ctx.old, slot, ctx.analysis, patch);
     rows::to_primitive(cells.split_mut(), ctx.mixture);
     ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     let id = ctx.mesh.tree().leaves()[slot];
@@ -157,6 +160,7 @@ pub(crate) fn reconstruct<const N: usize>(
             s_r.component_mut(component),
         );
     }
+    even_slopes(ctx, slot, scratch);
 }
 
 /// Advances one block by one step from `ctx.old` into `new`; `fluxes` is its part of the flux register.
@@ -179,6 +183,7 @@ pub(crate) fn step_block<const N: usize>(
         inverse_h,
         inverse_r: &scratch.inverse_r,
         half_dt: 0.5 * ctx.dt,
+        with_mixed: ctx.two_phase.is_none(),
     };
     predict(
         scratch.cells.split(),
@@ -189,6 +194,8 @@ pub(crate) fn step_block<const N: usize>(
         scratch.half.split_mut(),
         &mut scratch.keep,
     );
+    even_slopes(ctx, slot, scratch);
+    predict_beside_mirrors(ctx, slot, inverse_h, scratch);
     ctx.boundaries.impose_outer(
         ctx.mesh,
         slot,
@@ -243,8 +250,8 @@ pub(crate) fn step_block<const N: usize>(
         block.solve_faces(1, &along_r, &scratch.inverse_r, &mut scratch.gas, &mut scratch.r_faces);
         block.gas_fluxes(&mut scratch.gas, [&mut scratch.z_faces, &mut scratch.r_faces]);
     } else if ctx.two_phase.is_some() {
-        scratch.z_faces.gas.fill(0.0);
-        scratch.r_faces.gas.fill(0.0);
+        scratch.z_faces.without_gas();
+        scratch.r_faces.without_gas();
     }
 
     register_fluxes(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, fluxes);

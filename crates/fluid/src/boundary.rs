@@ -118,7 +118,7 @@ impl Boundaries {
                 if let Some(history) = inflow {
                     state = entering(state, side, history.at(time), mixture);
                 }
-                let [_, (i, j)] = beside(side, N, along);
+                let [_, (i, j)] = beside(side, N, along as isize);
                 let k = Padded::<N>::index(i, j);
                 keep[k] = 0.0;
                 for (component, value) in state.to_array().into_iter().enumerate() {
@@ -206,7 +206,7 @@ fn entering(initial: Primitive, side: Side, p: f64, mixture: &Mixture) -> Primit
 /// Makes the ghost cells next to a side the mirror images of the cells within, at mid-step.
 fn mirror<const N: usize>(side: Side, half: &mut Padded<N>, keep: &mut [f64]) {
     for along in 0..N {
-        let [from, to] = beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
+        let [from, to] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
         for component in 0..5 {
             let row = half.component_mut(component);
             row[to] = if component == normal(side) { -row[from] } else { row[from] };
@@ -216,13 +216,13 @@ fn mirror<const N: usize>(side: Side, half: &mut Padded<N>, keep: &mut [f64]) {
 }
 
 /// Component of the velocity normal to a side: 1 (v_z) or 2 (v_r).
-fn normal(side: Side) -> usize {
+pub(crate) fn normal(side: Side) -> usize {
     if matches!(side, Side::ZMin | Side::ZMax) { 1 } else { 2 }
 }
 
 /// The cell next to a side, `along` cells from its beginning, and the ghost beyond.
-pub(crate) fn beside(side: Side, n: usize, along: usize) -> [(isize, isize); 2] {
-    let (n, along) = (n as isize, along as isize);
+pub(crate) fn beside(side: Side, n: usize, along: isize) -> [(isize, isize); 2] {
+    let n = n as isize;
     match side {
         Side::ZMin => [(0, along), (-1, along)],
         Side::ZMax => [(n - 1, along), (n, along)],

@@ -14,8 +14,9 @@ pub(crate) struct Curvature {
 }
 
 impl Curvature {
-    /// Differences of the pressure across a cell above this share of p + π belong to a front, not to a smooth wave.
-    const WEAK: f64 = 0.02;
+    /// Differences of the pressure across a cell above this share of p + π belong to a strong front. The correction is an
+    /// eighth of a difference at most; below, it keeps shocks that a few cells carry from being clipped.
+    const WEAK: f64 = 0.2;
     /// Gas fractions up to this count as liquid.
     const LIQUID: f64 = 1e-6;
 

@@ -15,6 +15,7 @@ mod diagnostics;
 mod elementary;
 mod eos;
 mod error;
+mod even;
 pub mod exact_riemann;
 mod exact_rows;
 mod fill;

@@ -3,7 +3,9 @@
 use mesh::Limiter;
 
 use crate::Mixture;
+use crate::five_equation::is_mixed;
 use crate::rows::{Rows, cut, half_step, whole_half_step};
+use crate::state::conserved::PHI;
 
 /// Cells after which the pass looks whether all of them keep their slopes: whole lines of the cache, few enough that
 /// what they need to be done again is still at hand.
@@ -21,6 +23,8 @@ pub(crate) struct Predictor<'a> {
     pub inverse_r: &'a [f64],
     /// Half the time step, s.
     pub half_dt: f64,
+    /// Whether mixed cells count. Those of the five-equation model have face states of their own.
+    pub with_mixed: bool,
 }
 
 /// Limited differences, primitive variables at mid-step and the share of slopes kept, in all cells but the outermost
@@ -100,7 +104,9 @@ fn body(
             &mut h4[first..][..n],
             &mut keep[first..][..n],
         );
-        let dropped: u64 = keep[first..][..n].iter().map(|share| u64::from(*share == 0.0)).sum();
+        let is_dropped =
+            |(share, phi): (&f64, &f64)| u64::from((*share == 0.0) & (p.with_mixed | !is_mixed(*phi)));
+        let dropped: u64 = keep[first..][..n].iter().zip(here[PHI]).map(is_dropped).sum();
         if dropped > 0 {
             half_again(
                 n,
@@ -220,7 +226,7 @@ mod tests {
             let (mut s_z, mut s_r, mut half, mut keep) = (rows(), rows(), rows(), vec![0.0; len]);
             predict(
                 w.each_ref().map(|row| &row[..]),
-                Predictor { limiter, stride, inverse_h, inverse_r: &inverse_r, half_dt },
+                Predictor { limiter, stride, inverse_h, inverse_r: &inverse_r, half_dt, with_mixed: true },
                 &mixture,
                 s_z.each_mut().map(|row| &mut row[..]),
                 s_r.each_mut().map(|row| &mut row[..]),

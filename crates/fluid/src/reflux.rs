@@ -39,7 +39,7 @@ pub(crate) fn register_fluxes<const N: usize>(
             faces.energy[k],
             velocity,
             velocity * faces.phi[k],
-            faces.gas[k],
+            faces.gas()[k],
         ]
     });
 }

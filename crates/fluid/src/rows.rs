@@ -239,8 +239,9 @@ pub(crate) struct FaceRows {
     pub shear: AlignedRow,
     pub energy: AlignedRow,
     pub phi: AlignedRow,
-    /// Mass flux of the gas, where the model has one.
-    pub gas: AlignedRow,
+    /// Mass flux of the gas, where the model has one; made by [`FaceRows::gas_mut`], which knows of it.
+    gas: AlignedRow,
+    has_gas: bool,
 }
 
 impl FaceRows {
@@ -255,6 +256,25 @@ impl FaceRows {
             energy: row(),
             phi: row(),
             gas: row(),
+            has_gas: false,
+        }
+    }
+
+    /// Mass flux of the gas, kg/(m² s).
+    pub fn gas(&self) -> &[f64] {
+        &self.gas
+    }
+
+    /// The mass flux of the gas beside that of the mass, to be written.
+    pub fn gas_mut(&mut self) -> (&mut [f64], &[f64]) {
+        self.has_gas = true;
+        (&mut self.gas, &self.mass)
+    }
+
+    /// No gas passes; most blocks leave it at that.
+    pub fn without_gas(&mut self) {
+        if std::mem::take(&mut self.has_gas) {
+            self.gas.fill(0.0);
         }
     }
 

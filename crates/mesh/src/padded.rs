@@ -82,9 +82,22 @@ impl<const N: usize> Padded<N> {
         rule: &impl Multiresolution,
         patch: &mut Patch<N>,
     ) {
+        self.assemble_first(field.components(), mesh, field, slot, rule, patch);
+    }
+
+    /// [`Padded::assemble`] of the first so many components; what the others hold counts for nothing.
+    pub fn assemble_first(
+        &mut self,
+        components: usize,
+        mesh: &Mesh<N>,
+        field: &Field,
+        slot: usize,
+        rule: &impl Multiresolution,
+        patch: &mut Patch<N>,
+    ) {
         debug_assert_eq!(field.components(), self.components, "same components");
         let neighbours = mesh.tree().neighbours(slot);
-        for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
+        for (component, row) in self.data.chunks_exact_mut(Self::LEN).take(components).enumerate() {
             let own = field.component(slot, component);
             for j in 0..N {
                 let at = Self::index(0, j as isize);
@@ -92,7 +105,7 @@ impl<const N: usize> Padded<N> {
             }
         }
         for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
-            let rows = self.data.chunks_exact_mut(Self::LEN);
+            let rows = self.data.chunks_exact_mut(Self::LEN).take(components);
             match neighbour {
                 Neighbour::Same(other) => {
                     let owner = field.block(*other);

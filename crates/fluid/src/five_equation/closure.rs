@@ -104,8 +104,8 @@ pub(crate) fn relaxed_fraction(
 /// Newton's iteration on ln(sum of the volumes) against x = ln((p' + π_g)/(p + π_g)), which is monotone and nearly straight.
 fn isentropic_fraction(gas: f64, liquid: f64, p: f64, mixture: &Mixture) -> f64 {
     const STEPS: usize = 30;
-    /// The next step would be of the order of its square.
-    const LAST_STEP: f64 = 1e-8;
+    /// The next step would be of the order of its square, which is less than the flux balances keep.
+    const LAST_STEP: f64 = 1e-6;
     let (g, l) = (mixture.gas, mixture.liquid);
     let (over_g, over_l) = (1.0 / g.gamma, 1.0 / l.gamma);
     let (base_g, base_l) = ((p + g.pi).max(LOWEST), (p + l.pi).max(LOWEST));
@@ -126,7 +126,8 @@ fn isentropic_fraction(gas: f64, liquid: f64, p: f64, mixture: &Mixture) -> f64 
             -(gas_volume * over_g + liquid_volume * over_l * softness * gas_ratio / liquid_ratio) / sum;
         let step = -excess / slope;
         if step.abs() <= LAST_STEP {
-            return (gas_volume * (1.0 - step * over_g)).clamp(0.0, 1.0);
+            let shrinks = step * over_g;
+            return (gas_volume * (1.0 - shrinks * (1.0 - 0.5 * shrinks))).clamp(0.0, 1.0);
         }
         let next = x + step;
         x = if next > low && next < high { next } else { 0.5 * (low + high) };

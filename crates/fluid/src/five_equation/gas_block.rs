@@ -2,10 +2,9 @@
 
 use mesh::{AlignedRow, Mesh, Padded, Side};
 
-use super::closure::bounded;
 use super::mixed::{MixedCells, Outer};
 use super::reconstruction::{Cells, Stencil};
-use super::update::{gas_fluxes, update_gas, update_mixed};
+use super::update::{gas_fluxes, gas_shares, settle_gas, update_gas, update_mixed};
 use crate::Boundary;
 use crate::block::{BlockReport, BlockScratch, Marks, StepContext, split_block};
 use crate::options::TwoPhaseOptions;
@@ -54,6 +53,15 @@ impl GasScratch {
     }
 }
 
+/// Whether there is gas in a block or next to it, for the five-equation model.
+pub(crate) fn is_near_gas<const N: usize>(ctx: &StepContext<'_, N>, slot: usize) -> bool {
+    let has_gas = |slot: &usize| ctx.has_gas[*slot];
+    ctx.two_phase.is_some()
+        && (has_gas(&slot)
+            || (ctx.mesh.tree().neighbours(slot).iter())
+                .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot))))
+}
+
 /// A block with gas in it or next to it.
 pub(crate) struct GasBlock<'a, const N: usize> {
     ctx: &'a StepContext<'a, N>,
@@ -66,13 +74,9 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     /// `None` where there is no gas, and for the paper's mixture.
     pub fn of(ctx: &'a StepContext<'a, N>, slot: usize) -> Option<Self> {
         let options = ctx.two_phase?;
-        let has_gas = |slot: &usize| ctx.has_gas[*slot];
-        let is_near = has_gas(&slot)
-            || (ctx.mesh.tree().neighbours(slot).iter())
-                .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot)));
         let level = ctx.mesh.tree().leaves()[slot].level;
         let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
-        is_near.then_some(Self { ctx, slot, options, inverse_h })
+        is_near_gas(ctx, slot).then_some(Self { ctx, slot, options, inverse_h })
     }
 
     fn stencil<'b>(&self, inverse_r: &'b [f64]) -> Stencil<'b>
@@ -93,9 +97,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     pub fn collect(&self, scratch: &mut BlockScratch<N>) {
         let BlockScratch { cells, gas, half, keep, inverse_r, .. } = scratch;
         let rows = cells.split::<6>();
-        for (share, (gas, rho)) in gas.shares.iter_mut().zip(rows[GAS].iter().zip(rows[RHO])) {
-            *share = gas / rho;
-        }
+        gas_shares(rows[GAS], rows[RHO], &mut gas.shares);
         self.impose_outer_shares(&mut gas.shares);
         gas.mixed.clear();
         let has_marks = !self.ctx.marks.is_empty();
@@ -135,7 +137,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             }
             for along in 0..N {
                 let [inner, ghost] =
-                    crate::boundary::beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
+                    crate::boundary::beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
                 let given = self.ctx.boundaries.initial_gas_share(self.ctx.mesh, self.slot, side, along);
                 shares[ghost] = given.unwrap_or(shares[inner]);
             }
@@ -195,19 +197,6 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             );
         }
         report.marked = gas.marked.len() as u32;
-        let phi = &mut rows[PHI];
-        for value in phi.iter_mut() {
-            *value = bounded(without_trace(*value));
-        }
-        for value in new_gas.iter_mut() {
-            *value = without_trace(*value);
-        }
-        report.has_gas = phi.iter().chain(&*new_gas).any(|value| *value != 0.0);
+        report.has_gas = settle_gas(rows[PHI], new_gas);
     }
-}
-
-/// Zero in the place of numbers that mean nothing any more and would end as subnormal ones, which are slow.
-fn without_trace(value: f64) -> f64 {
-    const NOTHING: f64 = 1e-40;
-    if value.abs() < NOTHING { 0.0 } else { value }
 }

@@ -121,7 +121,7 @@ impl MixedCells {
         }
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Block) {
             for along in 0..N {
-                let [_, ghost] = beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
+                let [_, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
                 if is_listed(ghost) {
                     self.list(ghost);
                 }
@@ -136,7 +136,7 @@ impl MixedCells {
         }
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Mirror) {
             for along in 0..N {
-                let [inner, ghost] = beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j));
+                let [inner, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
                 if let Some(states) = self.of(inner).copied() {
                     self.list(ghost);
                     self.states.push(mirrored(states, side));
@@ -194,8 +194,9 @@ impl MixedCells {
 
     /// Puts the mixed cells' part into the gas's mass fluxes along one axis.
     pub fn put_gas_fluxes(&self, axis: usize, faces: &mut FaceRows) {
+        let (gas, mass) = faces.gas_mut();
         for &(k, share) in &self.shares[axis] {
-            faces.gas[k] = faces.mass[k] * share;
+            gas[k] = mass[k] * share;
         }
     }
 }

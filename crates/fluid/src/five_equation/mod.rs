@@ -14,6 +14,6 @@ mod thinc;
 mod update;
 
 pub(crate) use closure::{Compression, is_mixed};
-pub(crate) use gas_block::{GasBlock, GasScratch};
+pub(crate) use gas_block::{GasBlock, GasScratch, is_near_gas};
 pub(crate) use marks::marked_blocks;
 pub(crate) use reconstruction::{Cells, FaceState, Stencil, face_states};

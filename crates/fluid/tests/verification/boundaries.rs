@@ -60,6 +60,30 @@ fn a_trace_beside_gas_is_that_of_a_mixture() {
     }
 }
 
+/// At the axis and at a wall a limiter sees extrema. The highest pressure of the axis cell at the wall below a spherical
+/// pulse of two cells' width, with the limiter and without any.
+#[test]
+fn a_limiter_clips_little_of_a_spherical_pulse_at_the_wall_below_it() {
+    let sound = LIQUID.sound_speed(1000.0, 1e5);
+    let highest = |limiter| {
+        let mut initial = pulse([0.5, 0.0], [1.0, 0.0]);
+        initial.pulses[0].shape = PulseShape::Sphere;
+        initial.pulses[0].width = 0.03;
+        let setup = FluidSetup { limiter, ..setup(AXIAL, [64, 64], CYLINDER) };
+        let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
+        let mut highest = 0.0_f64;
+        while fluid.time() < 0.7 / sound {
+            fluid.step(fluid.time_step_limit(CFL)).unwrap();
+            highest = highest.max(fluid.cell(0, 0, 0).pressure - 1e5);
+        }
+        highest
+    };
+    let (limited, free) = (highest(mesh::Limiter::Mc), highest(mesh::Limiter::None));
+    eprintln!("limited {limited:.1}, not limited {free:.1} Pa");
+    // With slopes of zero next to the axis and the wall 0.711.
+    assert!(limited > 0.717 * free);
+}
+
 #[test]
 fn a_plane_pulse_leaves() {
     let sound = LIQUID.sound_speed(1000.0, 1e5);
