@@ -7,6 +7,8 @@
 mod cases;
 #[path = "reliability/compare.rs"]
 mod compare;
+#[path = "reliability/confined.rs"]
+mod confined;
 #[path = "reliability/faults.rs"]
 mod faults;
 #[path = "reliability/going_on.rs"]

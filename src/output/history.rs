@@ -1,5 +1,6 @@
 //! Named series over time, buffered in memory and written in batches: `fluid.h5` and `solid.h5`.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -13,6 +14,10 @@ use super::{OutputError, safe_file};
 const FLUSH_INTERVAL: Duration = Duration::from_secs(1);
 /// Largest share of the wall time that [`HistoryFile::flush_if_due`] spends.
 const FLUSH_SHARE: f64 = 0.02;
+/// Rows that wait for a batch take this much memory at most, bytes, and this share of the file: a batch copies it, so that
+/// a share is what keeps the copies in proportion to what they add.
+const LARGEST_BUFFER: u64 = 1 << 20;
+const BUFFER_SHARE: u64 = 64;
 /// Values per chunk of a dataset, 32 KiB: small enough that a short history stays a small file.
 const CHUNK_VALUES: usize = 4096;
 
@@ -62,6 +67,8 @@ pub struct HistoryFile {
     arrays: Vec<StaticArray>,
     last_flush: Instant,
     last_cost: Duration,
+    /// Length of the file after the last batch, bytes.
+    length: u64,
     /// Whether anything changed since the last batch.
     pending: bool,
 }
@@ -147,6 +154,7 @@ impl HistoryFile {
             arrays: Vec::new(),
             last_flush: Instant::now(),
             last_cost: Duration::ZERO,
+            length: 0,
             pending: false,
         }
     }
@@ -242,10 +250,17 @@ impl HistoryFile {
     }
 
     /// Whether a batch is due: a second after the last one at the earliest, and late enough that a batch that costs as
-    /// much as the last one stays under 2 % of the wall time.
+    /// much as the last one stays under 2 % of the wall time; at any cost when the rows fill their memory, 1 MiB or a
+    /// sixty-fourth of the file.
     pub fn is_flush_due(&self) -> bool {
         let elapsed = self.last_flush.elapsed();
-        elapsed >= FLUSH_INTERVAL && self.last_cost.as_secs_f64() < FLUSH_SHARE * elapsed.as_secs_f64()
+        let is_cheap = self.last_cost.as_secs_f64() < FLUSH_SHARE * elapsed.as_secs_f64();
+        elapsed >= FLUSH_INTERVAL && (is_cheap || self.is_full())
+    }
+
+    fn is_full(&self) -> bool {
+        let buffered: usize = self.series.iter().map(|series| size_of::<f64>() * series.buffer.len()).sum();
+        buffered as u64 >= LARGEST_BUFFER.max(self.length / BUFFER_SHARE)
     }
 
     /// Writes a batch if one is due; says whether it did.
@@ -278,6 +293,7 @@ impl HistoryFile {
         self.pending = false;
         self.last_flush = Instant::now();
         self.last_cost = start.elapsed();
+        self.length = fs::metadata(&self.path).map_or(0, |file| file.len());
         tracing::debug!(seconds = self.last_cost.as_secs_f64(), "wrote a batch of histories");
         Ok(())
     }

@@ -55,9 +55,11 @@ impl Options {
 
 /// The run directory: the command line's, the case's, or one by the case's name.
 pub fn directory_of(case: &Case, out: Option<&Path>) -> PathBuf {
-    out.map(Path::to_path_buf)
-        .or_else(|| case.output.directory.clone())
-        .unwrap_or_else(|| Path::new("runs").join(&case.name))
+    out.map(Path::to_path_buf).or_else(|| case.output.directory.clone()).unwrap_or_else(|| {
+        // A name may be `..`, or have a `/` in it.
+        let name = Path::new(&case.name).file_name().unwrap_or("case".as_ref());
+        Path::new("runs").join(name)
+    })
 }
 
 /// Runs a case and leaves a run directory.

@@ -44,6 +44,7 @@ fn what_happens_to_runs() {
     workshop.done("whole", &[&longer()[..], &["-q"]].concat());
     in_other_processes_under_other_numbers_of_threads(&workshop);
     killed_at_any_time(&workshop);
+    sides_started_by_hand_go_on(&workshop);
     a_stopped_side_is_waited_for(&workshop);
     a_side_that_stays_stopped_is_given_up();
     no_room_on_the_disk(&workshop);
@@ -51,6 +52,24 @@ fn what_happens_to_runs() {
     no_room_in_shared_memory();
     what_dead_runs_left_goes_and_what_living_ones_have_stays();
     assert_eq!(segments(), Vec::<String>::new(), "nothing stays in shared memory");
+}
+
+/// Two sides in two terminals, one of them killed or interrupted: what they left goes on as any other run.
+fn sides_started_by_hand_go_on(workshop: &Workshop) {
+    for (number, fault) in ["-KILL", "-INT"].into_iter().enumerate() {
+        let name = format!("by-hand-{number}");
+        let id = format!("{name}-{}", std::process::id());
+        let more = [&longer()[..], &["-q", "--checkpoint-every", "0"]].concat();
+        let mut fluid = workshop.side("fluid", &name, &id, &more).spawn().unwrap();
+        let mut solid = workshop.side("solid", &name, &id, &more).spawn().unwrap();
+        until_checkpoint(&workshop.file(&name), &mut solid);
+        signal(fluid.id(), fault);
+        let codes = [fluid.wait().unwrap().code(), solid.wait().unwrap().code()];
+        assert!(codes.iter().all(|code| *code != Some(0)), "{fault}: {codes:?}");
+        let output = workshop.resume(&name, &["-v"]).output().unwrap();
+        assert!(output.status.success() && text(&output).contains("going on from"), "{}", text(&output));
+        assert_same(&name, &workshop.file("whole"), &workshop.file(&name), true);
+    }
 }
 
 /// Interrupted again and again; each time it goes on otherwise.

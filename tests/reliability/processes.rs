@@ -32,8 +32,27 @@ impl Workshop {
 
     /// `cav run case.toml --out NAME ...`.
     pub fn cav(&self, out: &str, more: &[&str]) -> Command {
+        let mut cav = self.of_case(&["--out"]);
+        cav.arg(self.file(out)).args(more);
+        cav
+    }
+
+    /// `cav run case.toml ...`.
+    pub fn of_case(&self, more: &[&str]) -> Command {
+        self.of_case_file("case.toml", more)
+    }
+
+    /// `cav run NAME ...`.
+    pub fn of_case_file(&self, name: &str, more: &[&str]) -> Command {
         let mut cav = cav(&["run"]);
-        cav.arg(self.file("case.toml")).arg("--out").arg(self.file(out)).args(more);
+        cav.arg(self.file(name)).args(more);
+        cav
+    }
+
+    /// `cav fluid case.toml --out NAME --run ID ...`, or the solid's side.
+    pub fn side(&self, side: &str, out: &str, id: &str, more: &[&str]) -> Command {
+        let mut cav = cav(&[side]);
+        cav.arg(self.file("case.toml")).arg("--out").arg(self.file(out)).args(["--run", id]).args(more);
         cav
     }
 
