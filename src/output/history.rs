@@ -14,8 +14,8 @@ use super::{OutputError, safe_file};
 const FLUSH_INTERVAL: Duration = Duration::from_secs(1);
 /// Largest share of the wall time that [`HistoryFile::flush_if_due`] spends.
 const FLUSH_SHARE: f64 = 0.02;
-/// Rows that wait for a batch take this much memory at most, bytes, and this share of the file: a batch copies it, so that
-/// a share is what keeps the copies in proportion to what they add.
+/// Rows that take this much memory, bytes, and this share of the file wait no longer for a batch than [`FLUSH_INTERVAL`]: a
+/// batch copies the file, so that a share is what keeps the copies in proportion to what they add.
 const LARGEST_BUFFER: u64 = 1 << 20;
 const BUFFER_SHARE: u64 = 64;
 /// Values per chunk of a dataset, 32 KiB: small enough that a short history stays a small file.

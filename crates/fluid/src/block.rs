@@ -131,10 +131,16 @@ impl<const N: usize> Default for BlockReport<N> {
 }
 
 /// Assembles a block with its ghosts: primitive variables in `cells`.
-fn assemble<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+///
+/// - `with_gas`: whether the gas's mass is looked at; else its row holds nothing.
+fn assemble<const N: usize>(
+    ctx: &StepContext<'_, N>,
+    slot: usize,
+    with_gas: bool,
+    scratch: &mut BlockScratch<N>,
+) {
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    // The gas's mass is looked at where there is some.
-    let components = if is_near_gas(ctx, slot) { ctx.old.components() } else { COUNT };
+    let components = if with_gas { ctx.old.components() } else { COUNT };
     cells.assemble_first(components, ctx.mesh, ctx.old, slot, ctx.analysis, patch);
     rows::to_primitive(cells.split_mut(), ctx.mixture);
     ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
@@ -149,7 +155,7 @@ pub(crate) fn reconstruct<const N: usize>(
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
-    assemble(ctx, slot, scratch);
+    assemble(ctx, slot, is_near_gas(ctx, slot), scratch);
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     for component in 0..COUNT {
         limited_differences(
@@ -176,7 +182,8 @@ pub(crate) fn step_block<const N: usize>(
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let inverse_h = [1.0 / h_z, 1.0 / h_r];
 
-    assemble(ctx, slot, scratch);
+    let gas_block = GasBlock::of(ctx, slot);
+    assemble(ctx, slot, gas_block.is_some(), scratch);
     let predictor = Predictor {
         limiter: ctx.limiter,
         stride,
@@ -209,7 +216,6 @@ pub(crate) fn step_block<const N: usize>(
         at_first_order(ctx, slot, scratch);
     }
 
-    let gas_block = GasBlock::of(ctx, slot);
     if let Some(block) = &gas_block {
         block.collect(scratch);
     }

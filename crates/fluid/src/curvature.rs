@@ -14,8 +14,8 @@ pub(crate) struct Curvature {
 }
 
 impl Curvature {
-    /// Differences of the pressure across a cell above this share of p + π belong to a strong front. The correction is an
-    /// eighth of a difference at most; below, it keeps shocks that a few cells carry from being clipped.
+    /// Differences of the pressure across a cell above this share of p + π belong to a strong front. The correction is a
+    /// sixth of the larger difference at most; below, it keeps shocks that a few cells carry from being clipped.
     const WEAK: f64 = 0.2;
     /// Gas fractions up to this count as liquid.
     const LIQUID: f64 = 1e-6;
