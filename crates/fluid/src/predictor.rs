@@ -3,9 +3,8 @@
 use mesh::Limiter;
 
 use crate::Mixture;
-use crate::five_equation::is_mixed;
+use crate::five_equation::is_compliant;
 use crate::rows::{Rows, cut, half_step, whole_half_step};
-use crate::state::conserved::PHI;
 
 /// Cells after which the pass looks whether all of them keep their slopes: whole lines of the cache, few enough that
 /// what they need to be done again is still at hand.
@@ -104,10 +103,10 @@ fn body(
             &mut h4[first..][..n],
             &mut keep[first..][..n],
         );
-        let is_dropped =
-            |(share, phi): (&f64, &f64)| u64::from((*share == 0.0) & (p.with_mixed | !is_mixed(*phi)));
-        let dropped: u64 = keep[first..][..n].iter().zip(here[PHI]).map(is_dropped).sum();
-        if dropped > 0 {
+        let dropped: u64 = keep[first..][..n].iter().map(|share| u64::from(*share == 0.0)).sum();
+        let [_, _, _, pressure, phi] = here;
+        let counts = |k: usize| keep[first + k] == 0.0 && !is_compliant(pressure[k], phi[k], &mixture);
+        if dropped > 0 && (p.with_mixed || (0..n).any(counts)) {
             half_again(
                 n,
                 here,

@@ -278,6 +278,7 @@ impl FaceRows {
         }
     }
 
+    #[inline(always)]
     pub fn set(&mut self, k: usize, face: Face) {
         self.mass[k] = face.mass;
         self.velocity[k] = face.velocity;

@@ -116,7 +116,7 @@ fn row_mut<const N: usize>(numbers: &mut [f64], at: usize) -> &mut [f64; N] {
 
 /// [`FaceRows`] cut to the faces of one row of cells.
 #[derive(Clone, Copy)]
-struct FaceSlices<'a, const N: usize> {
+pub(crate) struct FaceSlices<'a, const N: usize> {
     mass: &'a [f64; N],
     velocity: &'a [f64; N],
     pressure: &'a [f64; N],
@@ -127,7 +127,7 @@ struct FaceSlices<'a, const N: usize> {
 
 impl<'a, const N: usize> FaceSlices<'a, N> {
     #[inline(always)]
-    fn cut(faces: &'a FaceRows, at: usize) -> Self {
+    pub fn cut(faces: &'a FaceRows, at: usize) -> Self {
         Self {
             mass: row(&faces.mass, at),
             velocity: row(&faces.velocity, at),
@@ -139,7 +139,7 @@ impl<'a, const N: usize> FaceSlices<'a, N> {
     }
 
     #[inline(always)]
-    fn at(&self, k: usize) -> FaceValues {
+    pub fn at(&self, k: usize) -> FaceValues {
         FaceValues {
             mass: self.mass[k],
             velocity: self.velocity[k],
@@ -183,21 +183,6 @@ pub(crate) struct FaceValues {
     pub shear: f64,
     pub energy: f64,
     pub phi: f64,
-}
-
-impl FaceValues {
-    /// Face `k` of some rows.
-    #[inline(always)]
-    pub fn of(faces: &FaceRows, k: usize) -> Self {
-        Self {
-            mass: faces.mass[k],
-            velocity: faces.velocity[k],
-            pressure: faces.pressure[k],
-            shear: faces.shear[k],
-            energy: faces.energy[k],
-            phi: faces.phi[k],
-        }
-    }
 }
 
 /// One cell's conserved variables after the step, paper eqs. (23), (27), before anything is corrected.

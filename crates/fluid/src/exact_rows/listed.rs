@@ -1,30 +1,53 @@
 //! Exact Riemann solutions at listed faces, wherever they lie.
 
-use super::{Chunk, LANES, Sides, fluxes, solve};
+use super::{Chunk, LANES, Lane, Sides, fluxes, solve};
 use crate::Mixture;
+use crate::five_equation::FaceState;
 use crate::godunov::flux_exact;
 use crate::hllc::Face;
 
-/// [`flux_exact`] between `lower[k]` and `upper[k]`, for all k; states are (ρ, u normal, v tangential, p, φ).
+/// [`flux_exact`] on some faces; the velocities of the states are the normal and the tangential one.
 ///
-/// - `faces`: written, as many as there are states. What a face gets does not depend on the others in the list.
+/// - `states`: those on both sides of a face.
+/// - `fraction`: the gas fraction behind the wave, from the pressure and the gas fraction of the side that the fluid comes
+///   from and ρ*/ρ.
+/// - `put`: called with every problem, in their order, its states, and its solution, which does not depend on the others.
 /// - tested by: [`flux_exact`] over random states.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn exact_fluxes(lower: &[[f64; 5]], upper: &[[f64; 5]], mixture: &Mixture, faces: &mut Vec<Face>) {
+pub(crate) fn exact_fluxes<
+    T,
+    S: Fn(&T) -> [FaceState; 2],
+    F: Fn(f64, f64, f64) -> f64,
+    P: FnMut(&T, [FaceState; 2], Face),
+>(
+    problems: &[T],
+    states: S,
+    mixture: &Mixture,
+    fraction: F,
+    mut put: P,
+) {
     let mixture = *mixture;
     let mut chunk = Chunk::zeros();
     let mut rows = [[0.0; LANES]; 8];
-    faces.clear();
-    for (lower, upper) in lower.chunks(LANES).zip(upper.chunks(LANES)) {
-        let n = lower.len();
-        put(&mut chunk.left, lower);
-        put(&mut chunk.right, upper);
+    let mut both = [[FaceState::default(); 2]; LANES];
+    for problems in problems.chunks(LANES) {
+        let n = problems.len();
+        for (k, problem) in problems.iter().enumerate() {
+            both[k] = states(problem);
+            take(&mut chunk.left, k, both[k][0].w);
+            take(&mut chunk.right, k, both[k][1].w);
+        }
         solve(n, &mut chunk, &mixture);
         let [mass, velocity, pressure, shear, energy, phi, compression, solved] = &mut rows;
         fluxes(n, &chunk, &mixture, mass, velocity, pressure, shear, energy, phi, compression, solved);
-        for k in 0..n {
-            faces.push(if solved[k] == 0.0 {
-                flux_exact(lower[k], upper[k], &mixture)
+        behind(n, &chunk, &fraction, velocity, compression, phi);
+        for (k, problem) in problems.iter().enumerate() {
+            let face = if solved[k] == 0.0 {
+                let [lower, upper] = both[k].map(|state| state.w);
+                let mut face = flux_exact(lower, upper, &mixture);
+                let [_, _, _, p, phi] = if face.velocity < 0.0 { upper } else { lower };
+                face.phi = fraction(p, phi, face.compression);
+                face
             } else {
                 Face {
                     mass: mass[k],
@@ -35,14 +58,29 @@ pub(crate) fn exact_fluxes(lower: &[[f64; 5]], upper: &[[f64; 5]], mixture: &Mix
                     phi: phi[k],
                     compression: compression[k],
                 }
-            });
+            };
+            put(problem, both[k], face);
         }
     }
 }
 
 #[inline(always)]
-fn put(sides: &mut Sides, states: &[[f64; 5]]) {
-    for (k, state) in states.iter().enumerate() {
-        [sides.rho[k], sides.u[k], sides.v[k], sides.p[k], sides.phi[k]] = *state;
+fn take(sides: &mut Sides, k: usize, [rho, u, v, p, phi]: [f64; 5]) {
+    (sides.rho[k], sides.u[k], sides.v[k], sides.p[k], sides.phi[k]) = (rho, u, v, p, phi);
+}
+
+/// The gas fractions behind the waves, from those of the sides that the fluid comes from.
+#[inline(always)]
+fn behind(
+    n: usize,
+    chunk: &Chunk,
+    fraction: &impl Fn(f64, f64, f64) -> f64,
+    velocity: &Lane,
+    compression: &Lane,
+    phi: &mut Lane,
+) {
+    for k in 0..n.min(LANES) {
+        let p = if velocity[k] < 0.0 { chunk.right.p[k] } else { chunk.left.p[k] };
+        phi[k] = fraction(p, phi[k], compression[k]);
     }
 }

@@ -5,6 +5,7 @@ use crate::StiffenedGas;
 use crate::curvature::Curvature;
 use crate::exact_riemann::tests::{EXTREME, REFERENCE, Random};
 use crate::exact_riemann::{Side, sample, star_state};
+use crate::five_equation::FaceState;
 use crate::hllc::Face;
 
 /// The first lane of a chunk solved: pressure, velocity of the contact, flux; and whether it counts.
@@ -184,16 +185,30 @@ fn listed_faces_do_not_depend_on_their_company() {
         let p = random.log_uniform(1e3, 1e9);
         [1.2 + 999.0 * (1.0 - phi), random.uniform(-50.0, 50.0), 3.0, p, phi]
     };
-    let (lower, upper): (Vec<_>, Vec<_>) = (0..3 * LANES + 5).map(|_| (state(), state())).unzip();
-    let (mut together, mut alone) = (Vec::new(), Vec::new());
-    exact_fluxes(&lower, &upper, &mixture, &mut together);
-    assert_eq!(together.len(), lower.len());
-    for (k, face) in together.iter().enumerate() {
-        exact_fluxes(&lower[k..=k], &upper[k..=k], &mixture, &mut alone);
-        assert_eq!(alone, [*face], "face {k}");
-        let want = flux_exact(lower[k], upper[k], &mixture);
+    let problems: Vec<(usize, [[f64; 5]; 2])> =
+        (0..3 * LANES + 5).map(|face| (face, [state(), state()])).collect();
+    // Some function of what the fluid comes from.
+    let fraction = |p: f64, phi: f64, compression: f64| phi + 1e-3 * p + compression;
+    let solved = |problems: &[(usize, [[f64; 5]; 2])]| {
+        let mut faces = Vec::new();
+        let states = |(_, states): &(usize, [[f64; 5]; 2])| states.map(|w| FaceState { w, gas_share: 0.5 });
+        exact_fluxes(problems, states, &mixture, fraction, |(face, states), sides, flux| {
+            assert_eq!(sides.map(|side| side.w), *states);
+            faces.push((*face, flux));
+        });
+        faces
+    };
+    let together = solved(&problems);
+    assert_eq!(together.len(), problems.len());
+    for (k, (face, (_, [lower, upper]))) in together.iter().zip(&problems).enumerate() {
+        assert_eq!(solved(&problems[k..=k]), [*face], "face {k}");
+        let (number, face) = *face;
+        assert_eq!(number, k);
+        let want = flux_exact(*lower, *upper, &mixture);
         approx::assert_relative_eq!(face.pressure, want.pressure, max_relative = 1e-8);
         approx::assert_relative_eq!(face.mass, want.mass, max_relative = 1e-8);
         approx::assert_relative_eq!(face.compression, want.compression, max_relative = 1e-8);
+        let [_, _, _, p, phi] = if want.velocity < 0.0 { *upper } else { *lower };
+        approx::assert_relative_eq!(face.phi, fraction(p, phi, want.compression), max_relative = 1e-8);
     }
 }

@@ -2,8 +2,9 @@
 
 use mesh::{AlignedRow, Mesh, Padded, Side};
 
+use super::cells::Cells;
 use super::mixed::{MixedCells, Outer};
-use super::reconstruction::{Cells, Stencil};
+use super::reconstruction::Stencil;
 use super::update::{gas_fluxes, gas_shares, settle_gas, update_gas, update_mixed};
 use crate::Boundary;
 use crate::block::{BlockReport, BlockScratch, Marks, StepContext, split_block};
@@ -181,21 +182,18 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let (first, new_gas) = new.split_at_mut(GAS * N * N);
         update_gas::<N>(old_gas, faces[0], faces[1], self.ctx.dt, metric, new_gas);
         let mut rows = split_block::<N>(first);
-        gas.marked.clear();
-        if !gas.mixed.is_empty() {
-            update_mixed::<N>(
-                &gas.mixed,
-                old,
-                pressure,
-                [old_gas, new_gas],
-                faces,
-                metric,
-                &self.stencil(inverse_r),
-                &mut rows,
-                speeds,
-                |cell| gas.marked.push(cell),
-            );
-        }
+        update_mixed::<N>(
+            &gas.mixed,
+            old,
+            pressure,
+            [old_gas, new_gas],
+            faces,
+            metric,
+            &self.stencil(inverse_r),
+            &mut rows,
+            speeds,
+            &mut gas.marked,
+        );
         report.marked = gas.marked.len() as u32;
         report.has_gas = settle_gas(rows[PHI], new_gas);
     }

@@ -5,12 +5,13 @@
 
 use mesh::{Padded, Side};
 
+use super::cells::{CellKind, Cells, FaceState, find_interface};
 use super::closure::{Compression, is_mixed};
-use super::reconstruction::{Cells, FaceState, Stencil, face_states};
+use super::reconstruction::{Stencil, face_states};
+use super::windows::{Window, windows};
 use crate::block::used_face;
 use crate::boundary::beside;
 use crate::exact_rows::exact_fluxes;
-use crate::hllc::Face;
 use crate::rows::{FaceRows, Reconstruction};
 
 /// No mixed cell.
@@ -25,35 +26,21 @@ pub(crate) struct MixedCells {
     states: Vec<[FaceState; 4]>,
     /// Faces along z and r whose fluid comes from a mixed cell, with the gas's part of its mass.
     shares: [Vec<(usize, f64)>; 2],
-    problems: Problems,
+    /// What each padded cell is.
+    kinds: Vec<CellKind>,
+    /// The listed cells but for those beyond the sides of the domain.
+    windows: Vec<Window>,
+    /// The block's own cells that hold both phases, in windows along z.
+    mixed: Vec<Window>,
+    problems: Vec<Problem>,
 }
 
-/// Riemann problems at listed faces.
-#[derive(Clone, Debug, Default)]
-struct Problems {
-    faces: Vec<usize>,
-    /// The states on both sides.
-    lower: Vec<[f64; 5]>,
-    upper: Vec<[f64; 5]>,
-    /// m_g/ρ on both sides; NaN beside a cell that is not listed.
-    gas_shares: Vec<[f64; 2]>,
-    fluxes: Vec<Face>,
-}
-
-impl Problems {
-    fn clear(&mut self) {
-        self.faces.clear();
-        self.lower.clear();
-        self.upper.clear();
-        self.gas_shares.clear();
-    }
-
-    fn put(&mut self, face: usize, lower: FaceState, upper: FaceState) {
-        self.faces.push(face);
-        self.lower.push(lower.w);
-        self.upper.push(upper.w);
-        self.gas_shares.push([lower.gas_share, upper.gas_share]);
-    }
+/// A face of a listed cell: the places of the cells on both sides in the list, or [`NONE`].
+#[derive(Clone, Copy, Debug)]
+struct Problem {
+    face: usize,
+    lower: u32,
+    upper: u32,
 }
 
 impl MixedCells {
@@ -63,7 +50,10 @@ impl MixedCells {
             cells: Vec::with_capacity(len),
             states: Vec::with_capacity(len),
             shares: [Vec::with_capacity(len), Vec::with_capacity(len)],
-            problems: Problems::default(),
+            kinds: vec![CellKind::default(); len],
+            windows: Vec::with_capacity(len),
+            mixed: Vec::with_capacity(len),
+            problems: Vec::with_capacity(len),
         }
     }
 
@@ -76,16 +66,12 @@ impl MixedCells {
         self.shares.iter_mut().for_each(Vec::clear);
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.cells.is_empty()
+    /// The block's own cells that hold both phases, listed or not, in windows along z.
+    pub fn mixed(&self) -> &[Window] {
+        &self.mixed
     }
 
-    /// The padded cells on the list.
-    pub fn cells(&self) -> &[usize] {
-        &self.cells
-    }
-
-    /// The same with the states on their faces.
+    /// The padded cells on the list with the states on their faces.
     pub fn listed(&self) -> impl Iterator<Item = (usize, &[FaceState; 4])> {
         self.cells.iter().copied().zip(&self.states)
     }
@@ -110,25 +96,27 @@ impl MixedCells {
         outer: [Outer; 4],
         is_marked: impl Fn(usize) -> bool,
     ) {
-        let is_listed = |k: usize| is_marked(k) || cells.is_at_interface(k);
+        find_interface(cells, stencil.mixture, &mut self.kinds);
+        let kinds = &self.kinds;
+        let is_listed = |k: usize| kinds[k].is_at_interface || is_marked(k);
+        self.windows.clear();
+        self.mixed.clear();
         for j in 0..N as isize {
             let first = Padded::<N>::index(0, j);
-            for (i, is_at_interface) in cells.are_at_interface::<N>(first).into_iter().enumerate() {
-                if is_at_interface || is_marked(first + i) {
-                    self.list(first + i);
-                }
-            }
+            windows::<N>(first, 1, is_listed, |window| self.windows.push(window));
+            windows::<N>(first, 1, |k| kinds[k].is_mixed, |window| self.mixed.push(window));
         }
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Block) {
-            for along in 0..N {
-                let [_, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
-                if is_listed(ghost) {
-                    self.list(ghost);
-                }
-            }
+            let [first, second] = [0, 1].map(|along| {
+                let [_, (i, j)] = beside(side, N, along);
+                Padded::<N>::index(i, j)
+            });
+            windows::<N>(first, second - first, is_listed, |window| self.windows.push(window));
         }
-        self.states.resize(self.cells.len(), [FaceState::default(); 4]);
-        face_states(cells, &self.cells, stencil, &mut self.states);
+        let windows = std::mem::take(&mut self.windows);
+        windows.iter().flat_map(|window| window.cells()).for_each(|k| self.list(k));
+        self.windows = windows;
+        face_states(cells, &self.windows, stencil, &mut self.states);
         for (k, states) in self.cells.iter().zip(&mut self.states) {
             if is_marked(*k) {
                 *states = [cells.mean(*k); 4];
@@ -160,35 +148,34 @@ impl MixedCells {
         let step = if axis == 0 { 1 } else { Padded::<N>::STRIDE };
         let mut problems = std::mem::take(&mut self.problems);
         problems.clear();
-        let pure = |k: usize, sign: f64| FaceState { w: cells.face_state(k, sign), gas_share: f64::NAN };
-        for (k, states) in self.cells.iter().zip(&self.states) {
+        for (own, &k) in (0..).zip(&self.cells) {
             // The face below is the upper one of a listed neighbour.
-            if self.of(k - step).is_none() && used_face::<N>(k - step, step) {
-                problems.put(k - step, pure(k - step, 1.0), turned(states[2 * axis], axis));
+            if used_face::<N>(k - step, step) && self.index[k - step] == NONE {
+                problems.push(Problem { face: k - step, lower: NONE, upper: own });
             }
-            if used_face::<N>(*k, step) {
-                let upper = match self.of(k + step) {
-                    Some(states) => turned(states[2 * axis], axis),
-                    None => pure(k + step, -1.0),
-                };
-                problems.put(*k, turned(states[2 * axis + 1], axis), upper);
+            if used_face::<N>(k, step) {
+                problems.push(Problem { face: k, lower: own, upper: self.index[k + step] });
             }
         }
-        let Problems { faces: at, lower, upper, gas_shares, fluxes } = &mut problems;
-        exact_fluxes(lower, upper, stencil.mixture, fluxes);
-        for (index, face) in fluxes.iter_mut().enumerate() {
-            let is_upper = usize::from(face.velocity < 0.0);
-            let [_, _, _, p, phi] = [&*lower, &*upper][is_upper][index];
-            if is_mixed(phi) {
-                let compression = Compression::at(p, phi, stencil.mixture, stencil.options.has_closure);
-                face.phi = compression.star_fraction(phi, face.compression);
-            }
-            faces.set(at[index], *face);
-            let gas_share = gas_shares[index][is_upper];
+        let side = |index: u32, k: usize, side: usize| match self.states.get(index as usize) {
+            Some(states) => turned(states[2 * axis + side], axis),
+            None => FaceState { w: cells.face_state(k, [-1.0, 1.0][side]), gas_share: f64::NAN },
+        };
+        let sides = |p: &Problem| [side(p.lower, p.face, 1), side(p.upper, p.face + step, 0)];
+        let Stencil { mixture, options, .. } = *stencil;
+        let star_fraction = |p: f64, phi: f64, compression: f64| {
+            let behind =
+                Compression::at(p, phi, mixture, options.has_closure).star_fraction(phi, compression);
+            if is_mixed(phi) { behind } else { phi }
+        };
+        let shares = &mut self.shares[axis];
+        exact_fluxes(&problems, sides, mixture, star_fraction, |problem, [lower, upper], face| {
+            faces.set(problem.face, face);
+            let gas_share = if face.velocity < 0.0 { upper.gas_share } else { lower.gas_share };
             if !gas_share.is_nan() {
-                self.shares[axis].push((at[index], gas_share));
+                shares.push((problem.face, gas_share));
             }
-        }
+        });
         self.problems = problems;
     }
 

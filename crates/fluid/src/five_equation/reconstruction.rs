@@ -2,15 +2,12 @@
 
 use mesh::Limiter;
 
-use super::closure::{Compression, PURE, is_mixed};
+use super::cells::{Cells, FaceState};
+use super::closure::{Compression, PURE};
 use super::thinc;
+use super::windows::{LANES, Lane, Window};
 use crate::Mixture;
 use crate::options::TwoPhaseOptions;
-
-/// Cells reconstructed together.
-const LANES: usize = 8;
-
-type Lane = [f64; LANES];
 
 /// ρ_g, ρ_l, v_z, v_r, p, φ of the cells.
 type Phases = [Lane; 6];
@@ -23,75 +20,6 @@ const PRESSURE: usize = 4;
 const PHI: usize = 5;
 
 const ZERO: Phases = [[0.0; LANES]; 6];
-
-/// A state on a face: ρ, v_z, v_r, p, φ and the gas's part of the mass.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct FaceState {
-    pub w: [f64; 5],
-    /// m_g/ρ.
-    pub gas_share: f64,
-}
-
-/// The cells of a padded block: ρ, v_z, v_r, p, φ, m_g.
-#[derive(Clone, Copy)]
-pub(crate) struct Cells<'a> {
-    pub rows: [&'a [f64]; 6],
-    /// Distance between cells that neighbour each other along r.
-    pub stride: usize,
-}
-
-impl Cells<'_> {
-    /// The cell's own state, as a face of a cell at first order has it.
-    pub fn mean(&self, k: usize) -> FaceState {
-        let w = [0, 1, 2, 3, 4].map(|c: usize| self.rows[c][k]);
-        FaceState { w, gas_share: self.rows[5][k] / w[0] }
-    }
-
-    /// Whether the cells of a row of N from `first` on are mixed, or pure beside one of the other phase.
-    pub fn are_at_interface<const N: usize>(&self, first: usize) -> [bool; N] {
-        let row = |at: usize| -> &[f64; N] { self.rows[4][at..].first_chunk().expect("rows have ghosts") };
-        let (phi, west, east) = (row(first), row(first - 1), row(first + 1));
-        let (south, north) = (row(first - self.stride), row(first + self.stride));
-        std::array::from_fn(|i| is_at_interface(phi[i], [west[i], east[i], south[i], north[i]]))
-    }
-
-    /// The same of one cell.
-    pub fn is_at_interface(&self, k: usize) -> bool {
-        let phi = self.rows[4];
-        is_at_interface(phi[k], [phi[k - 1], phi[k + 1], phi[k - self.stride], phi[k + self.stride]])
-    }
-
-    /// The cells `by` after some by phases; a phase that is as good as absent has the density `else_densities`.
-    #[inline(always)]
-    fn phases(&self, at: [usize; LANES], by: isize, else_densities: [&Lane; 2]) -> Phases {
-        let [rho_row, v_z, v_r, p, phi, gas_row] = self.rows;
-        let mut phases = ZERO;
-        let (mut rho, mut gas) = ([0.0; LANES], [0.0; LANES]);
-        for (lane, &k) in at.iter().enumerate() {
-            let k = k.wrapping_add_signed(by);
-            (rho[lane], gas[lane]) = (rho_row[k], gas_row[k]);
-            (phases[V_Z][lane], phases[V_R][lane]) = (v_z[k], v_r[k]);
-            (phases[PRESSURE][lane], phases[PHI][lane]) = (p[k], phi[k]);
-        }
-        let phi = phases[PHI];
-        for k in 0..LANES {
-            // A phase's mass may lie below zero by what prediction may take the gas fraction below.
-            let above_zero = |mass: f64| if mass > 0.0 { mass } else { 0.0 };
-            let (gas_volume, liquid_volume) = (phi[k], 1.0 - phi[k]);
-            let (rho_g, rho_l) =
-                (above_zero(gas[k]) / gas_volume, above_zero(rho[k] - gas[k]) / liquid_volume);
-            phases[RHO_G][k] = if gas_volume > PURE { rho_g } else { else_densities[0][k] };
-            phases[RHO_L][k] = if liquid_volume > PURE { rho_l } else { else_densities[1][k] };
-        }
-        phases
-    }
-}
-
-/// Whether a cell is mixed, or pure beside one of the other phase; without branches, for rows of them.
-#[inline(always)]
-fn is_at_interface(phi: f64, around: [f64; 4]) -> bool {
-    around.into_iter().fold(is_mixed(phi), |found, other| found | ((other - phi).abs() > 0.5))
-}
 
 /// What the reconstruction needs to know of the block and the step.
 #[derive(Clone, Copy)]
@@ -113,19 +41,22 @@ pub(crate) struct Stencil<'a> {
 /// and the momentum's of [`crate::rows::rates`]. Phase densities are flat across an interface where partial ones are not. Where
 /// THINC finds a step, the gas fraction is its mean over what crosses the face and the phase densities are the cell's.
 ///
-/// - `at`: the cells; `states`: theirs in the same order, written. They do not depend on each other.
+/// - `windows`: the cells; `states`: those of the listed ones in the same order, written. They do not depend on each
+///   other.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn face_states(
     cells: &Cells<'_>,
-    at: &[usize],
+    windows: &[Window],
     stencil: &Stencil<'_>,
-    states: &mut [[FaceState; 4]],
+    states: &mut Vec<[FaceState; 4]>,
 ) {
     match stencil.limiter {
-        Limiter::Mc => states_of(|a, b| Limiter::Mc.difference(a, b), cells, at, stencil, states),
-        Limiter::Minmod => states_of(|a, b| Limiter::Minmod.difference(a, b), cells, at, stencil, states),
-        Limiter::Eno => states_of(|a, b| Limiter::Eno.difference(a, b), cells, at, stencil, states),
-        Limiter::None => states_of(|a, b| Limiter::None.difference(a, b), cells, at, stencil, states),
+        Limiter::Mc => states_of(|a, b| Limiter::Mc.difference(a, b), cells, windows, stencil, states),
+        Limiter::Minmod => {
+            states_of(|a, b| Limiter::Minmod.difference(a, b), cells, windows, stencil, states)
+        }
+        Limiter::Eno => states_of(|a, b| Limiter::Eno.difference(a, b), cells, windows, stencil, states),
+        Limiter::None => states_of(|a, b| Limiter::None.difference(a, b), cells, windows, stencil, states),
     }
 }
 
@@ -133,39 +64,38 @@ pub(crate) fn face_states(
 fn states_of(
     limit: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
-    at: &[usize],
+    windows: &[Window],
     stencil: &Stencil<'_>,
-    states: &mut [[FaceState; 4]],
+    states: &mut Vec<[FaceState; 4]>,
 ) {
-    let mut faces = [[[0.0; LANES]; 6]; 4];
-    for (chunk, states) in at.chunks(LANES).zip(states.chunks_mut(LANES)) {
-        // All lanes are walked; those left over repeat a cell.
-        let mut lanes = [chunk[0]; LANES];
-        lanes[..chunk.len()].copy_from_slice(chunk);
-        chunk_states(limit, cells, lanes, stencil, &mut faces);
-        for (lane, states) in states.iter_mut().enumerate() {
-            for (state, face) in states.iter_mut().zip(&faces) {
-                let w = [face[0][lane], face[1][lane], face[2][lane], face[3][lane], face[4][lane]];
-                *state = FaceState { w, gas_share: face[5][lane] };
-            }
+    let mut faces = [ZERO; 4];
+    states.clear();
+    for window in windows {
+        window_states(limit, cells, *window, stencil, &mut faces);
+        for lane in (0..LANES).filter(|lane| window.has(*lane)) {
+            let state = |[rho, v_z, v_r, p, phi, gas_share]: &[Lane; 6]| FaceState {
+                w: [rho[lane], v_z[lane], v_r[lane], p[lane], phi[lane]],
+                gas_share: gas_share[lane],
+            };
+            states.push([state(&faces[0]), state(&faces[1]), state(&faces[2]), state(&faces[3])]);
         }
     }
 }
 
 #[inline(always)]
-fn chunk_states(
+fn window_states(
     limit: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
-    at: [usize; LANES],
+    at: Window,
     stencil: &Stencil<'_>,
     faces: &mut [[Lane; 6]; 4],
 ) {
-    let w = cells.phases(at, 0, [&[0.0; LANES]; 2]);
+    let w = phases(cells, at, 0, [&[0.0; LANES]; 2]);
     let own = [&w[RHO_G], &w[RHO_L]];
     let along_r = cells.stride as isize;
     let around = [
-        [cells.phases(at, -1, own), cells.phases(at, 1, own)],
-        [cells.phases(at, -along_r, own), cells.phases(at, along_r, own)],
+        [phases(cells, at, -1, own), phases(cells, at, 1, own)],
+        [phases(cells, at, -along_r, own), phases(cells, at, along_r, own)],
     ];
     let mut differences = [ZERO; 2];
     for (differences, [below, above]) in differences.iter_mut().zip(&around) {
@@ -175,13 +105,12 @@ fn chunk_states(
             }
         }
     }
-    let mut inverse_r = [0.0; LANES];
-    for (inverse, &k) in inverse_r.iter_mut().zip(&at) {
-        *inverse = stencil.inverse_r[k];
-    }
-    let mut half = half_step(&w, &differences, &inverse_r, stencil);
+    let mut half = half_step(&w, &differences, &at.load(stencil.inverse_r, 0), stencil);
     if !stencil.options.has_closure {
-        let shares = at.map(|k| kept_share(cells, k, stencil));
+        let mut shares = [1.0; LANES];
+        for (lane, k) in (0..LANES).filter(|lane| at.has(*lane)).zip(at.cells()) {
+            shares[lane] = kept_share(cells, k, stencil);
+        }
         for c in 0..6 {
             for k in 0..LANES {
                 differences[0][c][k] *= shares[k];
@@ -208,6 +137,29 @@ fn chunk_states(
             admissible(phases, &w, &mut faces[2 * axis + end]);
         }
     }
+}
+
+/// The cells `by` after some by phases; a phase that is as good as absent has the density `else_densities`.
+#[inline(always)]
+fn phases(cells: &Cells<'_>, at: Window, by: isize, else_densities: [&Lane; 2]) -> Phases {
+    let [rho, v_z, v_r, p, phi, gas] = cells.rows;
+    let (rho, v_z, v_r) = (at.load(rho, by), at.load(v_z, by), at.load(v_r, by));
+    let (p, phi, gas) = (at.load(p, by), at.load(phi, by), at.load(gas, by));
+    let mut phases = [[0.0; LANES], [0.0; LANES], v_z, v_r, p, phi];
+    for k in 0..LANES {
+        // A phase's mass may lie below zero by what prediction may take the gas fraction below.
+        let above_zero = |mass: f64| if mass > 0.0 { mass } else { 0.0 };
+        let (has_gas, has_liquid) = (phi[k] > PURE, 1.0 - phi[k] > PURE);
+        let gas_volume = if has_gas { phi[k] } else { 1.0 };
+        let liquid_volume = if has_liquid { 1.0 - phi[k] } else { 1.0 };
+        // One division for both.
+        let inverse = 1.0 / (gas_volume * liquid_volume);
+        let rho_g = above_zero(gas[k]) * (inverse * liquid_volume);
+        let rho_l = above_zero(rho[k] - gas[k]) * (inverse * gas_volume);
+        phases[RHO_G][k] = if has_gas { rho_g } else { else_densities[0][k] };
+        phases[RHO_L][k] = if has_liquid { rho_l } else { else_densities[1][k] };
+    }
+    phases
 }
 
 #[inline(always)]
@@ -254,6 +206,13 @@ fn sharpen(
     per_cell: f64,
     [lower, upper]: &mut [Phases; 2],
 ) {
+    let mut steps = 0;
+    for k in 0..LANES {
+        steps += u64::from(thinc::is_step(below[k], w[PHI][k], above[k], normal[k]));
+    }
+    if steps == 0 {
+        return;
+    }
     for k in 0..LANES {
         let step = thinc::faces(below[k], w[PHI][k], above[k], normal[k], w[V_Z + axis][k] * per_cell);
         let pick = |sharp: f64, smooth: f64| if step.is_step { sharp } else { smooth };
@@ -335,17 +294,18 @@ mod tests {
     use super::*;
     use crate::StiffenedGas;
 
-    const STRIDE: usize = 5;
+    /// Five cells and what windows look at beyond them.
+    const STRIDE: usize = 12;
 
     fn rows(cell: impl Fn(f64, f64) -> [f64; 6]) -> [Vec<f64>; 6] {
         let at = |k: usize| cell((k % STRIDE) as f64 - 2.0, (k / STRIDE) as f64 - 2.0);
-        std::array::from_fn(|c| (0..STRIDE * STRIDE).map(|k| at(k)[c]).collect())
+        std::array::from_fn(|c| (0..5 * STRIDE).map(|k| at(k)[c]).collect())
     }
 
     fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState; 4] {
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
-        let inverse_r = [0.0; STRIDE * STRIDE];
+        let inverse_r = [0.0; 5 * STRIDE];
         let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
         let stencil = Stencil {
             limiter: Limiter::Mc,
@@ -355,8 +315,8 @@ mod tests {
             mixture: &mixture,
             options,
         };
-        let mut states = [[FaceState::default(); 4]];
-        face_states(&cells, &[2 * STRIDE + 2], &stencil, &mut states);
+        let mut states = Vec::new();
+        face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &stencil, &mut states);
         states[0]
     }
 

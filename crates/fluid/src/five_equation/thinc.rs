@@ -1,5 +1,6 @@
 //! THINC: the gas fraction on the faces of a cell as a step that keeps its width.
 
+use super::closure::THIN;
 use crate::elementary::{exp_and_less_one, ln_of};
 
 /// Steepness of the step: three quarters of it lie in one cell. Above 2.5 the time step collapses after a focus; 1.6
@@ -8,9 +9,6 @@ const STEEPNESS: f64 = 2.0;
 
 /// The normal's share below which a direction has no step to reconstruct.
 const OBLIQUE: f64 = 0.05;
-
-/// Gas fractions nearer than this to 0 or 1 have no step in them.
-const RANGE: f64 = 1e-4;
 
 /// What a step across one cell has on its faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,8 +42,7 @@ pub(crate) struct Faces {
 #[inline(always)]
 pub(crate) fn faces(below: f64, phi: f64, above: f64, normal: f64, courant: f64) -> Faces {
     let slant = normal.abs();
-    let is_sharp =
-        (phi > RANGE) & (phi < 1.0 - RANGE) & ((above - phi) * (phi - below) > 0.0) & (slant > OBLIQUE);
+    let is_sharp = is_step(below, phi, above, normal);
     let is_falling = above < below;
     let (lowest, highest) = if is_falling { (above, below) } else { (below, above) };
     let b = STEEPNESS * slant + 0.01;
@@ -78,6 +75,12 @@ pub(crate) fn faces(below: f64, phi: f64, above: f64, normal: f64, courant: f64)
         lower: if is_falling { top } else { bottom },
         upper: if is_falling { bottom } else { top },
     }
+}
+
+/// Whether there may be a step: [`faces`] finds none where this is false.
+#[inline(always)]
+pub(crate) fn is_step(below: f64, phi: f64, above: f64, normal: f64) -> bool {
+    (phi > THIN) & (phi < 1.0 - THIN) & ((above - phi) * (phi - below) > 0.0) & (normal.abs() > OBLIQUE)
 }
 
 /// The largest part of a cell that is taken to leave it in a step.

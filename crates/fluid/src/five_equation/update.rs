@@ -1,13 +1,13 @@
 //! What the five-equation model does to the mixed cells of a block at the end of a step, and to the gas's mass.
 
-use mesh::Padded;
-
-use super::closure::{Compression, bounded, is_mixed, relaxed_fraction};
+use super::closure::bounded;
 use super::mixed::MixedCells;
 use super::reconstruction::Stencil;
+use super::relaxation::{Advected, relaxed_fractions};
+use super::windows::{LANES, Lane};
 use crate::rows::{FaceRows, Rows};
-use crate::state::conserved::{ENERGY, PHI};
-use crate::update::{FaceValues, Metric, balance, settled};
+use crate::state::conserved::{COUNT, ENERGY, PHI};
+use crate::update::{FaceSlices, FaceValues, Metric, balance, settled};
 
 /// The gas's mass fluxes of one direction: the mass flux times the gas's part of the mass in the cell it comes from.
 ///
@@ -84,11 +84,12 @@ const LEAST_SHARE: f64 = 0.2;
 const LEAST_VOLUME: f64 = -1e-9;
 const LARGEST_CHANGE: f64 = 0.5;
 
-/// Redoes the update of the listed cells of a block with the closure's gas fraction.
+/// Redoes the update of a block's mixed cells with the closure's gas fraction.
 ///
 /// - `old`: conserved variables of the block; `pressure`: of its padded cells at the beginning of the step.
 /// - `gas`: m_g before and after the step.
-/// - `mark`: called with the index of each cell that should be done again at first order.
+/// - `marked`: the indices of the cells that should be done again at first order, written.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update_mixed<const N: usize>(
     mixed: &MixedCells,
     old: Rows<'_>,
@@ -97,56 +98,78 @@ pub(crate) fn update_mixed<const N: usize>(
     faces: [&FaceRows; 2],
     metric: &Metric<'_>,
     stencil: &Stencil<'_>,
-    new: &mut [&mut [f64]; 5],
+    new: &mut [&mut [f64]; COUNT],
     speeds: &mut [&mut [f64]; 3],
-    mut mark: impl FnMut(usize),
+    marked: &mut Vec<usize>,
 ) {
     let Stencil { mixture, options, dt, .. } = *stencil;
-    for &k in mixed.cells() {
-        let Some((i, j)) = inner::<N>(k) else { continue };
+    marked.clear();
+    for window in mixed.mixed() {
+        let k = window.first;
+        let (i, j) = ((k - metric.origin) % metric.stride, (k - metric.origin) / metric.stride);
         let at = j * N + i;
-        if !is_mixed(old[PHI][at]) {
-            continue;
-        }
         let row = metric.row(j, dt);
-        let [west, east] = [k - 1, k].map(|face| FaceValues::of(faces[0], face));
-        let [south, north] = [k - metric.stride, k].map(|face| FaceValues::of(faces[1], face));
-        let before = old.map(|component| component[at]);
-        let mut u = balance(before, [west, east, south, north], row);
-        let volume = row.axial(east.velocity, west.velocity) + row.radial(north.velocity, south.velocity);
-        let carried = |face: &FaceValues| face.velocity * face.phi;
-        let gas_volume =
-            row.axial(carried(&east), carried(&west)) + row.radial(carried(&north), carried(&south));
-        let phi = before[PHI];
-        let compression = Compression::at(pressure[k], phi, mixture, options.has_closure);
+        let [west, east] = [k - 1, k].map(|face| FaceSlices::<LANES>::cut(faces[0], face));
+        let [south, north] = [k - metric.stride, k].map(|face| FaceSlices::<LANES>::cut(faces[1], face));
+        let before = old.map(|component| lanes(component, at));
+        let [gas_before, gas_after] = gas.map(|component| lanes(component, at));
+        let mut u = [[0.0; LANES]; COUNT];
+        let mut is_chosen = [false; LANES];
+        let mut cells = Advected::<LANES>::ZERO;
+        for k in 0..LANES {
+            let [west, east, south, north] = [west.at(k), east.at(k), south.at(k), north.at(k)];
+            let own = [before[0][k], before[1][k], before[2][k], before[3][k], before[4][k]];
+            [u[0][k], u[1][k], u[2][k], u[3][k], u[4][k]] = balance(own, [west, east, south, north], row);
+            let carried = |face: FaceValues| face.velocity * face.phi;
+            let volume = row.axial(east.velocity, west.velocity) + row.radial(north.velocity, south.velocity);
+            is_chosen[k] = window.has(k);
+            // What is not chosen has nothing to relax.
+            cells.volume[k] = if is_chosen[k] { volume } else { 0.0 };
+            cells.gas[k] =
+                row.axial(carried(east), carried(west)) + row.radial(carried(north), carried(south));
+        }
+        (cells.phi, cells.p, cells.fraction) = (*before[PHI], *lanes(pressure, k), u[PHI]);
         u[PHI] = if options.has_closure {
-            relaxed_fraction(u[PHI], phi, pressure[k], volume, gas_volume, &compression, mixture)
+            relaxed_fractions(&cells, mixture)
         } else {
-            bounded(u[PHI])
+            cells.fraction.map(bounded)
         };
-        let [gas_before, gas_after] = gas.map(|row| row[at]);
-        let falls = |before: f64, after: f64| after < LEAST_SHARE * before.max(0.0);
-        let is_drained = falls(before[0], u[0])
-            || falls(gas_before, gas_after)
-            || falls(before[0] - gas_before, u[0] - gas_after)
-            || phi - gas_volume < LEAST_VOLUME
-            || (1.0 - phi) - (volume - gas_volume) < LEAST_VOLUME;
-        let internal = u[ENERGY] - 0.5 * (u[1] * u[1] + u[2] * u[2]) / u[0];
-        if is_drained || volume.abs() > LARGEST_CHANGE || !(internal > 0.0) {
-            mark(at);
+        let mut is_marked = [false; LANES];
+        let mut after = [[0.0; LANES]; COUNT + 3];
+        for k in 0..LANES {
+            let own = [u[0][k], u[1][k], u[2][k], u[3][k], u[4][k]];
+            let cell = settled(own, mixture);
+            let [a, b, c, d, e] = cell.conserved;
+            let values = [a, b, c, d, e, cell.speed_z, cell.speed_r, cell.floor];
+            for c in 0..values.len() {
+                after[c][k] = values[c];
+            }
+            let (rho, gas, change) = (before[0][k], gas_before[k], cells.volume[k]);
+            let falls =
+                |before: f64, after: f64| after < LEAST_SHARE * if before > 0.0 { before } else { 0.0 };
+            let is_drained = falls(rho, own[0])
+                | falls(gas, gas_after[k])
+                | falls(rho - gas, own[0] - gas_after[k])
+                | (cells.phi[k] - cells.gas[k] < LEAST_VOLUME)
+                | ((1.0 - cells.phi[k]) - (change - cells.gas[k]) < LEAST_VOLUME);
+            let internal = own[ENERGY] - 0.5 * (own[1] * own[1] + own[2] * own[2]) / own[0];
+            is_marked[k] = is_chosen[k] & (is_drained | (change.abs() > LARGEST_CHANGE) | !(internal > 0.0));
         }
-        let cell = settled(u, mixture);
-        for (row, value) in new.iter_mut().zip(cell.conserved) {
-            row[at] = value;
-        }
-        for (row, value) in speeds.iter_mut().zip([cell.speed_z, cell.speed_r, cell.floor]) {
-            row[at] = value;
-        }
+        let put = |row: &mut [f64], values: &Lane| {
+            let row = &mut row[at..][..LANES];
+            for k in 0..LANES {
+                row[k] = if is_chosen[k] { values[k] } else { row[k] };
+            }
+        };
+        let (new_values, new_speeds) = after.split_at(COUNT);
+        new.iter_mut().zip(new_values).for_each(|(row, values)| put(row, values));
+        speeds.iter_mut().zip(new_speeds).for_each(|(row, values)| put(row, values));
+        marked.extend((0..LANES).filter(|lane| is_marked[*lane]).map(|lane| at + lane));
     }
 }
 
-/// Column and row of a padded cell that is one of the block's own.
-fn inner<const N: usize>(k: usize) -> Option<(usize, usize)> {
-    let inside = |x: usize| x.checked_sub(mesh::GHOSTS).filter(|x| *x < N);
-    Some((inside(k % Padded::<N>::STRIDE)?, inside(k / Padded::<N>::STRIDE)?))
+/// The numbers of a row for the cells of a window.
+#[inline(always)]
+fn lanes(row: &[f64], at: usize) -> &Lane {
+    row[at..].first_chunk().expect("windows end with their rows")
 }
