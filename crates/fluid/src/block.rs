@@ -79,7 +79,7 @@ impl<const N: usize> BlockScratch<N> {
             speeds: Padded::zeros(3),
             face_weight: vec![0.0; N + 1],
             inverse_weight: vec![0.0; N],
-            gas: GasScratch::new(len),
+            gas: GasScratch::new(len, Padded::<N>::STRIDE),
         }
     }
 

@@ -11,14 +11,15 @@ use crate::hllc::Face;
 /// - `states`: those on both sides of a face.
 /// - `fraction`: the gas fraction behind the wave, from the pressure and the gas fraction of the side that the fluid comes
 ///   from and ρ*/ρ.
-/// - `put`: called with every problem, in their order, its states, and its solution, which does not depend on the others.
+/// - `put`: called with every problem, in their order, its solution, which does not depend on the others, and the gas's part
+///   of the mass on the side that the fluid comes from.
 /// - tested by: [`flux_exact`] over random states.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn exact_fluxes<
     T,
     S: Fn(&T) -> [FaceState; 2],
     F: Fn(f64, f64, f64) -> f64,
-    P: FnMut(&T, [FaceState; 2], Face),
+    P: FnMut(&T, Face, f64),
 >(
     problems: &[T],
     states: S,
@@ -29,13 +30,14 @@ pub(crate) fn exact_fluxes<
     let mixture = *mixture;
     let mut chunk = Chunk::zeros();
     let mut rows = [[0.0; LANES]; 8];
-    let mut both = [[FaceState::default(); 2]; LANES];
+    let mut gas_shares = [[0.0; 2]; LANES];
     for problems in problems.chunks(LANES) {
         let n = problems.len();
         for (k, problem) in problems.iter().enumerate() {
-            both[k] = states(problem);
-            take(&mut chunk.left, k, both[k][0].w);
-            take(&mut chunk.right, k, both[k][1].w);
+            let [lower, upper] = states(problem);
+            take(&mut chunk.left, k, lower.w);
+            take(&mut chunk.right, k, upper.w);
+            gas_shares[k] = [lower.gas_share, upper.gas_share];
         }
         solve(n, &mut chunk, &mixture);
         let [mass, velocity, pressure, shear, energy, phi, compression, solved] = &mut rows;
@@ -43,7 +45,7 @@ pub(crate) fn exact_fluxes<
         behind(n, &chunk, &fraction, velocity, compression, phi);
         for (k, problem) in problems.iter().enumerate() {
             let face = if solved[k] == 0.0 {
-                let [lower, upper] = both[k].map(|state| state.w);
+                let [lower, upper] = states(problem).map(|state| state.w);
                 let mut face = flux_exact(lower, upper, &mixture);
                 let [_, _, _, p, phi] = if face.velocity < 0.0 { upper } else { lower };
                 face.phi = fraction(p, phi, face.compression);
@@ -59,7 +61,7 @@ pub(crate) fn exact_fluxes<
                     compression: compression[k],
                 }
             };
-            put(problem, both[k], face);
+            put(problem, face, gas_shares[k][usize::from(face.velocity < 0.0)]);
         }
     }
 }

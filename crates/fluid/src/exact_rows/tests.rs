@@ -191,9 +191,11 @@ fn listed_faces_do_not_depend_on_their_company() {
     let fraction = |p: f64, phi: f64, compression: f64| phi + 1e-3 * p + compression;
     let solved = |problems: &[(usize, [[f64; 5]; 2])]| {
         let mut faces = Vec::new();
-        let states = |(_, states): &(usize, [[f64; 5]; 2])| states.map(|w| FaceState { w, gas_share: 0.5 });
-        exact_fluxes(problems, states, &mixture, fraction, |(face, states), sides, flux| {
-            assert_eq!(sides.map(|side| side.w), *states);
+        let states = |(_, [lower, upper]): &(usize, [[f64; 5]; 2])| {
+            [FaceState { w: *lower, gas_share: 0.25 }, FaceState { w: *upper, gas_share: 0.75 }]
+        };
+        exact_fluxes(problems, states, &mixture, fraction, |(face, _), flux, gas_share| {
+            assert_eq!(gas_share, if flux.velocity < 0.0 { 0.75 } else { 0.25 });
             faces.push((*face, flux));
         });
         faces

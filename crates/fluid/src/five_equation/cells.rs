@@ -40,30 +40,33 @@ fn is_at_interface(p: f64, phi: f64, around: [f64; 4], mixture: &Mixture) -> boo
     around.into_iter().fold(is_compliant(p, phi, mixture), |found, other| found | ((other - phi).abs() > 0.5))
 }
 
-/// What a cell is to the five-equation model.
+/// What the cells of one padded row are to the five-equation model: bit i is cell i of the row.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct CellKind {
+pub(crate) struct RowKinds {
     /// See [`Cells::is_at_interface`].
-    pub is_at_interface: bool,
+    pub at_interface: u64,
     /// See [`is_mixed`].
-    pub is_mixed: bool,
+    pub mixed: u64,
 }
 
 /// The kinds of the cells of a block and of those around it; what lies beyond them is nothing.
+///
+/// - `kinds`: of the padded rows, of up to 64 cells each; written.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn find_interface(cells: &Cells<'_>, mixture: &Mixture, kinds: &mut [CellKind]) {
+pub(crate) fn find_interface(cells: &Cells<'_>, mixture: &Mixture, kinds: &mut [RowKinds]) {
     let stride = cells.stride;
-    let n = kinds.len() - 2 * stride;
-    let cut = |row: usize, at: usize| &cells.rows[row][at..][..n];
-    let (p, phi) = (cut(3, stride), cut(4, stride));
-    let (west, east) = (cut(4, stride - 1), cut(4, stride + 1));
-    let (south, north) = (cut(4, 0), cut(4, 2 * stride));
-    let kinds = &mut kinds[stride..][..n];
-    for k in 0..n {
-        let around = [west[k], east[k], south[k], north[k]];
-        kinds[k] = CellKind {
-            is_at_interface: is_at_interface(p[k], phi[k], around, mixture),
-            is_mixed: is_mixed(phi[k]),
-        };
+    let (first, n) = (1, stride - 2);
+    for j in 1..kinds.len() - 1 {
+        let at = j * stride + first;
+        let cut = |row: usize, at: usize| &cells.rows[row][at..][..n];
+        let (p, phi, west, east) = (cut(3, at), cut(4, at), cut(4, at - 1), cut(4, at + 1));
+        let (south, north) = (cut(4, at - stride), cut(4, at + stride));
+        let mut found = RowKinds::default();
+        for i in 0..n {
+            let around = [west[i], east[i], south[i], north[i]];
+            found.at_interface |= u64::from(is_at_interface(p[i], phi[i], around, mixture)) << i;
+            found.mixed |= u64::from(is_mixed(phi[i])) << i;
+        }
+        kinds[j] = RowKinds { at_interface: found.at_interface << first, mixed: found.mixed << first };
     }
 }

@@ -6,12 +6,12 @@ use super::cells::Cells;
 use super::mixed::{MixedCells, Outer};
 use super::reconstruction::Stencil;
 use super::update::{gas_fluxes, gas_shares, settle_gas, update_gas, update_mixed};
-use crate::Boundary;
 use crate::block::{BlockReport, BlockScratch, Marks, StepContext, split_block};
 use crate::options::TwoPhaseOptions;
 use crate::rows::{FaceRows, Reconstruction, Rows};
 use crate::state::conserved::{GAS, PHI, RHO};
 use crate::update::Metric;
+use crate::{Boundary, RiemannSolver};
 
 /// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
 const NOT_THEIRS: f64 = -0.0;
@@ -27,10 +27,10 @@ pub(crate) struct GasScratch {
 }
 
 impl GasScratch {
-    /// For padded blocks of `len` cells.
-    pub fn new(len: usize) -> Self {
+    /// For padded blocks of `len` cells in rows of `stride`.
+    pub fn new(len: usize, stride: usize) -> Self {
         Self {
-            mixed: MixedCells::new(len),
+            mixed: MixedCells::new(len, stride),
             shares: AlignedRow::zeros(len, 0),
             is_marked: vec![false; len],
             marked: Vec::with_capacity(len),
@@ -101,20 +101,21 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         gas_shares(rows[GAS], rows[RHO], &mut gas.shares);
         self.impose_outer_shares(&mut gas.shares);
         gas.mixed.clear();
-        let has_marks = !self.ctx.marks.is_empty();
-        let marks = &gas.is_marked;
         gas.mixed.collect::<N>(
             &Cells { rows, stride: Padded::<N>::STRIDE },
             &self.stencil(inverse_r),
             Side::ALL.map(|side| self.outer(side)),
-            |k| has_marks && marks[k],
+            (!self.ctx.marks.is_empty()).then_some(&gas.is_marked),
         );
         // What the kernels made of these cells counts for nothing. What the wall to the solid asks for is on the lower
-        // face along z.
+        // face along z; and the exact solver should not labour over what is no state.
+        let is_asked_for = self.outer(Side::ZMin) == Outer::Given || self.ctx.riemann == RiemannSolver::Exact;
         for (k, states) in gas.mixed.listed() {
             keep[k] = NOT_THEIRS;
-            for (component, value) in states[0].w.into_iter().enumerate() {
-                half.component_mut(component)[k] = value;
+            if is_asked_for {
+                for (component, value) in states[0].w.into_iter().enumerate() {
+                    half.component_mut(component)[k] = value;
+                }
             }
         }
     }

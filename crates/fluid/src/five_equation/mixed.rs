@@ -3,9 +3,9 @@
 //! Nearly all cells are pure, and the kernels of `rows.rs` and `update.rs` serve them row by row. What is here walks
 //! lists of the others and puts their fluxes in the place of the kernels'.
 
-use mesh::{Padded, Side};
+use mesh::{GHOSTS, Padded, Side};
 
-use super::cells::{CellKind, Cells, FaceState, find_interface};
+use super::cells::{Cells, FaceState, RowKinds, find_interface};
 use super::closure::{Compression, is_mixed};
 use super::reconstruction::{Stencil, face_states};
 use super::windows::{Window, windows};
@@ -26,8 +26,8 @@ pub(crate) struct MixedCells {
     states: Vec<[FaceState; 4]>,
     /// Faces along z and r whose fluid comes from a mixed cell, with the gas's part of its mass.
     shares: [Vec<(usize, f64)>; 2],
-    /// What each padded cell is.
-    kinds: Vec<CellKind>,
+    /// What the cells of each padded row are.
+    kinds: Vec<RowKinds>,
     /// The listed cells but for those beyond the sides of the domain.
     windows: Vec<Window>,
     /// The block's own cells that hold both phases, in windows along z.
@@ -44,13 +44,14 @@ struct Problem {
 }
 
 impl MixedCells {
-    pub fn new(len: usize) -> Self {
+    /// For padded blocks of `len` cells in rows of `stride`.
+    pub fn new(len: usize, stride: usize) -> Self {
         Self {
             index: vec![NONE; len],
             cells: Vec::with_capacity(len),
             states: Vec::with_capacity(len),
             shares: [Vec::with_capacity(len), Vec::with_capacity(len)],
-            kinds: vec![CellKind::default(); len],
+            kinds: vec![RowKinds::default(); len / stride],
             windows: Vec::with_capacity(len),
             mixed: Vec::with_capacity(len),
             problems: Vec::with_capacity(len),
@@ -88,37 +89,46 @@ impl MixedCells {
     /// Finds and reconstructs the cells of a block and of those of its ghosts that share a face with it.
     ///
     /// - `outer`: what lies beyond each side, see [`Outer`].
-    /// - `is_marked`: cells that fall back to first order; they are on the list also when pure.
+    /// - `is_marked`: padded cells that fall back to first order, if there are any; they are on the list also when pure.
     pub fn collect<const N: usize>(
         &mut self,
         cells: &Cells<'_>,
         stencil: &Stencil<'_>,
         outer: [Outer; 4],
-        is_marked: impl Fn(usize) -> bool,
+        is_marked: Option<&[bool]>,
     ) {
         find_interface(cells, stencil.mixture, &mut self.kinds);
-        let kinds = &self.kinds;
-        let is_listed = |k: usize| kinds[k].is_at_interface || is_marked(k);
+        if let Some(is_marked) = is_marked {
+            let stride = Padded::<N>::STRIDE;
+            for (k, _) in is_marked.iter().enumerate().filter(|(_, is_marked)| **is_marked) {
+                self.kinds[k / stride].at_interface |= 1 << (k % stride);
+            }
+        }
         self.windows.clear();
         self.mixed.clear();
-        for j in 0..N as isize {
-            let first = Padded::<N>::index(0, j);
-            windows::<N>(first, 1, is_listed, |window| self.windows.push(window));
-            windows::<N>(first, 1, |k| kinds[k].is_mixed, |window| self.mixed.push(window));
+        let own = u64::MAX >> (64 - N);
+        for (j, kinds) in self.kinds[GHOSTS..][..N].iter().enumerate() {
+            let first = Padded::<N>::index(0, j as isize);
+            let [listed, mixed] = [kinds.at_interface, kinds.mixed].map(|bits| bits >> GHOSTS & own);
+            windows::<N>(first, 1, listed, |window| self.windows.push(window));
+            windows::<N>(first, 1, mixed, |window| self.mixed.push(window));
         }
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Block) {
-            let [first, second] = [0, 1].map(|along| {
-                let [_, (i, j)] = beside(side, N, along);
+            let ghost = |along: usize| {
+                let [_, (i, j)] = beside(side, N, along as isize);
                 Padded::<N>::index(i, j)
-            });
-            windows::<N>(first, second - first, is_listed, |window| self.windows.push(window));
+            };
+            let bit =
+                |k: usize| self.kinds[k / Padded::<N>::STRIDE].at_interface >> (k % Padded::<N>::STRIDE) & 1;
+            let listed = (0..N).fold(0, |listed, along| listed | bit(ghost(along)) << along);
+            windows::<N>(ghost(0), ghost(1) - ghost(0), listed, |window| self.windows.push(window));
         }
         let windows = std::mem::take(&mut self.windows);
         windows.iter().flat_map(|window| window.cells()).for_each(|k| self.list(k));
         self.windows = windows;
         face_states(cells, &self.windows, stencil, &mut self.states);
-        for (k, states) in self.cells.iter().zip(&mut self.states) {
-            if is_marked(*k) {
+        if let Some(is_marked) = is_marked {
+            for (k, states) in self.cells.iter().zip(&mut self.states).filter(|(k, _)| is_marked[**k]) {
                 *states = [cells.mean(*k); 4];
             }
         }
@@ -169,9 +179,8 @@ impl MixedCells {
             if is_mixed(phi) { behind } else { phi }
         };
         let shares = &mut self.shares[axis];
-        exact_fluxes(&problems, sides, mixture, star_fraction, |problem, [lower, upper], face| {
+        exact_fluxes(&problems, sides, mixture, star_fraction, |problem, face, gas_share| {
             faces.set(problem.face, face);
-            let gas_share = if face.velocity < 0.0 { upper.gas_share } else { lower.gas_share };
             if !gas_share.is_nan() {
                 shares.push((problem.face, gas_share));
             }

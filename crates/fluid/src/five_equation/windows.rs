@@ -39,20 +39,19 @@ impl Window {
 }
 
 /// The fewest windows that hold the cells asked for of a line of N.
+///
+/// - `first`, `step`: the place of the line's first cell and the distance to the next; `asked`: its cells bit by bit.
 pub(crate) fn windows<const N: usize>(
     first: usize,
     step: usize,
-    is_listed: impl Fn(usize) -> bool,
+    mut asked: u64,
     mut put: impl FnMut(Window),
 ) {
-    let is_listed = |along: usize| is_listed(first + along * step);
-    let mut next = 0;
-    while let Some(found) = (next..N).find(|along| is_listed(*along)) {
-        let start = found.min(N - LANES);
-        let bit = |lane: usize| u8::from(start + lane >= found && is_listed(start + lane)) << lane;
-        let listed = (0..LANES).fold(0, |listed, lane| listed | bit(lane));
+    while asked != 0 {
+        let start = (asked.trailing_zeros() as usize).min(N - LANES);
+        let listed = (asked >> start) as u8;
         put(Window { first: first + start * step, step, listed });
-        next = start + LANES;
+        asked &= !(u64::from(listed) << start);
     }
 }
 
@@ -62,18 +61,17 @@ mod tests {
 
     #[test]
     fn windows_hold_the_cells_asked_for_once() {
-        let mut random = 1_u32;
-        for share in [0, 1, 2, 5, 15, 16] {
-            let cells: Vec<bool> = (0..16)
-                .map(|_| {
-                    random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                    (random >> 28) < share
-                })
-                .collect();
+        let mut random = 1_u64;
+        for _ in 0..200 {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let asked = (random >> 48) & (random >> 32) & 0xffff;
             let mut found = Vec::new();
-            windows::<16>(100, 3, |k| cells[(k - 100) / 3], |window| found.extend(window.cells()));
-            let asked: Vec<usize> = (0..16).filter(|k| cells[*k]).map(|k| 100 + 3 * k).collect();
-            assert_eq!(found, asked);
+            windows::<16>(100, 3, asked, |window| {
+                assert!(window.listed != 0 && window.first + 7 * 3 <= 100 + 15 * 3);
+                found.extend(window.cells());
+            });
+            let cells: Vec<usize> = (0..16).filter(|k| asked >> k & 1 == 1).map(|k| 100 + 3 * k).collect();
+            assert_eq!(found, cells);
         }
     }
 }
