@@ -22,7 +22,7 @@ pub(crate) struct Predictor<'a> {
     pub inverse_r: &'a [f64],
     /// Half the time step, s.
     pub half_dt: f64,
-    /// Whether mixed cells count. Those of the five-equation model have face states of their own.
+    /// Whether mixed cells count. Those of the five-equation model that are compliant have face states of their own.
     pub with_mixed: bool,
 }
 

@@ -105,7 +105,7 @@ pub(crate) fn update<const N: usize>(
 
 /// N numbers from `at` on, so that the compiler knows how many.
 #[inline(always)]
-fn row<const N: usize>(numbers: &[f64], at: usize) -> &[f64; N] {
+pub(crate) fn row<const N: usize>(numbers: &[f64], at: usize) -> &[f64; N] {
     numbers[at..].first_chunk().expect("rows are whole")
 }
 

@@ -7,7 +7,7 @@ use super::relaxation::{Advected, relaxed_fractions};
 use super::windows::{LANES, Lane};
 use crate::rows::{FaceRows, Rows};
 use crate::state::conserved::{COUNT, ENERGY, PHI};
-use crate::update::{FaceSlices, FaceValues, Metric, balance, settled};
+use crate::update::{FaceSlices, FaceValues, Metric, balance, row, settled};
 
 /// The gas's mass fluxes of one direction: the mass flux times the gas's part of the mass in the cell it comes from.
 ///
@@ -108,27 +108,28 @@ pub(crate) fn update_mixed<const N: usize>(
         let k = window.first;
         let (i, j) = ((k - metric.origin) % metric.stride, (k - metric.origin) / metric.stride);
         let at = j * N + i;
-        let row = metric.row(j, dt);
+        let widths = metric.row(j, dt);
         let [west, east] = [k - 1, k].map(|face| FaceSlices::<LANES>::cut(faces[0], face));
         let [south, north] = [k - metric.stride, k].map(|face| FaceSlices::<LANES>::cut(faces[1], face));
-        let before = old.map(|component| lanes(component, at));
-        let [gas_before, gas_after] = gas.map(|component| lanes(component, at));
+        let before = old.map(|component| row::<LANES>(component, at));
+        let [gas_before, gas_after] = gas.map(|component| row::<LANES>(component, at));
         let mut u = [[0.0; LANES]; COUNT];
         let mut is_chosen = [false; LANES];
         let mut cells = Advected::<LANES>::ZERO;
         for k in 0..LANES {
             let [west, east, south, north] = [west.at(k), east.at(k), south.at(k), north.at(k)];
             let own = [before[0][k], before[1][k], before[2][k], before[3][k], before[4][k]];
-            [u[0][k], u[1][k], u[2][k], u[3][k], u[4][k]] = balance(own, [west, east, south, north], row);
+            [u[0][k], u[1][k], u[2][k], u[3][k], u[4][k]] = balance(own, [west, east, south, north], widths);
             let carried = |face: FaceValues| face.velocity * face.phi;
-            let volume = row.axial(east.velocity, west.velocity) + row.radial(north.velocity, south.velocity);
+            let volume =
+                widths.axial(east.velocity, west.velocity) + widths.radial(north.velocity, south.velocity);
             is_chosen[k] = window.has(k);
             // What is not chosen has nothing to relax.
             cells.volume[k] = if is_chosen[k] { volume } else { 0.0 };
             cells.gas[k] =
-                row.axial(carried(east), carried(west)) + row.radial(carried(north), carried(south));
+                widths.axial(carried(east), carried(west)) + widths.radial(carried(north), carried(south));
         }
-        (cells.phi, cells.p, cells.fraction) = (*before[PHI], *lanes(pressure, k), u[PHI]);
+        (cells.phi, cells.p, cells.fraction) = (*before[PHI], *row::<LANES>(pressure, k), u[PHI]);
         u[PHI] = if options.has_closure {
             relaxed_fractions(&cells, mixture)
         } else {
@@ -166,10 +167,4 @@ pub(crate) fn update_mixed<const N: usize>(
         speeds.iter_mut().zip(new_speeds).for_each(|(row, values)| put(row, values));
         marked.extend((0..LANES).filter(|lane| is_marked[*lane]).map(|lane| at + lane));
     }
-}
-
-/// The numbers of a row for the cells of a window.
-#[inline(always)]
-fn lanes(row: &[f64], at: usize) -> &Lane {
-    row[at..].first_chunk().expect("windows end with their rows")
 }
