@@ -7,6 +7,8 @@
 
 mod listed;
 
+use std::hint::select_unpredictable;
+
 use mesh::whole_lines;
 
 use crate::Mixture;
@@ -331,7 +333,8 @@ fn fluxes(
         let u_star = 0.5 * ((left.u[k] - f_left[k]) + (right.u[k] + f_right[k]));
         let p_star = p[k];
         let from_left = u_star >= 0.0;
-        let pick = |l: &Lane, r: &Lane| if from_left { l[k] } else { r[k] };
+        // Loads of both and a choice: of a branch LLVM makes a gather from where the choice falls.
+        let pick = |l: &Lane, r: &Lane| select_unpredictable(from_left, l[k], r[k]);
         let ratio = |s: &Sides| (shifted[k] + s.offset[k]) * s.inverse_base[k];
         let (ratio_l, ratio_r) = (ratio(left), ratio(right));
         // The upwind side as a left one: a right wave is a left wave seen from behind.

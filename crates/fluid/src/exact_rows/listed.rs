@@ -1,5 +1,7 @@
 //! Exact Riemann solutions at listed faces, wherever they lie.
 
+use std::hint::select_unpredictable;
+
 use super::{Chunk, LANES, Lane, Sides, fluxes, solve};
 use crate::Mixture;
 use crate::five_equation::FaceState;
@@ -82,7 +84,7 @@ fn behind(
     phi: &mut Lane,
 ) {
     for k in 0..n.min(LANES) {
-        let p = if velocity[k] < 0.0 { chunk.right.p[k] } else { chunk.left.p[k] };
+        let p = select_unpredictable(velocity[k] < 0.0, chunk.right.p[k], chunk.left.p[k]);
         phi[k] = fraction(p, phi[k], compression[k]);
     }
 }

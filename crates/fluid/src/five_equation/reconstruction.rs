@@ -99,8 +99,9 @@ fn window_states(
     ];
     let mut differences = [ZERO; 2];
     for (differences, [below, above]) in differences.iter_mut().zip(&around) {
-        for c in 0..6 {
-            for k in 0..LANES {
+        // Lane by lane: of a loop over the components around one over the lanes LLVM makes gathers.
+        for k in 0..LANES {
+            for c in 0..6 {
                 differences[c][k] = limit(w[c][k] - below[c][k], above[c][k] - w[c][k]);
             }
         }
@@ -111,8 +112,8 @@ fn window_states(
         for (lane, k) in (0..LANES).filter(|lane| at.has(*lane)).zip(at.cells()) {
             shares[lane] = kept_share(cells, k, stencil);
         }
-        for c in 0..6 {
-            for k in 0..LANES {
+        for k in 0..LANES {
+            for c in 0..6 {
                 differences[0][c][k] *= shares[k];
                 differences[1][c][k] *= shares[k];
                 half[c][k] = w[c][k] + shares[k] * (half[c][k] - w[c][k]);
@@ -122,8 +123,8 @@ fn window_states(
     let normals = normals(&around, stencil.inverse_h);
     for axis in 0..2 {
         let mut ends = [ZERO; 2];
-        for c in 0..6 {
-            for k in 0..LANES {
+        for k in 0..LANES {
+            for c in 0..6 {
                 ends[0][c][k] = half[c][k] - 0.5 * differences[axis][c][k];
                 ends[1][c][k] = half[c][k] + 0.5 * differences[axis][c][k];
             }

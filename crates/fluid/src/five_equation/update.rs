@@ -1,5 +1,7 @@
 //! What the five-equation model does to the mixed cells of a block at the end of a step, and to the gas's mass.
 
+use std::hint::select_unpredictable;
+
 use super::closure::bounded;
 use super::mixed::MixedCells;
 use super::reconstruction::Stencil;
@@ -19,7 +21,7 @@ pub(crate) fn gas_fluxes(gas_shares: &[f64], step: usize, faces: &mut FaceRows) 
     let (gas, mass) = faces.gas_mut();
     let (gas, mass) = (&mut gas[..n], &mass[..n]);
     for k in 0..n {
-        gas[k] = mass[k] * if mass[k] >= 0.0 { below[k] } else { above[k] };
+        gas[k] = mass[k] * select_unpredictable(mass[k] >= 0.0, below[k], above[k]);
     }
 }
 
