@@ -79,7 +79,7 @@ impl<const N: usize> BlockScratch<N> {
             speeds: Padded::zeros(3),
             face_weight: vec![0.0; N + 1],
             inverse_weight: vec![0.0; N],
-            gas: GasScratch::new(len, Padded::<N>::STRIDE),
+            gas: GasScratch::new::<N>(),
         }
     }
 
@@ -184,6 +184,7 @@ pub(crate) fn step_block<const N: usize>(
 
     let gas_block = GasBlock::of(ctx, slot);
     assemble(ctx, slot, gas_block.is_some(), scratch);
+    let gas_block = gas_block.and_then(|block| block.reached_by_gas(&scratch.cells));
     let predictor = Predictor {
         limiter: ctx.limiter,
         stride,

@@ -17,7 +17,7 @@ use crate::elementary::{exp_and_less_one, ln_of};
 use crate::godunov::flux_exact;
 use crate::rows::{FaceRows, Reconstruction};
 
-pub(crate) use listed::exact_fluxes;
+pub(crate) use listed::{ListedFaces, exact_fluxes};
 
 /// Faces solved together: few, as all of them wait for the slowest one.
 const LANES: usize = 16;

@@ -278,15 +278,34 @@ impl FaceRows {
         }
     }
 
+    /// The rows that all models have, in the order of the fields. To take them once saves kernels the way to each row.
+    #[inline(always)]
+    pub fn fluxes(&self) -> [&[f64]; 6] {
+        [&self.mass, &self.velocity, &self.pressure, &self.shear, &self.energy, &self.phi]
+    }
+
+    /// See [`FaceRows::fluxes`].
+    #[inline(always)]
+    pub fn fluxes_mut(&mut self) -> [&mut [f64]; 6] {
+        let Self { mass, velocity, pressure, shear, energy, phi, .. } = self;
+        [mass, velocity, pressure, shear, energy, phi]
+    }
+
     #[inline(always)]
     pub fn set(&mut self, k: usize, face: Face) {
-        self.mass[k] = face.mass;
-        self.velocity[k] = face.velocity;
-        self.pressure[k] = face.pressure;
-        self.shear[k] = face.shear;
-        self.energy[k] = face.energy;
-        self.phi[k] = face.phi;
+        set_face(&mut self.fluxes_mut(), k, face);
     }
+}
+
+/// Writes one face into [`FaceRows::fluxes_mut`].
+#[inline(always)]
+pub(crate) fn set_face([mass, velocity, pressure, shear, energy, phi]: &mut [&mut [f64]; 6], k: usize, face: Face) {
+    mass[k] = face.mass;
+    velocity[k] = face.velocity;
+    pressure[k] = face.pressure;
+    shear[k] = face.shear;
+    energy[k] = face.energy;
+    phi[k] = face.phi;
 }
 
 /// The reconstructed cells on whose faces Riemann problems are solved.

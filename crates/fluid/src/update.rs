@@ -80,6 +80,7 @@ pub(crate) fn update<const N: usize>(
 ) {
     let [rho, mz, mr, energy, phi] = new;
     let [speed_z, speed_r, floor] = speeds;
+    let (z_faces, r_faces) = (z_faces.fluxes(), r_faces.fluxes());
     for j in 0..N {
         let at = j * N;
         let k = metric.origin + j * metric.stride;
@@ -114,7 +115,7 @@ fn row_mut<const N: usize>(numbers: &mut [f64], at: usize) -> &mut [f64; N] {
     numbers[at..].first_chunk_mut().expect("rows are whole")
 }
 
-/// [`FaceRows`] cut to the faces of one row of cells.
+/// [`FaceRows::fluxes`] cut to the faces of one row of cells.
 #[derive(Clone, Copy)]
 pub(crate) struct FaceSlices<'a, const N: usize> {
     mass: &'a [f64; N],
@@ -127,14 +128,14 @@ pub(crate) struct FaceSlices<'a, const N: usize> {
 
 impl<'a, const N: usize> FaceSlices<'a, N> {
     #[inline(always)]
-    pub fn cut(faces: &'a FaceRows, at: usize) -> Self {
+    pub fn cut([mass, velocity, pressure, shear, energy, phi]: [&'a [f64]; 6], at: usize) -> Self {
         Self {
-            mass: row(&faces.mass, at),
-            velocity: row(&faces.velocity, at),
-            pressure: row(&faces.pressure, at),
-            shear: row(&faces.shear, at),
-            energy: row(&faces.energy, at),
-            phi: row(&faces.phi, at),
+            mass: row(mass, at),
+            velocity: row(velocity, at),
+            pressure: row(pressure, at),
+            shear: row(shear, at),
+            energy: row(energy, at),
+            phi: row(phi, at),
         }
     }
 

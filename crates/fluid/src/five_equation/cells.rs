@@ -1,7 +1,9 @@
 //! The cells of a padded block, and which of them the five-equation model serves on its own.
 
-use super::closure::{is_compliant, is_mixed};
+use super::closure::{PURE, is_compliant, is_mixed};
+use super::windows::{LANES, bits};
 use crate::Mixture;
+use crate::update::row as row_of;
 
 /// A state on a face: ρ, v_z, v_r, p, φ and the gas's part of the mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,7 +39,13 @@ impl Cells<'_> {
 
 #[inline(always)]
 fn is_at_interface(p: f64, phi: f64, around: [f64; 4], mixture: &Mixture) -> bool {
-    around.into_iter().fold(is_compliant(p, phi, mixture), |found, other| found | ((other - phi).abs() > 0.5))
+    is_compliant(p, phi, mixture) | is_beside_another(phi, around)
+}
+
+/// Whether one phase is beside the other.
+#[inline(always)]
+fn is_beside_another(phi: f64, around: [f64; 4]) -> bool {
+    around.into_iter().fold(false, |found, other| found | ((other - phi).abs() > 0.5))
 }
 
 /// What the cells of one padded row are to the five-equation model: bit i is cell i of the row.
@@ -56,17 +64,46 @@ pub(crate) struct RowKinds {
 pub(crate) fn find_interface(cells: &Cells<'_>, mixture: &Mixture, kinds: &mut [RowKinds]) {
     let stride = cells.stride;
     let (first, n) = (1, stride - 2);
-    for j in 1..kinds.len() - 1 {
-        let at = j * stride + first;
-        let cut = |row: usize, at: usize| &cells.rows[row][at..][..n];
-        let (p, phi, west, east) = (cut(3, at), cut(4, at), cut(4, at - 1), cut(4, at + 1));
-        let (south, north) = (cut(4, at - stride), cut(4, at + stride));
-        let mut found = RowKinds::default();
-        for i in 0..n {
-            let around = [west[i], east[i], south[i], north[i]];
-            found.at_interface |= u64::from(is_at_interface(p[i], phi[i], around, mixture)) << i;
-            found.mixed |= u64::from(is_mixed(phi[i])) << i;
-        }
-        kinds[j] = RowKinds { at_interface: found.at_interface << first, mixed: found.mixed << first };
+    if is_pure(cells.rows[4]) {
+        kinds.fill(RowKinds::default());
+        return;
     }
+    for j in 1..kinds.len() - 1 {
+        let mut row = RowKinds::default();
+        for start in (0..n).step_by(LANES).map(|start| start.min(n - LANES)) {
+            let found = kinds_of_eight(cells, j * stride + first + start, mixture);
+            row.at_interface |= found.at_interface << (first + start);
+            row.mixed |= found.mixed << (first + start);
+        }
+        kinds[j] = row;
+    }
+}
+
+/// Whether all cells hold the same phase, as most blocks' do.
+#[inline(always)]
+fn is_pure(phi: &[f64]) -> bool {
+    let (mut is_liquid, mut is_gas) = (true, true);
+    for phi in phi {
+        is_liquid &= *phi <= PURE;
+        is_gas &= *phi >= 1.0 - PURE;
+    }
+    is_liquid | is_gas
+}
+
+/// The kinds of the cells from `at` on, the first one's in the lowest bit.
+#[inline(always)]
+fn kinds_of_eight(cells: &Cells<'_>, at: usize, mixture: &Mixture) -> RowKinds {
+    let load = |row: usize, at: usize| row_of::<LANES>(cells.rows[row], at);
+    let (phi, west, east) = (load(4, at), load(4, at - 1), load(4, at + 1));
+    let (south, north) = (load(4, at - cells.stride), load(4, at + cells.stride));
+    let beside = std::array::from_fn(|k| is_beside_another(phi[k], [west[k], east[k], south[k], north[k]]));
+    let mixed = u64::from(bits(std::array::from_fn(|k| is_mixed(phi[k]))));
+    // Few rows hold both phases; whether they give way takes a division.
+    let compliant = if mixed == 0 {
+        [false; LANES]
+    } else {
+        let p = load(3, at);
+        std::array::from_fn(|k| is_compliant(p[k], phi[k], mixture))
+    };
+    RowKinds { at_interface: u64::from(bits(beside) | bits(compliant)), mixed }
 }

@@ -5,7 +5,7 @@ use mesh::{AlignedRow, Mesh, Padded, Side};
 use super::cells::Cells;
 use super::mixed::{MixedCells, Outer};
 use super::reconstruction::Stencil;
-use super::update::{gas_fluxes, gas_shares, settle_gas, update_gas, update_mixed};
+use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
 use crate::block::{BlockReport, BlockScratch, Marks, StepContext, split_block};
 use crate::options::TwoPhaseOptions;
 use crate::rows::{FaceRows, Reconstruction, Rows};
@@ -27,10 +27,10 @@ pub(crate) struct GasScratch {
 }
 
 impl GasScratch {
-    /// For padded blocks of `len` cells in rows of `stride`.
-    pub fn new(len: usize, stride: usize) -> Self {
+    pub fn new<const N: usize>() -> Self {
+        let len = Padded::<N>::LEN;
         Self {
-            mixed: MixedCells::new(len, stride),
+            mixed: MixedCells::new::<N>(),
             shares: AlignedRow::zeros(len, 0),
             is_marked: vec![false; len],
             marked: Vec::with_capacity(len),
@@ -78,6 +78,21 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let level = ctx.mesh.tree().leaves()[slot].level;
         let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
         is_near_gas(ctx, slot).then_some(Self { ctx, slot, options, inverse_h })
+    }
+
+    /// The same if there is gas in the block's padded cells or may come in through a side; what a neighbour has may be
+    /// farther away.
+    ///
+    /// - `cells`: the padded cells, primitive.
+    pub fn reached_by_gas(self, cells: &Padded<N>) -> Option<Self> {
+        let may_come_in = |side: Side| {
+            self.ctx.mesh.touches(self.slot, side)
+                && matches!(self.ctx.boundaries.kind(side), Boundary::NonReflecting | Boundary::Inflow)
+        };
+        let is_reached = !self.ctx.marks.is_empty()
+            || Side::ALL.into_iter().any(may_come_in)
+            || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)));
+        is_reached.then_some(self)
     }
 
     fn stencil<'b>(&self, inverse_r: &'b [f64]) -> Stencil<'b>

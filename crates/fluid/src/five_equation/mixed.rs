@@ -11,8 +11,9 @@ use super::reconstruction::{Stencil, face_states};
 use super::windows::{Window, windows};
 use crate::block::used_face;
 use crate::boundary::beside;
-use crate::exact_rows::exact_fluxes;
-use crate::rows::{FaceRows, Reconstruction};
+use crate::exact_rows::{ListedFaces, exact_fluxes};
+use crate::hllc::Face;
+use crate::rows::{FaceRows, Reconstruction, set_face};
 
 /// No mixed cell.
 const NONE: u32 = u32::MAX;
@@ -33,6 +34,8 @@ pub(crate) struct MixedCells {
     /// The block's own cells that hold both phases, in windows along z.
     mixed: Vec<Window>,
     problems: Vec<Problem>,
+    /// Whether the faces above the padded cells bound cells of the block: bit 0 along z, bit 1 along r.
+    is_used: Vec<u8>,
 }
 
 /// A face of a listed cell: the places of the cells on both sides in the list, or [`NONE`].
@@ -44,9 +47,11 @@ struct Problem {
 }
 
 impl MixedCells {
-    /// For padded blocks of `len` cells in rows of `stride`.
-    pub fn new(len: usize, stride: usize) -> Self {
+    pub fn new<const N: usize>() -> Self {
+        let (len, stride) = (Padded::<N>::LEN, Padded::<N>::STRIDE);
+        let is_used = |k: usize, step: usize| u8::from(used_face::<N>(k, step));
         Self {
+            is_used: (0..len).map(|k| is_used(k, 1) | is_used(k, stride) << 1).collect(),
             index: vec![NONE; len],
             cells: Vec::with_capacity(len),
             states: Vec::with_capacity(len),
@@ -155,36 +160,35 @@ impl MixedCells {
         stencil: &Stencil<'_>,
         faces: &mut FaceRows,
     ) {
-        let step = if axis == 0 { 1 } else { Padded::<N>::STRIDE };
+        if axis == 0 {
+            self.solve_along::<N, 0>(cells, stencil, faces);
+        } else {
+            self.solve_along::<N, 1>(cells, stencil, faces);
+        }
+    }
+
+    fn solve_along<const N: usize, const AXIS: usize>(
+        &mut self,
+        cells: &Reconstruction<'_>,
+        stencil: &Stencil<'_>,
+        faces: &mut FaceRows,
+    ) {
+        let step = if AXIS == 0 { 1 } else { Padded::<N>::STRIDE };
         let mut problems = std::mem::take(&mut self.problems);
         problems.clear();
         for (own, &k) in (0..).zip(&self.cells) {
             // The face below is the upper one of a listed neighbour.
-            if used_face::<N>(k - step, step) && self.index[k - step] == NONE {
+            if self.is_used[k - step] >> AXIS & 1 == 1 && self.index[k - step] == NONE {
                 problems.push(Problem { face: k - step, lower: NONE, upper: own });
             }
-            if used_face::<N>(k, step) {
+            if self.is_used[k] >> AXIS & 1 == 1 {
                 problems.push(Problem { face: k, lower: own, upper: self.index[k + step] });
             }
         }
-        let side = |index: u32, k: usize, side: usize| match self.states.get(index as usize) {
-            Some(states) => turned(states[2 * axis + side], axis),
-            None => FaceState { w: cells.face_state(k, [-1.0, 1.0][side]), gas_share: f64::NAN },
-        };
-        let sides = |p: &Problem| [side(p.lower, p.face, 1), side(p.upper, p.face + step, 0)];
-        let Stencil { mixture, options, .. } = *stencil;
-        let star_fraction = |p: f64, phi: f64, compression: f64| {
-            let behind =
-                Compression::at(p, phi, mixture, options.has_closure).star_fraction(phi, compression);
-            if is_mixed(phi) { behind } else { phi }
-        };
-        let shares = &mut self.shares[axis];
-        exact_fluxes(&problems, sides, mixture, star_fraction, |problem, face, gas_share| {
-            faces.set(problem.face, face);
-            if !gas_share.is_nan() {
-                shares.push((problem.face, gas_share));
-            }
-        });
+        let shares = &mut self.shares[AXIS];
+        let fluxes = faces.fluxes_mut();
+        let mut listed = Along::<AXIS> { states: &self.states, cells, stencil, step, shares, fluxes };
+        exact_fluxes(&problems, &mut listed, stencil.mixture);
         self.problems = problems;
     }
 
@@ -193,6 +197,52 @@ impl MixedCells {
         let (gas, mass) = faces.gas_mut();
         for &(k, share) in &self.shares[axis] {
             gas[k] = mass[k] * share;
+        }
+    }
+}
+
+/// Faces of listed cells along one axis (0: z, 1: r).
+struct Along<'a, const AXIS: usize> {
+    states: &'a [[FaceState; 4]],
+    /// The other cells.
+    cells: &'a Reconstruction<'a>,
+    stencil: &'a Stencil<'a>,
+    step: usize,
+    shares: &'a mut Vec<(usize, f64)>,
+    fluxes: [&'a mut [f64]; 6],
+}
+
+impl<const AXIS: usize> Along<'_, AXIS> {
+    /// What a cell has on its lower (0) or upper (1) face.
+    #[inline(always)]
+    fn side(&self, index: u32, k: usize, side: usize) -> FaceState {
+        match self.states.get(index as usize) {
+            Some(states) => turned(states[2 * AXIS + side], AXIS),
+            None => FaceState { w: self.cells.face_state(k, [-1.0, 1.0][side]), gas_share: f64::NAN },
+        }
+    }
+}
+
+impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
+    type Face = Problem;
+
+    #[inline(always)]
+    fn states(&self, face: &Problem) -> [FaceState; 2] {
+        [self.side(face.lower, face.face, 1), self.side(face.upper, face.face + self.step, 0)]
+    }
+
+    #[inline(always)]
+    fn star_fraction(&self, p: f64, phi: f64, compression: f64) -> f64 {
+        let Stencil { mixture, options, .. } = self.stencil;
+        let behind = Compression::at(p, phi, mixture, options.has_closure).star_fraction(phi, compression);
+        if is_mixed(phi) { behind } else { phi }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, face: &Problem, solution: Face, gas_share: f64) {
+        set_face(&mut self.fluxes, face.face, solution);
+        if !gas_share.is_nan() {
+            self.shares.push((face.face, gas_share));
         }
     }
 }
@@ -209,6 +259,7 @@ pub(crate) enum Outer {
 }
 
 /// Normal and tangential velocity in the places of the axial and the radial one.
+#[inline(always)]
 fn turned(state: FaceState, axis: usize) -> FaceState {
     let [rho, v_z, v_r, p, phi] = state.w;
     if axis == 0 { state } else { FaceState { w: [rho, v_r, v_z, p, phi], ..state } }

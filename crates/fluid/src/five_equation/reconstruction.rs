@@ -5,7 +5,7 @@ use mesh::Limiter;
 use super::cells::{Cells, FaceState};
 use super::closure::{Compression, PURE};
 use super::thinc;
-use super::windows::{LANES, Lane, Window};
+use super::windows::{LANES, Lane, Window, lanes};
 use crate::Mixture;
 use crate::options::TwoPhaseOptions;
 
@@ -72,7 +72,7 @@ fn states_of(
     states.clear();
     for window in windows {
         window_states(limit, cells, *window, stencil, &mut faces);
-        for lane in (0..LANES).filter(|lane| window.has(*lane)) {
+        for lane in lanes(window.listed) {
             let state = |[rho, v_z, v_r, p, phi, gas_share]: &[Lane; 6]| FaceState {
                 w: [rho[lane], v_z[lane], v_r[lane], p[lane], phi[lane]],
                 gas_share: gas_share[lane],
@@ -109,7 +109,7 @@ fn window_states(
     let mut half = half_step(&w, &differences, &at.load(stencil.inverse_r, 0), stencil);
     if !stencil.options.has_closure {
         let mut shares = [1.0; LANES];
-        for (lane, k) in (0..LANES).filter(|lane| at.has(*lane)).zip(at.cells()) {
+        for (lane, k) in lanes(at.listed).zip(at.cells()) {
             shares[lane] = kept_share(cells, k, stencil);
         }
         for k in 0..LANES {

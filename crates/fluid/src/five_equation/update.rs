@@ -6,7 +6,8 @@ use super::closure::bounded;
 use super::mixed::MixedCells;
 use super::reconstruction::Stencil;
 use super::relaxation::{Advected, relaxed_fractions};
-use super::windows::{LANES, Lane};
+use super::windows::{LANES, Lane, bits, lanes};
+use crate::Mixture;
 use crate::rows::{FaceRows, Rows};
 use crate::state::conserved::{COUNT, ENERGY, PHI};
 use crate::update::{FaceSlices, FaceValues, Metric, balance, row, settled};
@@ -31,6 +32,12 @@ pub(crate) fn gas_shares(gas: &[f64], density: &[f64], shares: &mut [f64]) {
     for (share, (gas, density)) in shares.iter_mut().zip(gas.iter().zip(density)) {
         *share = gas / density;
     }
+}
+
+/// Whether a row holds nothing but zeros.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn is_zero(row: &[f64]) -> bool {
+    row.iter().fold(true, |found, value| found & (*value == 0.0))
 }
 
 /// Advances the gas's mass m_g of a block of N² cells.
@@ -106,6 +113,9 @@ pub(crate) fn update_mixed<const N: usize>(
 ) {
     let Stencil { mixture, options, dt, .. } = *stencil;
     marked.clear();
+    let faces = faces.map(FaceRows::fluxes);
+    // A loop of eight that the compiler knows to be of eight it unrolls, and then finds no vectors in it.
+    let eight = std::hint::black_box(LANES);
     for window in mixed.mixed() {
         let k = window.first;
         let (i, j) = ((k - metric.origin) % metric.stride, (k - metric.origin) / metric.stride);
@@ -137,26 +147,20 @@ pub(crate) fn update_mixed<const N: usize>(
         } else {
             cells.fraction.map(bounded)
         };
-        let mut is_marked = [false; LANES];
         let mut after = [[0.0; LANES]; COUNT + 3];
+        settle(eight, &u, mixture, &mut after);
+        let mut is_marked = [false; LANES];
         for k in 0..LANES {
-            let own = [u[0][k], u[1][k], u[2][k], u[3][k], u[4][k]];
-            let cell = settled(own, mixture);
-            let [a, b, c, d, e] = cell.conserved;
-            let values = [a, b, c, d, e, cell.speed_z, cell.speed_r, cell.floor];
-            for c in 0..values.len() {
-                after[c][k] = values[c];
-            }
             let (rho, gas, change) = (before[0][k], gas_before[k], cells.volume[k]);
             let falls =
                 |before: f64, after: f64| after < LEAST_SHARE * if before > 0.0 { before } else { 0.0 };
-            let is_drained = falls(rho, own[0])
+            let is_drained = falls(rho, u[0][k])
                 | falls(gas, gas_after[k])
-                | falls(rho - gas, own[0] - gas_after[k])
+                | falls(rho - gas, u[0][k] - gas_after[k])
                 | (cells.phi[k] - cells.gas[k] < LEAST_VOLUME)
                 | ((1.0 - cells.phi[k]) - (change - cells.gas[k]) < LEAST_VOLUME);
-            let internal = own[ENERGY] - 0.5 * (own[1] * own[1] + own[2] * own[2]) / own[0];
-            is_marked[k] = is_chosen[k] & (is_drained | (change.abs() > LARGEST_CHANGE) | !(internal > 0.0));
+            let internal = u[ENERGY][k] - 0.5 * (u[1][k] * u[1][k] + u[2][k] * u[2][k]) / u[0][k];
+            is_marked[k] = is_drained | (change.abs() > LARGEST_CHANGE) | !(internal > 0.0);
         }
         let put = |row: &mut [f64], values: &Lane| {
             let row = &mut row[at..][..LANES];
@@ -167,6 +171,17 @@ pub(crate) fn update_mixed<const N: usize>(
         let (new_values, new_speeds) = after.split_at(COUNT);
         new.iter_mut().zip(new_values).for_each(|(row, values)| put(row, values));
         speeds.iter_mut().zip(new_speeds).for_each(|(row, values)| put(row, values));
-        marked.extend((0..LANES).filter(|lane| is_marked[*lane]).map(|lane| at + lane));
+        marked.extend(lanes(window.listed & bits(is_marked)).map(|lane| at + lane));
+    }
+}
+
+/// [`settled`] of the first `n` lanes: what is conserved, and the two speeds and the floor's energy.
+#[inline(always)]
+fn settle(n: usize, u: &[Lane; COUNT], mixture: &Mixture, after: &mut [Lane; COUNT + 3]) {
+    let [rho, mz, mr, energy, phi, speed_z, speed_r, floor] = after;
+    for k in 0..n.min(LANES) {
+        let cell = settled([u[0][k], u[1][k], u[2][k], u[3][k], u[4][k]], mixture);
+        [rho[k], mz[k], mr[k], energy[k], phi[k]] = cell.conserved;
+        (speed_z[k], speed_r[k], floor[k]) = (cell.speed_z, cell.speed_r, cell.floor);
     }
 }

@@ -18,7 +18,7 @@ pub(crate) struct Window {
 impl Window {
     /// The cells of a window that are on the list.
     pub fn cells(self) -> impl Iterator<Item = usize> {
-        (0..LANES).filter(move |lane| self.has(*lane)).map(move |lane| self.first + lane * self.step)
+        lanes(self.listed).map(move |lane| self.first + lane * self.step)
     }
 
     #[inline(always)]
@@ -53,6 +53,27 @@ pub(crate) fn windows<const N: usize>(
         put(Window { first: first + start * step, step, listed });
         asked &= !(u64::from(listed) << start);
     }
+}
+
+/// The lanes whose bit is set.
+#[inline(always)]
+pub(crate) fn lanes(mut bits: u8) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (lane < LANES).then_some(lane)
+    })
+}
+
+/// Bit k where flag k is set.
+#[inline(always)]
+pub(crate) fn bits(flags: [bool; LANES]) -> u8 {
+    // In the flags' own width, and without a branch.
+    let mut places = [0_u64; LANES];
+    for k in 0..LANES {
+        places[k] = u64::from(flags[k]) << k;
+    }
+    places.into_iter().fold(0, |bits, place| bits | place) as u8
 }
 
 #[cfg(test)]
