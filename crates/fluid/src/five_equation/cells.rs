@@ -60,13 +60,14 @@ pub(crate) struct RowKinds {
 /// The kinds of the cells of a block and of those around it; what lies beyond them is nothing.
 ///
 /// - `kinds`: of the padded rows, of up to 64 cells each; written.
+/// - returns: whether there may be others than cells of one phase.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn find_interface(cells: &Cells<'_>, mixture: &Mixture, kinds: &mut [RowKinds]) {
+pub(crate) fn find_interface(cells: &Cells<'_>, mixture: &Mixture, kinds: &mut [RowKinds]) -> bool {
     let stride = cells.stride;
     let (first, n) = (1, stride - 2);
     if is_pure(cells.rows[4]) {
         kinds.fill(RowKinds::default());
-        return;
+        return false;
     }
     for j in 1..kinds.len() - 1 {
         let mut row = RowKinds::default();
@@ -77,6 +78,7 @@ pub(crate) fn find_interface(cells: &Cells<'_>, mixture: &Mixture, kinds: &mut [
         }
         kinds[j] = row;
     }
+    true
 }
 
 /// Whether all cells hold the same phase, as most blocks' do.
@@ -96,14 +98,19 @@ fn kinds_of_eight(cells: &Cells<'_>, at: usize, mixture: &Mixture) -> RowKinds {
     let load = |row: usize, at: usize| row_of::<LANES>(cells.rows[row], at);
     let (phi, west, east) = (load(4, at), load(4, at - 1), load(4, at + 1));
     let (south, north) = (load(4, at - cells.stride), load(4, at + cells.stride));
-    let beside = std::array::from_fn(|k| is_beside_another(phi[k], [west[k], east[k], south[k], north[k]]));
-    let mixed = u64::from(bits(std::array::from_fn(|k| is_mixed(phi[k]))));
+    let mut at_interface = [false; LANES];
+    let mut mixed = [false; LANES];
+    for k in 0..LANES {
+        at_interface[k] = is_beside_another(phi[k], [west[k], east[k], south[k], north[k]]);
+        mixed[k] = is_mixed(phi[k]);
+    }
+    let mixed = bits(mixed);
     // Few rows hold both phases; whether they give way takes a division.
-    let compliant = if mixed == 0 {
-        [false; LANES]
-    } else {
+    if mixed != 0 {
         let p = load(3, at);
-        std::array::from_fn(|k| is_compliant(p[k], phi[k], mixture))
-    };
-    RowKinds { at_interface: u64::from(bits(beside) | bits(compliant)), mixed }
+        for k in 0..LANES {
+            at_interface[k] |= is_compliant(p[k], phi[k], mixture);
+        }
+    }
+    RowKinds { at_interface: u64::from(bits(at_interface)), mixed: u64::from(mixed) }
 }

@@ -102,15 +102,17 @@ impl MixedCells {
         outer: [Outer; 4],
         is_marked: Option<&[bool]>,
     ) {
-        find_interface(cells, stencil.mixture, &mut self.kinds);
+        self.windows.clear();
+        self.mixed.clear();
+        if !find_interface(cells, stencil.mixture, &mut self.kinds) && is_marked.is_none() {
+            return;
+        }
         if let Some(is_marked) = is_marked {
             let stride = Padded::<N>::STRIDE;
             for (k, _) in is_marked.iter().enumerate().filter(|(_, is_marked)| **is_marked) {
                 self.kinds[k / stride].at_interface |= 1 << (k % stride);
             }
         }
-        self.windows.clear();
-        self.mixed.clear();
         let own = u64::MAX >> (64 - N);
         for (j, kinds) in self.kinds[GHOSTS..][..N].iter().enumerate() {
             let first = Padded::<N>::index(0, j as isize);
