@@ -8,7 +8,7 @@ use hdf5::{Dataset, File};
 use ndarray::ArrayView2;
 
 use super::hdf5_attributes::{set_text, set_texts, text};
-use super::{OutputError, safe_file};
+use super::{OutputError, hdf5_memory, safe_file};
 
 /// Shortest time between two batches that [`HistoryFile::flush_if_due`] writes.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(1);
@@ -18,6 +18,8 @@ const FLUSH_SHARE: f64 = 0.02;
 /// batch copies the file, so that a share is what keeps the copies in proportion to what they add.
 const LARGEST_BUFFER: u64 = 1 << 20;
 const BUFFER_SHARE: u64 = 64;
+/// A batch of this length, bytes, has rows of all series in the proportion in which they come.
+const TYPICAL_BATCH: u64 = 1 << 16;
 /// Values per chunk of a dataset, 32 KiB: small enough that a short history stays a small file.
 const CHUNK_VALUES: usize = 4096;
 
@@ -71,6 +73,8 @@ pub struct HistoryFile {
     length: u64,
     /// Whether anything changed since the last batch.
     pending: bool,
+    /// Whether the buffers have been given their final size.
+    is_reserved: bool,
 }
 
 #[derive(Debug)]
@@ -106,6 +110,7 @@ struct StaticArray {
 impl HistoryFile {
     /// Makes the file, empty but for `attributes` (name, value) of its root. An existing one is replaced.
     pub fn create(path: &Path, attributes: &[(&str, &str)]) -> Result<Self, OutputError> {
+        hdf5_memory::keep_none();
         safe_file::replace_hdf5(path, safe_file::HDF5_OVERHEAD, |temporary| {
             let make = || -> hdf5::Result<()> {
                 let file = File::create(temporary)?;
@@ -119,6 +124,7 @@ impl HistoryFile {
 
     /// Opens a file written before; [`add_series`](Self::add_series) then continues the series it finds there.
     pub fn open(path: &Path) -> Result<Self, OutputError> {
+        hdf5_memory::keep_none();
         File::open(path).map_err(OutputError::hdf5(path, "open"))?;
         Ok(Self::at(path))
     }
@@ -156,6 +162,7 @@ impl HistoryFile {
             last_cost: Duration::ZERO,
             length: 0,
             pending: false,
+            is_reserved: false,
         }
     }
 
@@ -259,8 +266,12 @@ impl HistoryFile {
     }
 
     fn is_full(&self) -> bool {
-        let buffered: usize = self.series.iter().map(|series| size_of::<f64>() * series.buffer.len()).sum();
-        buffered as u64 >= LARGEST_BUFFER.max(self.length / BUFFER_SHARE)
+        self.buffered() >= LARGEST_BUFFER.max(self.length / BUFFER_SHARE)
+    }
+
+    /// Memory of the rows that are not in the file yet, bytes.
+    fn buffered(&self) -> u64 {
+        self.series.iter().map(|series| (size_of::<f64>() * series.buffer.len()) as u64).sum()
     }
 
     /// Writes a batch if one is due; says whether it did.
@@ -284,11 +295,17 @@ impl HistoryFile {
             hdf5::sync::sync(|| self.write_batch(copy))
                 .map_err(OutputError::hdf5(&self.path, "write a batch to"))
         })?;
+        let buffered = self.buffered();
+        let is_typical = !self.is_reserved && buffered >= TYPICAL_BATCH;
         for series in &mut self.series {
             series.written += series.buffered_rows();
+            if is_typical {
+                series.reserve(buffered);
+            }
             series.buffer.clear();
             series.created = true;
         }
+        self.is_reserved |= is_typical;
         self.arrays.clear();
         self.pending = false;
         self.last_flush = Instant::now();
@@ -355,6 +372,16 @@ impl HistoryFile {
 impl Series {
     fn buffered_rows(&self) -> usize {
         self.buffer.len() / self.width.max(1)
+    }
+
+    /// Takes into use what its share of a batch may need, going by this one: how long a batch waits depends on the machine,
+    /// and the memory of a long run should not.
+    ///
+    /// - `buffered`: memory of the batch, of all series, bytes.
+    fn reserve(&mut self, buffered: u64) {
+        let share = (LARGEST_BUFFER as usize * self.buffer.len()).div_ceil(buffered.max(1) as usize);
+        // Rows come in while a batch that is due waits for its turn.
+        self.buffer.resize(share + share / 4, 0.0);
     }
 
     /// Every column with its buffered rows.

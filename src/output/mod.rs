@@ -19,6 +19,7 @@ pub mod background;
 pub mod checkpoint;
 pub mod error;
 mod hdf5_attributes;
+mod hdf5_memory;
 pub mod history;
 pub mod join;
 pub mod progress;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use hdf5::{File, Group};
 
 use super::hdf5_attributes::text;
-use super::{OutputError, safe_file};
+use super::{OutputError, hdf5_memory, safe_file};
 use layout::{LARGEST_CHUNK, append_rows, create_datasets, set_rows, write_mesh, write_step_count};
 
 mod layout;
@@ -103,6 +103,7 @@ impl SeriesWriter {
         compression: u8,
         attributes: &[(&str, &str)],
     ) -> Result<Self, OutputError> {
+        hdf5_memory::keep_none();
         safe_file::replace_hdf5(path, safe_file::HDF5_OVERHEAD, |temporary| {
             create_datasets(temporary, fields, compression, attributes)
                 .map_err(OutputError::hdf5(path, "create"))
@@ -128,6 +129,7 @@ impl SeriesWriter {
     /// Opens a file written before, to append to its snapshots. The fields and their order are the file's. If a kill has left it
     /// half changed, it is as it was at the last checkpoint, or somewhat later.
     pub fn open(path: &Path) -> Result<Self, OutputError> {
+        hdf5_memory::keep_none();
         safe_file::recover(path)?;
         let read = || -> hdf5::Result<(Vec<Field>, End)> {
             let root = File::open(path)?.group("VTKHDF")?;

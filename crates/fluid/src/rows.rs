@@ -299,7 +299,11 @@ impl FaceRows {
 
 /// Writes one face into [`FaceRows::fluxes_mut`].
 #[inline(always)]
-pub(crate) fn set_face([mass, velocity, pressure, shear, energy, phi]: &mut [&mut [f64]; 6], k: usize, face: Face) {
+pub(crate) fn set_face(
+    [mass, velocity, pressure, shear, energy, phi]: &mut [&mut [f64]; 6],
+    k: usize,
+    face: Face,
+) {
     mass[k] = face.mass;
     velocity[k] = face.velocity;
     pressure[k] = face.pressure;
