@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """What a cell and step of the five-equation model costs against the paper's mixture: docs/bubble.md's table.
 
-    python3 scripts/model_cost.py [--levels 6 7] [--limiters mc minmod] [--pairs 4]
+    python3 scripts/model_cost.py [--levels 6 7] [--limiters mc minmod] [--pairs 4] [--uniform]
 
 Runs the figures' case (cases/dickopp2012.toml, or --case) with both models at the same time, one thread each on a core of its
-own, and once more with the cores exchanged: what else the machine does meets both alike. Prints the fluid's processor time per
+own, and once more with the cores exchanged: what else the machine does meets both alike. With --uniform all cells are of
+the finest level and both models have the same. Prints the fluid's processor time per
 cell and step of one over the other, the median and the range of the pairs, as Markdown. Needs two cores, and Linux.
 """
 
@@ -18,6 +19,8 @@ import tempfile
 from pathlib import Path
 
 MODELS = ("five-equation", "saurel-abgrall")
+# The same cells for both models: `--uniform`.
+UNIFORM = {"fluid.adapt": "false", "solid.adapt": "false", "time.local_steps": "false"}
 # The solid's levels beside the fluid's: it is not measured, and should not take long.
 COARSER = 2
 
@@ -25,6 +28,8 @@ COARSER = 2
 def start(options, model, levels, limiter, core, out):
     settings = {"fluid.model": model, "fluid.limiter": limiter, "fluid.levels": levels,
                 "solid.levels": levels - COARSER, "time.snapshots": "[]"}
+    if options.uniform:
+        settings |= UNIFORM
     command = [str(options.cav), "run", str(options.case), "--in-process", "--out", str(out), "-q", "--force"]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
@@ -52,6 +57,7 @@ def main():
     parser.add_argument("--levels", type=int, nargs="+", default=[6, 7])
     parser.add_argument("--limiters", nargs="+", default=["mc", "minmod"])
     parser.add_argument("--pairs", type=int, default=4)
+    parser.add_argument("--uniform", action="store_true")
     parser.add_argument("--case", type=Path, default=root / "cases/dickopp2012.toml")
     parser.add_argument("--cav", type=Path, default=root / "target/release/cav")
     options = parser.parse_args()

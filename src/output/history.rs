@@ -1,14 +1,16 @@
 //! Named series over time, buffered in memory and written in batches: `fluid.h5` and `solid.h5`.
 
+mod series;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use hdf5::{Dataset, File};
-use ndarray::ArrayView2;
+use hdf5::File;
 
-use super::hdf5_attributes::{set_text, set_texts, text};
+use super::hdf5_attributes::{set_texts, text};
 use super::{OutputError, hdf5_memory, safe_file};
+use series::{CHUNK_VALUES, OwnedColumn, Series, absolute, describe, make_parents};
 
 /// Shortest time between two batches that [`HistoryFile::flush_if_due`] writes.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(1);
@@ -20,8 +22,6 @@ const LARGEST_BUFFER: u64 = 1 << 20;
 const BUFFER_SHARE: u64 = 64;
 /// A batch of this length, bytes, has rows of all series in the proportion in which they come.
 const TYPICAL_BATCH: u64 = 1 << 16;
-/// Values per chunk of a dataset, 32 KiB: small enough that a short history stays a small file.
-const CHUNK_VALUES: usize = 4096;
 
 /// One column of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,28 +75,6 @@ pub struct HistoryFile {
     pending: bool,
     /// Whether the buffers have been given their final size.
     is_reserved: bool,
-}
-
-#[derive(Debug)]
-struct Series {
-    group: String,
-    columns: Vec<OwnedColumn>,
-    /// Values per row, all columns together.
-    width: usize,
-    /// Rows in the file.
-    written: usize,
-    /// Whether the datasets exist in the file.
-    created: bool,
-    /// Rows not yet in the file.
-    buffer: Vec<f64>,
-}
-
-#[derive(Debug)]
-struct OwnedColumn {
-    path: String,
-    unit: String,
-    description: String,
-    width: usize,
 }
 
 #[derive(Debug)]
@@ -369,101 +347,7 @@ impl HistoryFile {
     }
 }
 
-impl Series {
-    fn buffered_rows(&self) -> usize {
-        self.buffer.len() / self.width.max(1)
-    }
-
-    /// Takes into use what its share of a batch may need, going by this one: how long a batch waits depends on the machine,
-    /// and the memory of a long run should not.
-    ///
-    /// - `buffered`: memory of the batch, of all series, bytes.
-    fn reserve(&mut self, buffered: u64) {
-        let share = (LARGEST_BUFFER as usize * self.buffer.len()).div_ceil(buffered.max(1) as usize);
-        // Rows come in while a batch that is due waits for its turn.
-        self.buffer.resize(share + share / 4, 0.0);
-    }
-
-    /// Every column with its buffered rows.
-    fn buffered_columns(&self) -> impl Iterator<Item = BufferedColumn<'_>> {
-        let mut offset = 0;
-        self.columns.iter().map(move |column| {
-            let place = offset..offset + column.width;
-            offset += column.width;
-            let rows = self.buffer.chunks_exact(self.width);
-            BufferedColumn {
-                path: &column.path,
-                unit: &column.unit,
-                description: &column.description,
-                width: column.width,
-                values: rows.flat_map(|row| row[place.clone()].iter().copied()).collect(),
-            }
-        })
-    }
-
-    /// Writes the buffered rows into the datasets, which are made where they do not exist.
-    fn write(&self, file: &File) -> hdf5::Result<()> {
-        let new_rows = self.buffered_rows();
-        let rows = self.written..self.written + new_rows;
-        let mut offset = 0;
-        for column in &self.columns {
-            let dataset = if self.created { file.dataset(&column.path)? } else { column.create(file)? };
-            let mut values = Vec::with_capacity(new_rows * column.width);
-            for row in self.buffer.chunks_exact(self.width) {
-                values.extend_from_slice(&row[offset..offset + column.width]);
-            }
-            if column.width == 1 {
-                dataset.resize(rows.end)?;
-                dataset.write_slice(&values[..], rows.clone())?;
-            } else {
-                dataset.resize((rows.end, column.width))?;
-                let view = ArrayView2::from_shape((new_rows, column.width), &values)?;
-                dataset.write_slice(view, ndarray::s![rows.clone(), ..])?;
-            }
-            offset += column.width;
-        }
-        Ok(())
-    }
-}
-
-impl OwnedColumn {
-    fn create(&self, file: &File) -> hdf5::Result<Dataset> {
-        make_parents(file, &self.path)?;
-        let builder = file.new_dataset::<f64>();
-        let chunk_rows = (CHUNK_VALUES / self.width.max(1)).max(1);
-        let dataset = if self.width == 1 {
-            builder.chunk((chunk_rows,)).shape((0..,)).create(self.path.as_str())?
-        } else {
-            builder.chunk((chunk_rows, self.width)).shape((0.., self.width)).create(self.path.as_str())?
-        };
-        describe(&dataset, &self.unit, &self.description)?;
-        Ok(dataset)
-    }
-}
-
 /// The name of the case that a file was written for, if it says so.
 pub fn case_name(path: &Path) -> Option<String> {
     path.exists().then(|| File::open(path).ok().and_then(|file| text(&file, "case_name")))?
-}
-
-/// The path from the root of `name` in `group`.
-fn absolute(group: &str, name: &str) -> String {
-    let group = group.trim_matches('/');
-    let name = name.trim_matches('/');
-    if group.is_empty() { format!("/{name}") } else { format!("/{group}/{name}") }
-}
-
-/// Makes the groups that `path` lies in.
-fn make_parents(file: &File, path: &str) -> hdf5::Result<()> {
-    for (end, _) in path.match_indices('/').skip(1) {
-        if !file.link_exists(&path[..end]) {
-            file.create_group(&path[..end])?;
-        }
-    }
-    Ok(())
-}
-
-fn describe(dataset: &Dataset, unit: &str, description: &str) -> hdf5::Result<()> {
-    set_text(dataset, "units", unit)?;
-    set_text(dataset, "description", description)
 }
