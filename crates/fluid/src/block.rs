@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
+use crate::curvature::AlongFaces;
 use crate::even::{even_slopes, predict_beside_mirrors};
 use crate::exact_rows::exact_faces;
 use crate::five_equation::{GasBlock, GasScratch, is_near_gas};
@@ -228,6 +229,7 @@ pub(crate) fn step_block<const N: usize>(
         differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
         keep: &scratch.keep,
         curvature: ctx.curvature(id.level, 0),
+        along_faces: AlongFaces::new([1, 3].map(|c| scratch.s_r.component(c)), stride),
     };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_z, 1, z_range, &mut scratch.z_faces);
@@ -250,6 +252,7 @@ pub(crate) fn step_block<const N: usize>(
         differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
         keep: &scratch.keep,
         curvature: ctx.curvature(id.level, 1),
+        along_faces: AlongFaces::new([2, 3].map(|c| scratch.s_z.component(c)), 1),
     };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     faces(ctx, &along_r, stride, r_range, &mut scratch.r_faces);

@@ -1,48 +1,110 @@
-//! What second order leaves out at the faces of weak waves in liquid, see [`mesh::curvature_share`].
+//! What second order leaves out at the faces of weak waves in liquid, see [`mesh::curvature_share`] and
+//! [`mesh::oblique_shares`].
 
-use mesh::curvature_share;
+use mesh::{curvature_share, oblique_shares};
 
 use crate::block::StepContext;
 use crate::rows::Reconstruction;
 
-/// What face states of weak waves in liquid get besides, see [`mesh::curvature_share`].
+/// What face states of weak waves in liquid get besides.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Curvature {
+    /// Of the difference of two neighbours' differences along the normal, see [`mesh::curvature_share`].
     pub share: f64,
+    /// Of the second differences of v_n and p along the face, see [`mesh::oblique_shares`].
+    pub oblique: [f64; 2],
     /// π of the liquid, Pa.
     pub liquid_pi: f64,
+}
+
+/// Second differences along the faces of v_n and p.
+#[derive(Clone, Copy)]
+pub(crate) struct AlongFaces<'a> {
+    /// Differences along the faces, in the cell before and in the one behind.
+    before: [&'a [f64]; 2],
+    behind: [&'a [f64]; 2],
+    /// Distance of neighbours along the faces; the rows begin with the neighbour of this cell.
+    pub step: usize,
+}
+
+impl<'a> AlongFaces<'a> {
+    /// - `differences`: across the cells along the faces, of v_n and p. `step`: distance of neighbours along the faces.
+    pub fn new(differences: [&'a [f64]; 2], step: usize) -> Self {
+        Self { before: differences, behind: differences.map(|row| &row[2 * step..]), step }
+    }
+
+    /// `n` cells from `at` on; not to be cut again.
+    #[inline(always)]
+    pub fn cut(&self, at: usize, n: usize) -> Self {
+        let ([a, b], [c, d], at) = (self.before, self.behind, at - self.step);
+        Self { before: [&a[at..][..n], &b[at..][..n]], behind: [&c[at..][..n], &d[at..][..n]], step: 0 }
+    }
+
+    /// In cell `k` of what was cut: 0 for v_n, 1 for p.
+    #[inline(always)]
+    fn second_difference(&self, component: usize, k: usize) -> f64 {
+        0.5 * (self.behind[component][k] - self.before[component][k])
+    }
 }
 
 impl Curvature {
     /// Differences of the pressure across a cell above this share of p + π belong to a strong front. The correction is a
     /// sixth of the larger difference at most; below, it keeps shocks that a few cells carry from being clipped.
     const WEAK: f64 = 0.2;
+    /// Below this share waves are sound, of which alone it is known how it changes along a face while it crosses it.
+    const ACOUSTIC: f64 = 0.005;
     /// Gas fractions up to this count as liquid.
     const LIQUID: f64 = 1e-6;
 
-    /// The share between two cells that keep `keep` of their slopes; their states and differences at `k`.
+    /// Whether a cell takes what is left out across its faces, and what is left out along them: its pressure, its gas
+    /// fraction, and the difference of the pressure across it.
     #[inline(always)]
-    fn between(self, lower: &Reconstruction<'_>, upper: &Reconstruction<'_>, k: usize) -> f64 {
-        let is_weak = |cell: &Reconstruction<'_>| {
-            self.is_weak(cell.half[3][k], cell.half[4][k], cell.differences[3][k])
-        };
-        let share = self.share * (lower.keep[k] * upper.keep[k]);
-        if is_weak(lower) & is_weak(upper) { share } else { 0.0 }
+    fn takes(self, p: f64, phi: f64, difference: f64) -> [bool; 2] {
+        let (size, scale, is_liquid) = (difference.abs(), p + self.liquid_pi, phi.abs() < Self::LIQUID);
+        [(size < Self::WEAK * scale) & is_liquid, (size < Self::ACOUSTIC * scale) & is_liquid]
     }
 
-    /// Whether a cell of this pressure and gas fraction with this difference of pressure is part of a weak wave in liquid.
-    #[inline(always)]
-    pub fn is_weak(self, p: f64, phi: f64, difference: f64) -> bool {
-        (difference.abs() < Self::WEAK * (p + self.liquid_pi)) & (phi.abs() < Self::LIQUID)
+    /// What v_n (component 0) or p (1) of a cell on a wall below it along z gets, the differences across the cells continued in
+    /// a line beyond the wall.
+    ///
+    /// - `p`, `phi`, `difference`: of the cell, see above. `across`, `along`: second differences.
+    pub fn on_wall(self, component: usize, cell: [f64; 3], across: f64, along: f64) -> f64 {
+        let [p, phi, difference] = cell;
+        let [is_weak, is_acoustic] = self.takes(p, phi, difference);
+        let of = |takes: bool, share: f64| if takes { share } else { 0.0 };
+        of(is_weak, self.share) * across + of(is_acoustic, self.oblique[component]) * along
     }
 }
 
 impl<const N: usize> StepContext<'_, N> {
     /// For the faces normal to an axis (0: z, 1: r) of a block of a level.
     pub fn curvature(&self, level: u8, axis: usize) -> Curvature {
-        let courant = self.fastest[axis] * self.dt / self.mesh.widths(level)[axis];
-        Curvature { share: curvature_share(courant), liquid_pi: self.mixture.at(0.0).pi }
+        let widths = self.mesh.widths(level);
+        let courant = self.fastest[axis] * self.dt / widths[axis];
+        Curvature {
+            share: curvature_share(courant),
+            oblique: oblique_shares(courant, widths[axis] / widths[1 - axis]),
+            liquid_pi: self.mixture.at(0.0).pi,
+        }
     }
+}
+
+/// What v_n (component 0) or p (1) lacks on the face between cells `k`, of which both keep `kept` of their slopes and take
+/// what is left out across and along it.
+#[inline(always)]
+fn left_out(
+    lower: &Reconstruction<'_>,
+    upper: &Reconstruction<'_>,
+    component: usize,
+    k: usize,
+    kept: [f64; 2],
+) -> f64 {
+    let row = [1, 3][component];
+    let across = upper.differences[row][k] - lower.differences[row][k];
+    let low = lower.along_faces.second_difference(component, k);
+    let high = upper.along_faces.second_difference(component, k);
+    let curvature = &lower.curvature;
+    kept[0] * (curvature.share * across) + kept[1] * (curvature.oblique[component] * (0.5 * (low + high)))
 }
 
 /// The states on both sides of the face between cells `k` of `lower` and of `upper`.
@@ -54,9 +116,13 @@ pub(crate) fn states_at_face(
     upper: &Reconstruction<'_>,
     k: usize,
 ) -> [[f64; 5]; 2] {
-    let share = lower.curvature.between(lower, upper, k);
-    let more = |c: usize| share * (upper.differences[c][k] - lower.differences[c][k]);
-    let (velocity, pressure) = (more(1), more(3));
+    let curvature = lower.curvature;
+    let low = curvature.takes(lower.half[3][k], lower.half[4][k], lower.differences[3][k]);
+    let high = curvature.takes(upper.half[3][k], upper.half[4][k], upper.differences[3][k]);
+    let keep = lower.keep[k] * upper.keep[k];
+    let kept = [if low[0] & high[0] { keep } else { 0.0 }, if low[1] & high[1] { keep } else { 0.0 }];
+    let velocity = left_out(lower, upper, 0, k, kept);
+    let pressure = left_out(lower, upper, 1, k, kept);
     [lower.face_state(k, 1.0), upper.face_state(k, -1.0)]
         .map(|[rho, v_n, v_t, p, phi]| [rho, v_n + velocity, v_t, p + pressure, phi])
 }

@@ -118,7 +118,7 @@ pub(crate) fn exact_faces(
     faces: &mut FaceRows,
 ) {
     let mixture = *mixture;
-    let range = whole_lines(range, stride..cells.keep.len() - step);
+    let range = whole_lines(range, cells.lines(step, stride));
     let mut chunk = Chunk::zeros();
     let (mut compression, mut solved) = ([0.0; LANES], [0.0; LANES]);
     let mut first = range.start;

@@ -89,7 +89,7 @@ impl<const N: usize> FluidSolver<N> {
             let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
             self.scratch.with(|scratch| {
                 reconstruct(&context, slot, scratch);
-                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
+                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = &*scratch;
                 let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);
                 for j in 0..N {
                     let k = Padded::<N>::index(0, j as isize);
@@ -110,19 +110,21 @@ impl<const N: usize> FluidSolver<N> {
                     )
                     .map(|rate| keep * rate);
                     let trace: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
-                    // What face states within get besides, with the differences continued in a line beyond the wall.
                     let curvature = context.curvature(id.level, 0);
-                    let weak = curvature.is_weak(w[3], w[4], d_z[3]);
-                    let share = if weak { keep * curvature.share } else { 0.0 };
-                    let more = |c: usize| share * (s_z.component(c)[k + 1] - d_z[c]);
+                    let more = |c: usize, component: usize| {
+                        let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
+                        let stride = Padded::<N>::STRIDE;
+                        let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
+                        keep * curvature.on_wall(c, [w[3], w[4], d_z[3]], across, along)
+                    };
                     // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
                     // mixture's β₁ soon has the wrong sign, and γ with it.
                     let at = self.mixture.at(trace[4].clamp(0.0, 1.0));
                     let face = first + j;
                     put(TraceRow::Density, face, trace[0]);
-                    put(TraceRow::NormalVelocity, face, trace[1] + more(1));
+                    put(TraceRow::NormalVelocity, face, trace[1] + more(0, 1));
                     put(TraceRow::TangentialVelocity, face, trace[2]);
-                    put(TraceRow::Pressure, face, trace[3] + more(3));
+                    put(TraceRow::Pressure, face, trace[3] + more(1, 3));
                     put(TraceRow::Shear, face, 0.0);
                     put(TraceRow::DensityRate, face, rate[0]);
                     put(TraceRow::NormalVelocityRate, face, rate[1]);

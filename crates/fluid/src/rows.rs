@@ -4,10 +4,12 @@
 //! vectorises it; each is compiled for several instruction sets and the best one is chosen at run time.
 //! Rust never contracts a·b + c, so the results do not depend on that choice.
 
+use std::ops::Range;
+
 use mesh::{AlignedRow, whole_lines};
 
 use crate::Mixture;
-use crate::curvature::{Curvature, states_at_face};
+use crate::curvature::{AlongFaces, Curvature, states_at_face};
 use crate::hllc::{Face, flux_hllc};
 use crate::state::primitive;
 
@@ -322,10 +324,16 @@ pub(crate) struct Reconstruction<'a> {
     /// The share of its slopes that each cell keeps, see [`half_step`].
     pub keep: &'a [f64],
     pub curvature: Curvature,
+    pub along_faces: AlongFaces<'a>,
 }
 
 impl<'a> Reconstruction<'a> {
-    /// `n` cells from `at` on.
+    /// The cells whose faces towards the cell `step` farther on have all neighbours that count; `stride` is that of the rows.
+    pub fn lines(&self, step: usize, stride: usize) -> Range<usize> {
+        stride..self.keep.len() - step - self.along_faces.step
+    }
+
+    /// `n` cells from `at` on; not to be cut again.
     #[inline(always)]
     pub fn cut(&self, at: usize, n: usize) -> Self {
         Self {
@@ -333,6 +341,7 @@ impl<'a> Reconstruction<'a> {
             differences: cut(&self.differences, at, n),
             keep: &self.keep[at..][..n],
             curvature: self.curvature,
+            along_faces: self.along_faces.cut(at, n),
         }
     }
 
@@ -352,11 +361,11 @@ pub(crate) fn hllc_faces(
     cells: &Reconstruction<'_>,
     step: usize,
     stride: usize,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
     mixture: &Mixture,
     faces: &mut FaceRows,
 ) {
-    let range = whole_lines(range, stride..cells.keep.len() - step);
+    let range = whole_lines(range, cells.lines(step, stride));
     let (first, n) = (range.start, range.len());
     let mixture = *mixture;
     hllc_body(

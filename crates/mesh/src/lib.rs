@@ -45,7 +45,7 @@ mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use aligned::{AlignedRow, whole_lines};
-pub use curvature::curvature_share;
+pub use curvature::{curvature_share, oblique_shares};
 pub use domain::{Domain, Mesh, MeshError, Misfit};
 pub use field::Field;
 pub use geometry::{Geometry, Side};

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::StiffenedGas;
-use crate::curvature::Curvature;
+use crate::curvature::{AlongFaces, Curvature};
 use crate::exact_riemann::tests::{EXTREME, REFERENCE, Random};
 use crate::exact_riemann::{Side, sample, star_state};
 use crate::five_equation::FaceState;
@@ -122,6 +122,7 @@ fn rows_equal_the_scalar_flux_and_do_not_depend_on_their_company() {
         differences: differences.each_ref().map(|row| &row[..]),
         keep: &keep,
         curvature: Curvature::default(),
+        along_faces: AlongFaces::new([&differences[1], &differences[3]], 1),
     };
     fn real(k: usize, step: usize) -> bool {
         k % 97 != 13 && (k + step) % 97 != 13
