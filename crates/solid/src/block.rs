@@ -138,6 +138,11 @@ pub(crate) fn step_block<const N: usize>(
     );
     ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
     ctx.boundaries.impose_outer(ctx.mesh, slot, &mut scratch.half, &mut scratch.s_z, &mut scratch.s_r);
+    let has_surface =
+        ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax);
+    if has_surface {
+        Boundaries::complete_shear_differences(&scratch.half, &mut scratch.s_z);
+    }
 
     let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
     let differences = scratch.s_z.split::<COUNT>();
@@ -146,7 +151,7 @@ pub(crate) fn step_block<const N: usize>(
         Reconstruction { half: [v_z, v_r, zz, zr], differences: ALONG_Z.map(|c| differences[c]), curvature };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
     rows::faces(&along_z, 1, stride, z_range, ctx.elasticity, &mut scratch.z_faces);
-    if ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax) {
+    if has_surface {
         let first = ctx.surface_first[slot];
         let surface = &ctx.surface[first..first + N];
         Boundaries::impose_surface::<N>(surface, &along_z, ctx.elasticity, &mut scratch.z_faces);

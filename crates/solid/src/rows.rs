@@ -89,18 +89,27 @@ pub(crate) struct Reconstruction<'a> {
     pub curvature: [f64; 2],
 }
 
-impl Reconstruction<'_> {
+impl<'a> Reconstruction<'a> {
+    /// `n` cells from `at` on.
+    #[inline(always)]
+    fn cut(&self, at: usize, n: usize) -> Self {
+        let ([a, b, c, d], [e, f, g, h]) = (self.half, self.differences);
+        Self {
+            half: [&a[at..][..n], &b[at..][..n], &c[at..][..n], &d[at..][..n]],
+            differences: [&e[at..][..n], &f[at..][..n], &g[at..][..n], &h[at..][..n]],
+            curvature: self.curvature,
+        }
+    }
+
     /// The state on the lower (`sign` = −1) or upper (+1) face of cell `k`.
     #[inline(always)]
     pub fn face_state(&self, k: usize, sign: f64) -> FaceState {
         let at = |c: usize| self.half[c][k] + 0.5 * sign * self.differences[c][k];
         FaceState { v_n: at(0), v_t: at(1), sigma_nn: at(2), sigma_nt: at(3) }
     }
-}
 
-impl Reconstruction<'_> {
     /// The state on the upper face of cell `k`, beyond which there is no cell, with the tangential velocity and the shear
-    /// of the parabola through three cells.
+    /// to third order.
     ///
     /// Under a load that stays all waves have gone and no Courant number counts: what the trace of the shear lacks then
     /// lets the surface creep.
@@ -138,20 +147,10 @@ pub(crate) fn faces(
 ) {
     let range = whole_lines(range, stride..cells.half[0].len() - step);
     let (first, n) = (range.start, range.len());
-    let Reconstruction { half: h, differences: d, curvature } = *cells;
-    let at = first + step;
     faces_body(
         n,
-        Reconstruction {
-            half: [&h[0][first..][..n], &h[1][first..][..n], &h[2][first..][..n], &h[3][first..][..n]],
-            differences: [&d[0][first..][..n], &d[1][first..][..n], &d[2][first..][..n], &d[3][first..][..n]],
-            curvature,
-        },
-        Reconstruction {
-            half: [&h[0][at..][..n], &h[1][at..][..n], &h[2][at..][..n], &h[3][at..][..n]],
-            differences: [&d[0][at..][..n], &d[1][at..][..n], &d[2][at..][..n], &d[3][at..][..n]],
-            curvature,
-        },
+        cells.cut(first, n),
+        cells.cut(first + step, n),
         elasticity,
         &mut faces.v_n[first..][..n],
         &mut faces.v_t[first..][..n],

@@ -8,4 +8,5 @@ mod boundaries;
 mod helpers;
 mod ledgers;
 mod orders;
+mod surface;
 mod symmetry;
