@@ -34,8 +34,9 @@ def field(path, name, points, time):
     low, high = places[corners].min(axis=1), places[corners].max(axis=1)
     found = np.full(len(points), np.nan)
     for k, (z, r) in enumerate(points):
-        inside = (low[:, 0] <= z) & (z <= high[:, 0]) & (low[:, 1] <= r) & (r <= high[:, 1])
-        found[k] = values[np.argmax(inside)]
+        # Round-off leaves gaps between blocks: the cell that a point is least outside of.
+        outside = np.maximum(low - (z, r), (z, r) - high).max(axis=1)
+        found[k] = values[np.argmin(outside)]
     return found
 
 
