@@ -1,4 +1,4 @@
-//! Waves along the surface that the interface acts on, without a load.
+//! The surface that the interface acts on: a wave along it without a load, stresses under a load that stays.
 
 use std::f64::consts::TAU;
 
