@@ -73,9 +73,13 @@ pub fn write(path: &Path, head: &Head, state: &impl Serialize) -> Result<(), Out
     path.parent().map_or(Ok(()), safe_file::sync)
 }
 
+/// Bytes that wait to be written. So few that they fit between what is in use: a buffer of a megabyte made the memory of a
+/// process larger with some checkpoint or other, by as much of it as was filled.
+const WAITING: usize = 1 << 15;
+
 /// Fills a file and waits until it is on the disk.
 fn put(file: File, head: &Head, state: &impl Serialize) -> io::Result<()> {
-    let mut out = BufWriter::with_capacity(1 << 20, Checked { file, sum: Sha256::new(), error: None });
+    let mut out = BufWriter::with_capacity(WAITING, Checked { file, sum: Sha256::new(), error: None });
     out.write_all(&MAGIC)?;
     out.write_all(&VERSION.to_le_bytes())?;
     let encoded = postcard::to_io(head, &mut out).and_then(|out| postcard::to_io(state, out)).map(|_| ());

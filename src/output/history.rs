@@ -305,7 +305,9 @@ impl HistoryFile {
     }
 
     fn write_batch(&self, copy: &Path) -> hdf5::Result<()> {
-        let file = File::open_rw(copy)?;
+        // One chunk in the cache: the library's 1 MiB would fill as far as the longest batch so far reaches.
+        let chunk = CHUNK_VALUES * size_of::<f64>();
+        let file = File::with_options().with_fapl(|list| list.chunk_cache(1, chunk, 1.0)).open_rw(copy)?;
         for array in &self.arrays {
             if file.link_exists(&array.path) {
                 file.unlink(&array.path)?;

@@ -48,6 +48,7 @@ fn what_happens_to_runs() {
     a_stopped_side_is_waited_for(&workshop);
     a_side_that_stays_stopped_is_given_up();
     no_room_on_the_disk(&workshop);
+    a_small_disk_fills_up(&workshop);
     the_directory_is_removed();
     no_room_in_shared_memory();
     what_dead_runs_left_goes_and_what_living_ones_have_stays();
@@ -219,6 +220,37 @@ fn no_room_on_the_disk(workshop: &Workshop) {
     let output = workshop.resume("full", &["-q"]).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     assert_same("full", &workshop.file("whole"), &out, true);
+}
+
+/// A file system of 64 MiB, of which something else takes the rest when the run has its first checkpoints.
+fn a_small_disk_fills_up(workshop: &Workshop) {
+    const SCRIPT: &str = r#"
+        mount -t tmpfs -o size=64m tmpfs "$1" || exit 99
+        "$3" run "$4" --out "$1/run" $5 &
+        until ls "$1"/run/checkpoints/solid-*.ckpt > "$1/listed" 2>&1; do kill -0 $! || exit 98; sleep 0.05; done
+        dd if=/dev/zero of="$1/filler" bs=64k 2> /dev/null
+        wait $!
+        code=$?
+        rm "$1/filler"
+        cp -a "$1/run" "$2"
+        exit $code"#;
+    if !may_mount() {
+        eprintln!("a file system that fills up: not shown here, for want of permission to mount one");
+        return;
+    }
+    let (disk, out) = (workshop.file("disk"), workshop.file("filled"));
+    fs::create_dir(&disk).unwrap();
+    let options = [&longer()[..], &["-q", "--checkpoint-every", "200ms"]].concat().join(" ");
+    let mut command = Command::new("unshare");
+    command.args(["-m", "sh", "-c", SCRIPT, "sh"]).args([&disk, &out]).arg(env!("CARGO_BIN_EXE_cav"));
+    let output = command.arg(workshop.file("case.toml")).arg(options).stdin(Stdio::null()).output().unwrap();
+    assert_eq!(output.status.code(), Some(5), "{}", text(&output));
+    assert!(text(&output).contains("No space left on device"), "{}", text(&output));
+    let left = checkpoints(&out);
+    assert!(left.len() >= 2 && left.iter().all(|name| name.ends_with(".ckpt")), "{left:?}");
+    let output = workshop.resume("filled", &["-q"]).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    assert_same("filled", &workshop.file("whole"), &out, true);
 }
 
 fn the_directory_is_removed() {

@@ -64,23 +64,30 @@ impl Series {
     }
 
     /// Writes the buffered rows into the datasets, which are made where they do not exist.
+    ///
+    /// A chunk's worth at a time: a batch that had to wait longer than all before takes no more memory than they did.
     pub(super) fn write(&self, file: &File) -> hdf5::Result<()> {
         let new_rows = self.buffered_rows();
-        let rows = self.written..self.written + new_rows;
         let mut offset = 0;
         for column in &self.columns {
             let dataset = if self.created { file.dataset(&column.path)? } else { column.create(file)? };
-            let mut values = Vec::with_capacity(new_rows * column.width);
-            for row in self.buffer.chunks_exact(self.width) {
-                values.extend_from_slice(&row[offset..offset + column.width]);
-            }
-            if column.width == 1 {
-                dataset.resize(rows.end)?;
-                dataset.write_slice(&values[..], rows.clone())?;
-            } else {
-                dataset.resize((rows.end, column.width))?;
-                let view = ArrayView2::from_shape((new_rows, column.width), &values)?;
-                dataset.write_slice(view, ndarray::s![rows.clone(), ..])?;
+            let end = self.written + new_rows;
+            if column.width == 1 { dataset.resize(end) } else { dataset.resize((end, column.width)) }?;
+            let mut first = self.written;
+            let mut values = Vec::with_capacity(column.chunk_rows() * column.width);
+            for part in self.buffer.chunks(column.chunk_rows() * self.width.max(1)) {
+                values.clear();
+                for row in part.chunks_exact(self.width) {
+                    values.extend_from_slice(&row[offset..offset + column.width]);
+                }
+                let rows = first..first + values.len() / column.width.max(1);
+                first = rows.end;
+                if column.width == 1 {
+                    dataset.write_slice(&values[..], rows)?;
+                } else {
+                    let view = ArrayView2::from_shape((rows.len(), column.width), &values)?;
+                    dataset.write_slice(view, ndarray::s![rows, ..])?;
+                }
             }
             offset += column.width;
         }
@@ -89,10 +96,15 @@ impl Series {
 }
 
 impl OwnedColumn {
+    /// Rows per chunk of the dataset.
+    fn chunk_rows(&self) -> usize {
+        (CHUNK_VALUES / self.width.max(1)).max(1)
+    }
+
     fn create(&self, file: &File) -> hdf5::Result<Dataset> {
         make_parents(file, &self.path)?;
         let builder = file.new_dataset::<f64>();
-        let chunk_rows = (CHUNK_VALUES / self.width.max(1)).max(1);
+        let chunk_rows = self.chunk_rows();
         let dataset = if self.width == 1 {
             builder.chunk((chunk_rows,)).shape((0..,)).create(self.path.as_str())?
         } else {
