@@ -9,7 +9,7 @@ use toml::de::DeTable;
 
 use super::error::{CaseError, suggest};
 use super::read_grid::MOST_CELLS;
-use super::reader::{Faults, Given, Table, array, pair};
+use super::reader::{Faults, Given, Table, array, as_number, pair};
 use super::{
     Case, FLUID_FIELDS, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index, read_coupling,
     read_fluid, read_solid, scales,
@@ -26,12 +26,27 @@ pub(super) struct Context {
     pub scheme: Option<Scheme>,
     /// Whether the fluid begins with jumps: it has regions or an inflow.
     pub has_jumps: bool,
+    /// Width of the narrowest pulse of either side, or radius of the load, m.
+    pub narrowest: Option<f64>,
 }
 
 /// Whether the text describes regions or an inflow of the fluid, faulty or not.
 fn has_jumps(document: &Spanned<DeTable<'_>>) -> bool {
     let fluid = document.get_ref().get("fluid").and_then(|value| value.get_ref().as_table());
     fluid.is_some_and(|fluid| fluid.contains_key("region") || fluid.contains_key("inflow"))
+}
+
+/// The smallest width of the pulses that the text describes, m. What is no width is found faulty where the pulses are read.
+fn narrowest_pulse(document: &Spanned<DeTable<'_>>) -> Option<f64> {
+    let pulses = ["fluid", "solid"].into_iter().flat_map(|side| {
+        let side = document.get_ref().get(side).and_then(|value| value.get_ref().as_table());
+        side.and_then(|side| side.get("pulse"))
+            .and_then(|value| value.get_ref().as_array())
+            .into_iter()
+            .flatten()
+    });
+    let widths = pulses.filter_map(|pulse| as_number(pulse.get_ref().as_table()?.get("width")?.get_ref()));
+    widths.filter(|width| *width > 0.0).reduce(f64::min)
 }
 
 /// A probe and where its point stands.
@@ -58,6 +73,9 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         geometry,
         scheme: scheme.as_ref().map(|given| given.value),
         has_jumps: has_jumps(&document),
+        narrowest: (coupling.load.as_ref().map(|load| load.radius).into_iter())
+            .chain(narrowest_pulse(&document))
+            .reduce(f64::min),
     };
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
     let fluid =

@@ -8,8 +8,13 @@ use super::reader::{Faults, Table};
 /// there the scheme's own error is of first order.
 pub const EPSILON_WITH_JUMPS: f64 = 3e-4;
 /// Threshold of the details where a case does not say and all is smooth: the scheme's own error is then of second
-/// order and much smaller. See docs/adaptation.md for what both cost and lose.
+/// order and much smaller. It is that of waves of [`CELLS_IF_SMOOTH`] cells per width. See docs/adaptation.md for what both
+/// cost and lose.
 pub const EPSILON_IF_SMOOTH: f64 = 1e-6;
+/// Cells per width of a wave for which [`EPSILON_IF_SMOOTH`] is meant.
+pub const CELLS_IF_SMOOTH: f64 = 20.0;
+/// Bounds of the threshold that follows the cells per width.
+const SMOOTH_EPSILONS: [f64; 2] = [1e-9, 1e-5];
 /// Steps between two adaptations where a case does not say.
 pub const DEFAULT_ADAPT_EVERY: usize = 8;
 /// More steps than this between two adaptations are a mistake.
@@ -32,17 +37,33 @@ pub(super) struct Levels {
     pub finest: usize,
 }
 
+/// The threshold of the details where a case does not say.
+///
+/// Of smooth waves it falls as the scheme's own error does, ε = 10⁻⁶ (20 h/a)² with the cells' width h and the waves' a, so that
+/// refinement keeps its order (Harten 1995; Cohen, Kaber, Müller & Postel 2003 choose ε likewise by the order and the finest
+/// level). Of two digits.
+///
+/// - `has_jumps`: whether the fluid begins with jumps; `cells`: the finest cells per width of the narrowest wave, where known.
+pub(super) fn default_epsilon(has_jumps: bool, cells: Option<f64>) -> f64 {
+    if has_jumps {
+        return EPSILON_WITH_JUMPS;
+    }
+    let [least, most] = SMOOTH_EPSILONS;
+    let epsilon =
+        cells.map_or(EPSILON_IF_SMOOTH, |cells| EPSILON_IF_SMOOTH * (CELLS_IF_SMOOTH / cells).powi(2));
+    format!("{:.1e}", epsilon.clamp(least, most)).parse().unwrap_or(EPSILON_IF_SMOOTH)
+}
+
 /// How a grid adapts; `None` where all its cells are on the finest level.
 ///
-/// - `has_jumps`: whether the fluid begins with jumps; `interface`: the side that meets the other medium or the rigid wall.
+/// - `default`: the threshold where the case does not say; `interface`: the side that meets the other medium or the rigid wall.
 pub(super) fn adaptation(
     table: &mut Table<'_>,
     levels: Levels,
-    has_jumps: bool,
+    default: f64,
     interface: Option<Side>,
     faults: &mut Faults,
 ) -> Option<Adaptation> {
-    let default = if has_jumps { EPSILON_WITH_JUMPS } else { EPSILON_IF_SMOOTH };
     let adapt = table.boolean("adapt", faults).is_none_or(|given| given.value);
     let epsilon = table.number("epsilon", "1", faults);
     if let Some(epsilon) = &epsilon
@@ -124,5 +145,19 @@ fn zone(table: &mut Table<'_>, interface: Option<Side>, faults: &mut Faults) -> 
             }
             interface.map(Zone::Along)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_threshold_of_smooth_waves_falls_with_the_square_of_the_cells_width() {
+        let of = |cells| default_epsilon(false, Some(cells));
+        assert_eq!([10.0, 20.0, 19.999_999_9, 40.0, 80.0].map(of), [4e-6, 1e-6, 1e-6, 2.5e-7, 6.3e-8]);
+        assert_eq!([1e-3, 1e9].map(of), [1e-5, 1e-9]);
+        assert_eq!(default_epsilon(false, None), EPSILON_IF_SMOOTH);
+        assert_eq!(default_epsilon(true, Some(40.0)), EPSILON_WITH_JUMPS);
     }
 }

@@ -5,7 +5,7 @@ use mesh::{BLOCK, Geometry, Side};
 
 use super::GridCase;
 use super::read::Context;
-use super::read_adaptation::{Levels, adaptation};
+use super::read_adaptation::{Levels, adaptation, default_epsilon};
 use super::reader::{Faults, Given, Table};
 
 /// More cells than this along one direction are a mistake.
@@ -57,10 +57,18 @@ pub(super) fn grid(
         None => Levels { roots: 0, finest: MOST_LEVELS },
     };
     let interface = (context.scheme != Some(Scheme::None)).then_some(towards_wall);
-    let adaptation = adaptation(table, levels, context.has_jumps, interface, faults);
-    let ((cells, levels), z, r) = (sound?, z?, r?);
-    let grid = GridCase { z: z.value, r: r.value, cells: cells.value, levels, adaptation };
-    Some((grid, GridPlace { z, r }))
+    let grid = sound.zip(z.as_ref().zip(r.as_ref())).map(|((cells, levels), (z, r))| GridCase {
+        z: z.value,
+        r: r.value,
+        cells: cells.value,
+        levels,
+        adaptation: None,
+    });
+    let width = grid.as_ref().map(|grid| grid.cell_size().into_iter().fold(0.0, f64::max));
+    let epsilon =
+        default_epsilon(context.has_jumps, context.narrowest.zip(width).map(|(wave, cell)| wave / cell));
+    let adaptation = adaptation(table, levels, epsilon, interface, faults);
+    Some((GridCase { adaptation, ..grid? }, GridPlace { z: z?, r: r? }))
 }
 
 /// The level of the coarsest blocks: the first whose cells fill whole blocks in both directions.

@@ -315,19 +315,25 @@ pub(super) fn array<'a>(
     Some(elements.iter().enumerate().map(element).collect())
 }
 
-/// A finite number; integers count.
-pub(super) fn number(given: &Given<&DeValue<'_>>, unit: &str, faults: &mut Faults) -> Option<f64> {
-    let value = match given.value {
-        DeValue::Float(number) => number.as_str().parse::<f64>().ok(),
+/// What a value is as a number, finite or not; `None` where it is none.
+pub(super) fn as_number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Float(number) => number.as_str().parse().ok(),
         DeValue::Integer(number) => {
             i64::from_str_radix(number.as_str(), number.radix()).ok().map(|n| n as f64)
         }
-        _ => {
-            let help = format!("give a number without quotes, in {unit}");
-            wrong_type(given, "a number", help, faults);
-            return None;
-        }
-    };
+        _ => None,
+    }
+}
+
+/// A finite number; integers count.
+pub(super) fn number(given: &Given<&DeValue<'_>>, unit: &str, faults: &mut Faults) -> Option<f64> {
+    if !matches!(given.value, DeValue::Float(_) | DeValue::Integer(_)) {
+        let help = format!("give a number without quotes, in {unit}");
+        wrong_type(given, "a number", help, faults);
+        return None;
+    }
+    let value = as_number(given.value);
     match value {
         Some(value) if value.is_finite() => Some(value),
         _ => {
