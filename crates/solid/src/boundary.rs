@@ -102,23 +102,16 @@ impl Boundaries {
         }
     }
 
-    /// Makes the differences of v_r and σ_zr across the cells on the surface (z_max) as accurate as those of the cells below.
-    ///
-    /// A central difference is off by h³w‴/6, that of a parabola through the three cells next to the surface by −h³w‴/3. On the face
-    /// below the surface's cell the errors of two central differences would cancel; these add up to a shear stress that is off by
-    /// h³w‴/8, and as the one on the surface is not, the force on the cell is off in first order: a boundary layer of one
-    /// cell that keeps a stress from every wave that passes. Half the third difference of the cells puts that right.
-    pub fn complete_shear_differences<const N: usize>(half: &Padded<N>, s_z: &mut Padded<N>) {
-        // Third differences below this share of the slopes are those of smooth waves; fronts keep their limited slopes.
-        const SMOOTH: f64 = 0.2;
+    /// Makes the differences of v_r and σ_zr across the cells on the surface (z_max) as accurate as those of the cells below,
+    /// see [`surface_difference`]. (Not those of v_z and σ_zz: what the wall is given is made of them, and they would let
+    /// round-off grow.)
+    pub fn complete_shear_differences<const N: usize>(cells: &Padded<N>, s_z: &mut Padded<N>) {
         for component in [V_R, S_ZR] {
-            let w = half.component(component);
+            let w = cells.component(component);
             let differences = s_z.component_mut(component);
             for j in 0..N as isize {
                 let k = Padded::<N>::index(N as isize - 1, j);
-                let third = (w[k] - w[k - 3]) - 3.0 * (w[k - 1] - w[k - 2]);
-                let bound = SMOOTH * (differences[k].abs() + differences[k - 1].abs());
-                differences[k] += (0.5 * third).max(-bound).min(bound);
+                differences[k] = surface_difference([w[k], w[k - 1], w[k - 2], w[k - 3]], differences[k]);
             }
         }
     }
@@ -145,6 +138,27 @@ impl Boundaries {
     }
 }
 
+/// The difference across a cell on the surface from it and the three below, where they are smooth.
+///
+/// (3w₀ − 4w₁ + w₂)/2 + (w₀ − 3w₁ + 3w₂ − w₃)/2: the difference of the parabola through three cells, and half a third difference.
+/// A central difference is off by h³w‴/6, the parabola's by −h³w‴/3. On the face below the surface's cell the errors of two
+/// central differences would cancel; these add up to a shear stress that is off by h³w‴/8, and as the one on the
+/// surface is not, the force on the cell is off: a boundary layer of some cells that keeps a stress from every wave that
+/// passes. Nor must the parabola's slope be limited while a wave passes: where the differences to the cells below
+/// have two signs, which limiters take for a peak, that is off in first order.
+///
+/// - `cells`: w₀, w₁, w₂, w₃ from the surface down; `limited`: the difference beside a front, where the third difference
+///   is more than half of what the two first differ from zero.
+fn surface_difference([own, first, second, third]: [f64; 4], limited: f64) -> f64 {
+    let (near, far) = (own - first, first - second);
+    let third_difference = (own - third) - 3.0 * far;
+    if third_difference.abs() <= 0.5 * (near.abs() + far.abs()) {
+        (1.5 * near - 0.5 * far) + 0.5 * third_difference
+    } else {
+        limited
+    }
+}
+
 /// The sign with which a component is reflected at a side; `None` where it is extrapolated.
 pub(crate) fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64> {
     let across_z = matches!(side, Side::ZMin | Side::ZMax);
@@ -158,4 +172,29 @@ pub(crate) fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64
         Boundary::Periodic => unreachable!("a periodic side has neighbours"),
     };
     Some(if odd { -1.0 } else { 1.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::surface_difference;
+
+    /// What the parabola through the means of four cells of a cubic is off by is what a central difference is off by.
+    #[test]
+    fn the_difference_at_the_surface_is_off_as_central_ones_are() {
+        let mean = |x: f64| 2.0 - 3.0 * x + 5.0 * x * x + 0.25 * (x * x * x + 0.25 * x) + 5.0 / 12.0;
+        let cells = [0.0, 1.0, 2.0, 3.0].map(|depth: f64| mean(-depth));
+        let central = 0.5 * (mean(1.0) - mean(-1.0));
+        assert!((surface_difference(cells, f64::NAN) - central).abs() < 1e-14);
+        // With a peak between the cells, where a limiter finds no slope.
+        let peak = [0.0, 1.0, 2.0, 3.0].map(|depth: f64| -(depth - 0.9) * (depth - 0.9));
+        assert!((surface_difference(peak, 0.0) - -1.8).abs() < 1e-14);
+    }
+
+    #[test]
+    fn beside_a_front_the_limited_difference_counts() {
+        for front in 1..4 {
+            let cells = [0, 1, 2, 3].map(|depth| if depth < front { 0.0 } else { 1.0 });
+            assert_eq!(surface_difference(cells, 0.125), 0.125, "{front}");
+        }
+    }
 }

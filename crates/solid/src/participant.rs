@@ -4,6 +4,7 @@ use coupler::{CommonRefinement, InterfaceStar, RegisterRow, TraceRow, WallRegist
 use mesh::{Geometry, GroupStep, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
+use crate::boundary::Boundaries;
 use crate::rows::rates;
 use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
 use crate::{SolidSolver, SurfaceState};
@@ -87,6 +88,7 @@ impl<const N: usize> SolidSolver<N> {
                 let [share, _] = context.curvature(id.level, 0);
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
+                Boundaries::complete_shear_differences(cells, s_z);
                 for j in 0..N {
                     let k = Padded::<N>::index(N as isize - 1, j as isize);
                     let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);
