@@ -141,7 +141,7 @@ pub(crate) fn step_block<const N: usize>(
     let has_surface =
         ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax);
     if has_surface {
-        Boundaries::complete_shear_differences(&scratch.half, &mut scratch.s_z);
+        Boundaries::complete_shear_differences(ctx.limiter, &scratch.half, &mut scratch.s_z);
     }
 
     let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();

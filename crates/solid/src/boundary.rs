@@ -1,6 +1,6 @@
 //! What bounds the solid: ghost cells before the slopes, outer states and interface tractions after them.
 
-use mesh::{Mesh, Padded, Side, SideStates};
+use mesh::{Limiter, Mesh, Padded, Side, SideStates};
 use serde::{Deserialize, Serialize};
 
 use crate::riemann::{Outward, star_interface};
@@ -105,13 +105,18 @@ impl Boundaries {
     /// Makes the differences of v_r and σ_zr across the cells on the surface (z_max) as accurate as those of the cells below,
     /// see [`surface_difference`]. (Not those of v_z and σ_zz: what the wall is given is made of them, and they would let
     /// round-off grow.)
-    pub fn complete_shear_differences<const N: usize>(cells: &Padded<N>, s_z: &mut Padded<N>) {
+    pub fn complete_shear_differences<const N: usize>(
+        limiter: Limiter,
+        cells: &Padded<N>,
+        s_z: &mut Padded<N>,
+    ) {
         for component in [V_R, S_ZR] {
             let w = cells.component(component);
             let differences = s_z.component_mut(component);
             for j in 0..N as isize {
                 let k = Padded::<N>::index(N as isize - 1, j);
-                differences[k] = surface_difference([w[k], w[k - 1], w[k - 2], w[k - 3]], differences[k]);
+                let cells = [w[k], w[k - 1], w[k - 2], w[k - 3]];
+                differences[k] = surface_difference(limiter, cells, [differences[k], differences[k - 1]]);
             }
         }
     }
@@ -147,15 +152,25 @@ impl Boundaries {
 /// passes. Nor must the parabola's slope be limited while a wave passes: where the differences to the cells below
 /// have two signs, which limiters take for a peak, that is off in first order.
 ///
-/// - `cells`: w₀, w₁, w₂, w₃ from the surface down; `limited`: the difference beside a front, where the third difference
-///   is more than half of what the two first differ from zero.
-fn surface_difference([own, first, second, third]: [f64; 4], limited: f64) -> f64 {
+/// Beside a front, where the third difference is more than half of what the two first differ from zero, the limited difference
+/// and as much of half the third one as is a fifth of the slopes; so, too, with limiters that clip smooth waves in the cells
+/// below.
+///
+/// - `cells`: w₀, w₁, w₂, w₃ from the surface down; `limited`: the limited differences of the first two.
+fn surface_difference(
+    limiter: Limiter,
+    [own, first, second, third]: [f64; 4],
+    [limited, below]: [f64; 2],
+) -> f64 {
+    const IN_FRONTS: f64 = 0.2;
     let (near, far) = (own - first, first - second);
     let third_difference = (own - third) - 3.0 * far;
-    if third_difference.abs() <= 0.5 * (near.abs() + far.abs()) {
+    let is_smooth = third_difference.abs() <= 0.5 * (near.abs() + far.abs());
+    if is_smooth && matches!(limiter, Limiter::Mc | Limiter::None) {
         (1.5 * near - 0.5 * far) + 0.5 * third_difference
     } else {
-        limited
+        let bound = IN_FRONTS * (limited.abs() + below.abs());
+        limited + (0.5 * third_difference).max(-bound).min(bound)
     }
 }
 
@@ -176,6 +191,8 @@ pub(crate) fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64
 
 #[cfg(test)]
 mod tests {
+    use mesh::Limiter;
+
     use super::surface_difference;
 
     /// What the parabola through the means of four cells of a cubic is off by is what a central difference is off by.
@@ -184,17 +201,19 @@ mod tests {
         let mean = |x: f64| 2.0 - 3.0 * x + 5.0 * x * x + 0.25 * (x * x * x + 0.25 * x) + 5.0 / 12.0;
         let cells = [0.0, 1.0, 2.0, 3.0].map(|depth: f64| mean(-depth));
         let central = 0.5 * (mean(1.0) - mean(-1.0));
-        assert!((surface_difference(cells, f64::NAN) - central).abs() < 1e-14);
+        assert!((surface_difference(Limiter::Mc, cells, [f64::NAN; 2]) - central).abs() < 1e-14);
         // With a peak between the cells, where a limiter finds no slope.
         let peak = [0.0, 1.0, 2.0, 3.0].map(|depth: f64| -(depth - 0.9) * (depth - 0.9));
-        assert!((surface_difference(peak, 0.0) - -1.8).abs() < 1e-14);
+        assert!((surface_difference(Limiter::Mc, peak, [0.0; 2]) - -1.8).abs() < 1e-14);
+        assert_eq!(surface_difference(Limiter::Minmod, peak, [0.0; 2]), 0.0);
     }
 
     #[test]
     fn beside_a_front_the_limited_difference_counts() {
         for front in 1..4 {
             let cells = [0, 1, 2, 3].map(|depth| if depth < front { 0.0 } else { 1.0 });
-            assert_eq!(surface_difference(cells, 0.125), 0.125, "{front}");
+            let found = surface_difference(Limiter::Mc, cells, [0.125, 0.0]);
+            assert!((found - 0.125).abs() <= 0.2 * 0.125, "{front}: {found}");
         }
     }
 }
