@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn the_threshold_of_smooth_waves_falls_with_the_square_of_the_cells_width() {
         let of = |cells| default_epsilon(false, Some(cells));
-        assert_eq!([10.0, 20.0, 19.999_999_9, 40.0, 80.0].map(of), [4e-6, 1e-6, 1e-6, 2.5e-7, 6.3e-8]);
+        assert_eq!([10.0, 20.0, 19.999_999_9, 40.0, 80.0].map(of), [4e-6, 1e-6, 1e-6, 2.5e-7, 6.2e-8]);
         assert_eq!([1e-3, 1e9].map(of), [1e-5, 1e-9]);
         assert_eq!(default_epsilon(false, None), EPSILON_IF_SMOOTH);
         assert_eq!(default_epsilon(true, Some(40.0)), EPSILON_WITH_JUMPS);
