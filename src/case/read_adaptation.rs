@@ -8,11 +8,11 @@ use super::reader::{Faults, Table};
 /// there the scheme's own error is of first order.
 pub const EPSILON_WITH_JUMPS: f64 = 3e-4;
 /// Threshold of the details where a case does not say and all is smooth: the scheme's own error is then of second
-/// order and much smaller. It is that of waves of [`CELLS_IF_SMOOTH`] cells per width. See docs/adaptation.md for what both
+/// order and much smaller. It is that of waves of 20 cells per width. See docs/adaptation.md for what both
 /// cost and lose.
 pub const EPSILON_IF_SMOOTH: f64 = 1e-6;
 /// Cells per width of a wave for which [`EPSILON_IF_SMOOTH`] is meant.
-pub const CELLS_IF_SMOOTH: f64 = 20.0;
+const CELLS_IF_SMOOTH: f64 = 20.0;
 /// Bounds of the threshold that follows the cells per width.
 const SMOOTH_EPSILONS: [f64; 2] = [1e-9, 1e-5];
 /// Steps between two adaptations where a case does not say.
