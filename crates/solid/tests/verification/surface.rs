@@ -139,7 +139,7 @@ fn stresses_under_a_load_that_stays() {
         let errors =
             [16, 32, 64].map(|n| error_on_surface(limiter, n, |r| (TAU * r).cos(), exact, 6.0 / STEEL.c1));
         let order = order(&format!("a load that stays, {limiter:?}, σ_rr on the surface"), &errors);
-        // 0.0015 with slopes that are limited at the surface, but then 0.06 instead of 0.05 with 32 cells.
-        assert!(order > 2.0 && errors[2] < 4e-3, "{limiter:?}: {errors:?}");
+        // With slopes that are limited at the surface 0.06 with 32 cells and, of the other sign, 0.0015 with 64.
+        assert!(order > 2.0 && errors[1] < 0.05 && errors[2] < 3e-3, "{limiter:?}: {errors:?}");
     }
 }
