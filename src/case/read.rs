@@ -30,21 +30,23 @@ pub(super) struct Context {
     pub narrowest: Option<f64>,
 }
 
+/// The table of a side as the text has it, before it is read.
+fn raw_side<'a>(document: &'a Spanned<DeTable<'a>>, side: &str) -> Option<&'a DeTable<'a>> {
+    document.get_ref().get(side)?.get_ref().as_table()
+}
+
 /// Whether the text describes regions or an inflow of the fluid, faulty or not.
 fn has_jumps(document: &Spanned<DeTable<'_>>) -> bool {
-    let fluid = document.get_ref().get("fluid").and_then(|value| value.get_ref().as_table());
-    fluid.is_some_and(|fluid| fluid.contains_key("region") || fluid.contains_key("inflow"))
+    raw_side(document, "fluid")
+        .is_some_and(|fluid| fluid.contains_key("region") || fluid.contains_key("inflow"))
 }
 
 /// The smallest width of the pulses that the text describes, m. What is no width is found faulty where the pulses are read.
 fn narrowest_pulse(document: &Spanned<DeTable<'_>>) -> Option<f64> {
-    let pulses = ["fluid", "solid"].into_iter().flat_map(|side| {
-        let side = document.get_ref().get(side).and_then(|value| value.get_ref().as_table());
-        side.and_then(|side| side.get("pulse"))
-            .and_then(|value| value.get_ref().as_array())
-            .into_iter()
-            .flatten()
-    });
+    let pulses = ["fluid", "solid"]
+        .into_iter()
+        .filter_map(|side| raw_side(document, side)?.get("pulse")?.get_ref().as_array())
+        .flatten();
     let widths = pulses.filter_map(|pulse| as_number(pulse.get_ref().as_table()?.get("width")?.get_ref()));
     widths.filter(|width| *width > 0.0).reduce(f64::min)
 }

@@ -73,15 +73,15 @@ impl Series {
             let dataset = if self.created { file.dataset(&column.path)? } else { column.create(file)? };
             let end = self.written + new_rows;
             if column.width == 1 { dataset.resize(end) } else { dataset.resize((end, column.width)) }?;
-            let mut first = self.written;
-            let mut values = Vec::with_capacity(column.chunk_rows() * column.width);
-            for part in self.buffer.chunks(column.chunk_rows() * self.width.max(1)) {
+            let most_rows = column.chunk_rows();
+            let mut values = Vec::with_capacity(most_rows * column.width);
+            for (number, part) in self.buffer.chunks(most_rows * self.width).enumerate() {
                 values.clear();
                 for row in part.chunks_exact(self.width) {
                     values.extend_from_slice(&row[offset..offset + column.width]);
                 }
-                let rows = first..first + values.len() / column.width.max(1);
-                first = rows.end;
+                let first = self.written + number * most_rows;
+                let rows = first..first + part.len() / self.width;
                 if column.width == 1 {
                     dataset.write_slice(&values[..], rows)?;
                 } else {
