@@ -111,7 +111,7 @@ fn signal(pid: u32, signal: &str) {
 fn segments() -> Vec<String> {
     let names = fs::read_dir("/dev/shm").expect("shared memory").flatten();
     let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
-    names.filter(|name| name.starts_with("cav_") && !name.ends_with(".global_mgmt")).collect()
+    names.filter(|name| name.starts_with("cav_")).collect()
 }
 
 fn running(workshop: &Workshop, out: &str, child: &mut Child, sides: usize) -> Vec<(u32, String)> {

@@ -135,7 +135,7 @@ pub fn checkpoints(out: &Path) -> Vec<String> {
 pub fn segments() -> Vec<String> {
     let names = fs::read_dir("/dev/shm").unwrap().flatten();
     let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
-    names.filter(|name| name.starts_with("cav_") && !name.ends_with(".global_mgmt")).collect()
+    names.filter(|name| name.starts_with("cav_")).collect()
 }
 
 /// Asserts that nothing but the files of a finished run is in its directory.

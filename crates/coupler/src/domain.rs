@@ -15,6 +15,7 @@ use iceoryx2::prelude::{
 use rustix::fs::{Access, access, statvfs};
 
 use crate::error::CouplerError;
+use crate::making::Making;
 
 /// Ports can move to the thread that uses them, so the thread-safe flavour.
 pub(crate) type Ipc = iceoryx2::prelude::ipc_threadsafe::Service;
@@ -25,10 +26,10 @@ const LONGEST_ROOT: usize = 45;
 /// The set of objects that participants can see of each other: a directory and a prefix in `/dev/shm`.
 ///
 /// All runs of a user share one, so that whoever starts next clears away what a killed run left; the run id in the
-/// service names keeps them apart. After a run there remains one 16-byte file `<prefix>*.global_mgmt` in `/dev/shm`.
+/// service names keeps them apart. After the last run nothing remains but the directory.
 ///
 /// Permissions: the directory is made 0700 before iceoryx2 sees it and refused if it is open to others or another
-/// user's. In `/dev/shm`, frames and connections are 0600; only the 16-byte file, a counter, is 0666.
+/// user's. In `/dev/shm`, frames and connections are 0600; only the 16 bytes of `*.global_mgmt`, a counter, are 0666.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Domain {
     /// Of all names in `/dev/shm`.
@@ -111,7 +112,7 @@ impl Drop for Presence {
     }
 }
 
-/// Removes everything in the domain but the management file. What cannot be removed is in nobody's way.
+/// Removes everything in the domain. What cannot be removed is in nobody's way.
 fn sweep(domain: &Domain) {
     for entry in fs::read_dir(&domain.root).into_iter().flatten().flatten() {
         let path = entry.path();
@@ -120,32 +121,36 @@ fn sweep(domain: &Domain) {
             tracing::debug!(path = %path.display(), %error, "not swept");
         }
     }
-    for entry in fs::read_dir("/dev/shm").into_iter().flatten().flatten() {
-        if entry.file_name().to_str().is_some_and(|name| is_swept(&domain.prefix, name)) {
-            // Another user's object of that name cannot be removed, and need not be.
-            let _ = fs::remove_file(entry.path());
-        }
+    for (_, path) in shared_objects(&domain.prefix) {
+        // Another user's object of that name cannot be removed, and need not be.
+        let _ = fs::remove_file(path);
     }
 }
 
+/// What iceoryx2 has in shared memory under this prefix, by name and path.
+pub(crate) fn shared_objects(prefix: &str) -> impl Iterator<Item = (String, PathBuf)> {
+    fs::read_dir(SHARED_MEMORY)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter_map(|entry| Some((entry.file_name().into_string().ok()?, entry.path())))
+        .filter(move |(name, _)| is_of(prefix, name))
+}
+
 /// iceoryx2's names are the prefix, 40 hexadecimal digits, `_`, the rest; so `a_` does not claim those of `a_b_`.
-fn is_swept(prefix: &str, name: &str) -> bool {
+fn is_of(prefix: &str, name: &str) -> bool {
     let digits = name.strip_prefix(prefix).and_then(|rest| rest.split_once('_')).map(|(digits, _)| digits);
-    let ours =
-        digits.is_some_and(|digits| digits.len() == 40 && digits.bytes().all(|b| b.is_ascii_hexdigit()));
-    ours && !name.ends_with(".global_mgmt")
+    digits.is_some_and(|digits| digits.len() == 40 && digits.bytes().all(|b| b.is_ascii_hexdigit()))
 }
 
 /// Removes what participants of this domain left behind when they were killed. Safe at any time: the living keep theirs.
-///
-/// - returns: how many dead participants were cleared away.
-pub fn clean_up_dead(domain: &Domain) -> Result<usize, CouplerError> {
+pub fn clean_up_dead(domain: &Domain) -> Result<(), CouplerError> {
     let config = domain.config()?;
-    let removed = remove_dead(&config)?;
-    Presence::enter(domain)?;
-    Ok(removed)
+    let _presence = Presence::enter(domain)?;
+    Making::begin(domain, &config).map(drop)
 }
 
+/// Removes what the dead had whole. To be called behind the lock of [`Making`].
 pub(crate) fn remove_dead(config: &Config) -> Result<usize, CouplerError> {
     let mut removed = 0;
     Node::<Ipc>::list(config, |state| {
@@ -218,10 +223,10 @@ mod tests {
     #[test]
     fn only_objects_of_exactly_this_prefix_are_swept() {
         let hash = "0354a209029e7d094a819e2d4030ea331e6caaf0";
-        assert!(is_swept("cav_", &format!("cav_{hash}_1.data")));
-        assert!(!is_swept("cav_", &format!("cav_b_{hash}_1.data")));
-        assert!(!is_swept("cav_", &format!("cav_{hash}_node.0_10_0.global_mgmt")));
-        assert!(!is_swept("cav_", "cav_notes_1.txt"));
+        assert!(is_of("cav_", &format!("cav_{hash}_1.data")));
+        assert!(is_of("cav_", &format!("cav_{hash}_node.0_10_0.global_mgmt")));
+        assert!(!is_of("cav_", &format!("cav_b_{hash}_1.data")));
+        assert!(!is_of("cav_", "cav_notes_1.txt"));
     }
 
     #[test]

@@ -20,6 +20,7 @@ mod exchange;
 mod frame;
 mod latency;
 mod link;
+mod making;
 mod mapping;
 mod meeting;
 mod one_sided;

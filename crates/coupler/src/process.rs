@@ -7,10 +7,11 @@ use std::time::{Duration, Instant};
 use iceoryx2::config::Config;
 use iceoryx2::port::SendError;
 
-use crate::domain::{Domain, Presence, remove_dead, require_room};
+use crate::domain::{Domain, Presence, require_room};
 use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader, FrameKind};
 use crate::link::{Conversation, Link, LinkCounters, Participant, now_ns};
+use crate::making::Making;
 use crate::ports::{Ports, failed, pid_of};
 use crate::watch::{LINGER, PeerWatch, SLICE};
 
@@ -73,6 +74,7 @@ impl Endpoint {
 /// the peer is dead.
 pub struct ProcessLink {
     ports: Ports,
+    domain: Domain,
     config: Config,
     watch: Arc<PeerWatch>,
     talk: Conversation,
@@ -119,13 +121,14 @@ impl ProcessLink {
         check_run_id(&run_id)?;
         let config = domain.config()?;
         let presence = Presence::enter(&domain)?;
-        let removed = remove_dead(&config)?;
+        let (making, removed) = Making::begin(&domain, &config)?;
         if removed > 0 {
             tracing::info!(removed, "cleared away participants that were killed");
         }
         require_room(ROOM_TO_BEGIN + room_for(initial_len))?;
         let watch = Arc::new(PeerWatch::new(config.clone(), patience, notice));
         let ports = Ports::open(&config, &run_id, name, initial_len, &watch)?;
+        drop(making);
 
         let start = Instant::now();
         let mut looked = start;
@@ -140,7 +143,7 @@ impl ProcessLink {
                 looked = Instant::now();
                 ask(&mut interrupt)?;
                 // A peer that was killed while connecting holds its place until it is cleared away.
-                remove_dead(&config)?;
+                Making::try_begin(&domain, &config)?;
             }
             thread::sleep(Duration::from_millis(5));
         };
@@ -153,6 +156,7 @@ impl ProcessLink {
         talk.peer_pid = Some(peer_pid);
         let mut link = Self {
             ports,
+            domain,
             config,
             watch,
             talk,
@@ -187,7 +191,7 @@ impl ProcessLink {
                 return word;
             }
         }
-        if let Err(error) = remove_dead(&self.config) {
+        if let Err(error) = Making::begin(&self.domain, &self.config) {
             tracing::warn!(%error, "what the dead peer left in shared memory stays until the next run");
         }
         CouplerError::PeerLost { peer: self.talk.peer, pid: self.peer_pid, step: self.talk.step }

@@ -86,6 +86,23 @@ fn participants_killed_at_any_moment_of_their_start_do_not_hinder_the_next() {
 }
 
 #[test]
+fn a_peer_killed_at_any_moment_of_its_start_does_not_keep_the_other_waiting() {
+    for victim in [Participant::Fluid, Participant::Solid] {
+        let scene = Scene::new();
+        for milliseconds in 0..12 {
+            let options = format!("{ENDLESS} --timeout-s 0.3");
+            let survivor = scene.start(victim.peer().name(), &options);
+            let killed = scene.start(victim.name(), &options);
+            std::thread::sleep(Duration::from_millis(milliseconds));
+            killed.kill();
+            // Which of several words it has for it depends on the moment.
+            survivor.end().assert_refused(&[]);
+            scene.assert_clean();
+        }
+    }
+}
+
+#[test]
 fn sending_to_a_dead_peer_fails_and_leaving_it_does_not_hang() {
     let scene = Scene::new();
     let mut solid = scene.start("solid", "--steps 10 --sleep-ms 60000");

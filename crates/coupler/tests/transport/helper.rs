@@ -55,11 +55,9 @@ impl Scene {
         (self.start("fluid", options), self.start("solid", options))
     }
 
-    /// What lies in shared memory, without the management file.
+    /// What lies in shared memory.
     pub fn shared_objects(&self) -> Vec<String> {
-        names(Path::new("/dev/shm"))
-            .filter(|name| name.starts_with(&self.domain.prefix) && !name.ends_with(".global_mgmt"))
-            .collect()
+        names(Path::new("/dev/shm")).filter(|name| name.starts_with(&self.domain.prefix)).collect()
     }
 
     /// Files and sockets, not directories, below the root.
@@ -77,21 +75,16 @@ impl Scene {
         found
     }
 
-    /// The state after a run: one management file of 16 bytes, and that is all.
+    /// The state after a run: nothing is left.
     pub fn assert_clean(&self) {
         assert_eq!(self.shared_objects(), Vec::<String>::new(), "left in /dev/shm");
         assert_eq!(self.files(), Vec::<String>::new(), "left below the root");
-        let management: Vec<u64> = names(Path::new("/dev/shm"))
-            .filter(|name| name.starts_with(&self.domain.prefix))
-            .map(|name| fs::metadata(format!("/dev/shm/{name}")).unwrap().len())
-            .collect();
-        assert_eq!(management, [16]);
     }
 }
 
 impl Drop for Scene {
     fn drop(&mut self) {
-        for name in names(Path::new("/dev/shm")).filter(|name| name.starts_with(&self.domain.prefix)) {
+        for name in self.shared_objects() {
             let _ = fs::remove_file(format!("/dev/shm/{name}"));
         }
         let _ = fs::remove_dir_all(&self.domain.root);

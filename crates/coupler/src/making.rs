@@ -1,0 +1,133 @@
+//! Participants of a domain make what others will open one at a time, and so can clear away what one was killed over.
+//!
+//! iceoryx2 makes a shared object in three moves: it takes the name, gives it its length, lets it be read. One killed in
+//! between leaves an object that nobody ever finishes; others wait for it until a time limit, or, before it has its
+//! length, without end (version 0.10). Behind a lock that the system takes from the killed, an object that cannot be read
+//! yet belongs to somebody dead.
+
+use std::fs::{self, File};
+use std::os::unix::fs::MetadataExt;
+use std::path::Path;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use iceoryx2::config::Config;
+
+use crate::domain::{Domain, remove_dead, shared_objects};
+use crate::error::CouplerError;
+
+/// Making takes milliseconds; only one that is stopped over it holds the lock for longer.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// What is opened by others and made behind the lock alone: the counter of participants, services' lists of members.
+const MADE_BEHIND_LOCK: [&str; 2] = [".global_mgmt", ".dynamic"];
+
+/// Held while making what others will open. To be had by one who is present in the domain.
+#[derive(Debug)]
+pub(crate) struct Making {
+    _lock: File,
+}
+
+impl Making {
+    /// Waits for its turn, then clears away what the dead left, whole or half made.
+    ///
+    /// - returns: how many dead participants were cleared away, too.
+    pub(crate) fn begin(domain: &Domain, config: &Config) -> Result<(Self, usize), CouplerError> {
+        let start = Instant::now();
+        loop {
+            if let Some(begun) = Self::try_begin(domain, config)? {
+                return Ok(begun);
+            }
+            if start.elapsed() > PATIENCE {
+                return Err(CouplerError::SharedMemory {
+                    what: "joining after another participant that is just starting",
+                    cause: format!("it holds the lock below {} for {PATIENCE:?}", domain.root.display()),
+                });
+            }
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// As [`Making::begin`], but `None` if it is another's turn.
+    pub(crate) fn try_begin(domain: &Domain, config: &Config) -> Result<Option<(Self, usize)>, CouplerError> {
+        let path = domain.root.join("making");
+        let refuse = |error: std::io::Error| CouplerError::BadRoot {
+            path: domain.root.clone(),
+            reason: format!("{} cannot be locked: {error}", path.display()),
+        };
+        let lock = File::options().create(true).truncate(false).write(true).open(&path).map_err(refuse)?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(fs::TryLockError::WouldBlock) => return Ok(None),
+            Err(fs::TryLockError::Error(error)) => return Err(refuse(error)),
+        }
+        remove_half_made(domain);
+        let removed = remove_dead(config)?;
+        Ok(Some((Self { _lock: lock }, removed)))
+    }
+}
+
+/// Removes what can never be opened. To be called behind the lock.
+fn remove_half_made(domain: &Domain) {
+    let shared = shared_objects(&domain.prefix)
+        .filter(|(name, _)| MADE_BEHIND_LOCK.iter().any(|suffix| name.ends_with(suffix)))
+        .map(|(_, path)| path);
+    let services = fs::read_dir(domain.root.join("services")).into_iter().flatten().flatten();
+    for path in shared.chain(services.map(|entry| entry.path())).filter(|path| is_half_made(path)) {
+        tracing::debug!(path = %path.display(), "made by half by one who was killed");
+        // Another user's cannot be removed, and need not be.
+        let _ = fs::remove_file(path);
+    }
+}
+
+/// Its owner's right to read is the last thing that iceoryx2 gives it.
+fn is_half_made(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|data| data.is_file() && data.mode() & 0o400 == 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::fs::PermissionsExt;
+    use std::path::PathBuf;
+
+    use iceoryx2::prelude::NodeBuilder;
+
+    use super::*;
+    use crate::domain::{Ipc, Presence};
+
+    #[test]
+    fn what_was_half_made_by_the_killed_is_cleared_away_and_what_is_whole_stays() {
+        let name = format!("cavt{}m_", std::process::id());
+        let domain = Domain { prefix: name.clone(), root: PathBuf::from(format!("/tmp/{name}")) };
+        let config = domain.config().unwrap();
+        let objects = || shared_objects(&name).map(|(_, path)| path).collect::<Vec<_>>();
+        let presence = Presence::enter(&domain).unwrap();
+        let make_node = || drop(NodeBuilder::new().config(&config).create::<Ipc>().unwrap());
+        make_node();
+        let counter = objects();
+        assert_eq!(counter.len(), 1, "{counter:?}");
+        drop(Making::begin(&domain, &config).unwrap());
+        assert_eq!(objects(), counter, "what is whole stays");
+
+        let service = domain.root.join("services").join("half.service");
+        fs::create_dir_all(service.parent().unwrap()).unwrap();
+        // Named, but without its length; with its length, but not yet to be read.
+        for length in [0, 16] {
+            for path in [&counter[0], &service] {
+                let _ = fs::remove_file(path);
+                File::create(path).unwrap().set_len(length).unwrap();
+                fs::set_permissions(path, fs::Permissions::from_mode(0o200)).unwrap();
+            }
+            let (making, _) = Making::begin(&domain, &config).unwrap();
+            assert_eq!(objects(), [PathBuf::new(); 0]);
+            assert!(!service.exists());
+            assert!(Making::try_begin(&domain, &config).unwrap().is_none(), "one at a time");
+            drop(making);
+            make_node();
+            assert_eq!(objects(), counter);
+        }
+        drop(presence);
+        assert_eq!(objects(), [PathBuf::new(); 0], "the last one out leaves nothing");
+        fs::remove_dir(&domain.root).expect("and nothing below the root");
+    }
+}
