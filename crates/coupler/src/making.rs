@@ -2,12 +2,12 @@
 //!
 //! iceoryx2 makes a shared object in three moves: it takes the name, gives it its length, lets it be read. One killed in
 //! between leaves an object that nobody ever finishes; others wait for it until a time limit, or, before it has its
-//! length, without end (version 0.10). Behind a lock that the system takes from the killed, an object that cannot be read
-//! yet belongs to somebody dead.
+//! length, without end (version 0.10). Behind a lock that the system takes from the killed, an object that is not finished
+//! belongs to somebody dead.
 
 use std::fs::{self, File};
 use std::os::unix::fs::MetadataExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -19,7 +19,10 @@ use crate::error::CouplerError;
 /// Making takes milliseconds; only one that is stopped over it holds the lock for longer.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// What is opened by others and made behind the lock alone: the counter of participants, services' lists of members.
+/// Other runs' frames and connections are made without the lock, in microseconds. After this they never will be.
+const ABANDONED: Duration = Duration::from_secs(1);
+
+/// What is made behind the lock alone, in shared memory: the counter of participants, services' lists of members.
 const MADE_BEHIND_LOCK: [&str; 2] = [".global_mgmt", ".dynamic"];
 
 /// Held while making what others will open. To be had by one who is present in the domain.
@@ -67,28 +70,48 @@ impl Making {
     }
 }
 
-/// Removes what can never be opened. To be called behind the lock.
+/// Removes what can never be opened, for to clear away the dead is to open what they had. To be called behind the lock.
 fn remove_half_made(domain: &Domain) {
-    let shared = shared_objects(&domain.prefix)
-        .filter(|(name, _)| MADE_BEHIND_LOCK.iter().any(|suffix| name.ends_with(suffix)))
-        .map(|(_, path)| path);
+    // The last thing that iceoryx2 does to a service's description is to take its owner's right to write to it.
     let services = fs::read_dir(domain.root.join("services")).into_iter().flatten().flatten();
-    for path in shared.chain(services.map(|entry| entry.path())).filter(|path| is_half_made(path)) {
-        tracing::debug!(path = %path.display(), "made by half by one who was killed");
-        // Another user's cannot be removed, and need not be.
-        let _ = fs::remove_file(path);
+    services.map(|entry| entry.path()).filter(|path| owner_may(path, WRITE)).for_each(remove);
+    let start = Instant::now();
+    loop {
+        let is_over = start.elapsed() > ABANDONED;
+        let mut is_being_made = false;
+        // The last thing that it does to an object in shared memory is to give its owner the right to read it.
+        for (name, path) in shared_objects(&domain.prefix).filter(|(_, path)| !owner_may(path, READ)) {
+            if is_over || MADE_BEHIND_LOCK.iter().any(|suffix| name.ends_with(suffix)) {
+                remove(path);
+            } else {
+                is_being_made = true;
+            }
+        }
+        if !is_being_made {
+            return;
+        }
+        thread::sleep(Duration::from_millis(1));
     }
 }
 
-/// Its owner's right to read is the last thing that iceoryx2 gives it.
-fn is_half_made(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|data| data.is_file() && data.mode() & 0o400 == 0)
+fn remove(path: PathBuf) {
+    tracing::debug!(path = %path.display(), "half made by one who was killed");
+    // Another user's cannot be removed, and need not be.
+    let _ = fs::remove_file(path);
+}
+
+const READ: u32 = 0o400;
+const WRITE: u32 = 0o200;
+
+/// Of what has gone meanwhile: that it may read and not write.
+fn owner_may(path: &Path, right: u32) -> bool {
+    fs::metadata(path).map_or(READ, |data| data.mode()) & right != 0
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs::Permissions;
     use std::os::unix::fs::PermissionsExt;
-    use std::path::PathBuf;
 
     use iceoryx2::prelude::NodeBuilder;
 
@@ -111,23 +134,36 @@ mod tests {
 
         let service = domain.root.join("services").join("half.service");
         fs::create_dir_all(service.parent().unwrap()).unwrap();
+        let connection = counter[0].with_extension("connection");
         // Named, but without its length; with its length, but not yet to be read.
         for length in [0, 16] {
-            for path in [&counter[0], &service] {
+            for (path, mode) in [(&counter[0], 0o200), (&connection, 0o200), (&service, 0o600)] {
                 let _ = fs::remove_file(path);
                 File::create(path).unwrap().set_len(length).unwrap();
-                fs::set_permissions(path, fs::Permissions::from_mode(0o200)).unwrap();
+                fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
             }
             let (making, _) = Making::begin(&domain, &config).unwrap();
-            assert_eq!(objects(), [PathBuf::new(); 0]);
+            assert!(objects().is_empty());
             assert!(!service.exists());
             assert!(Making::try_begin(&domain, &config).unwrap().is_none(), "one at a time");
             drop(making);
+
+            // One that is being made is waited for.
+            File::create(&connection).unwrap();
+            fs::set_permissions(&connection, Permissions::from_mode(0o200)).unwrap();
+            let finished = connection.clone();
+            let maker = thread::spawn(move || {
+                thread::sleep(Duration::from_millis(50));
+                fs::set_permissions(finished, Permissions::from_mode(0o600)).unwrap();
+            });
+            drop(Making::begin(&domain, &config).unwrap());
+            maker.join().unwrap();
+            fs::remove_file(&connection).expect("it was left alone");
             make_node();
             assert_eq!(objects(), counter);
         }
         drop(presence);
-        assert_eq!(objects(), [PathBuf::new(); 0], "the last one out leaves nothing");
+        assert!(objects().is_empty(), "the last one out leaves nothing");
         fs::remove_dir(&domain.root).expect("and nothing below the root");
     }
 }

@@ -19,8 +19,9 @@ use crate::rows::{FaceRows, Reconstruction};
 
 pub(crate) use listed::{ListedFaces, exact_fluxes};
 
-/// Faces solved together: few, as all of them wait for the slowest one.
-const LANES: usize = 16;
+/// Faces solved together: enough to hide that one step waits for the one before, and not so many that all wait for the
+/// slowest of them. Of 8, 16, 32 the last is the fastest by 3 % of a step of the true collapse.
+const LANES: usize = 32;
 
 /// Steps after which a face is left to the scalar solver.
 const MOST_STEPS: u32 = 8;
