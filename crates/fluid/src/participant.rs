@@ -4,7 +4,7 @@ use coupler::{FluidTrace, TraceRow, WallRegister};
 use mesh::{GroupStep, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
-use crate::five_equation::{Cells, Stencil, Window, face_states};
+use crate::five_equation::{Cells, FaceStates, Stencil, Window, face_states};
 use crate::rows::{half_step, rates};
 use crate::{FluidSolver, Mixture, WallState};
 
@@ -183,9 +183,9 @@ impl<const N: usize> FluidSolver<N> {
         let mixture = &self.mixture;
         let stencil = Stencil { limiter: self.limiter, inverse_h, inverse_r, dt, mixture, options };
         cells.is_at_interface(k, mixture).then(|| {
-            let mut states = Vec::with_capacity(1);
+            let mut states = FaceStates::default();
             face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &stencil, &mut states);
-            states[0][0].w
+            states.of(0, 0).w
         })
     }
 

@@ -125,10 +125,10 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         // What the kernels made of these cells counts for nothing. What the wall to the solid asks for is on the lower
         // face along z; and the exact solver should not labour over what is no state.
         let is_asked_for = self.outer(Side::ZMin) == Outer::Given || self.ctx.riemann == RiemannSolver::Exact;
-        for (k, states) in gas.mixed.listed() {
+        for (k, state) in gas.mixed.listed() {
             keep[k] = NOT_THEIRS;
             if is_asked_for {
-                for (component, value) in states[0].w.into_iter().enumerate() {
+                for (component, value) in state.w.into_iter().enumerate() {
                     half.component_mut(component)[k] = value;
                 }
             }

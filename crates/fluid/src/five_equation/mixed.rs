@@ -7,8 +7,8 @@ use mesh::{GHOSTS, Padded, Side};
 
 use super::cells::{Cells, FaceState, RowKinds, find_interface};
 use super::closure::{Compression, is_mixed};
-use super::reconstruction::{Stencil, face_states};
-use super::windows::{Window, windows};
+use super::reconstruction::{FaceStates, Stencil, face_states};
+use super::windows::{LANES, Window, windows};
 use crate::block::used_face;
 use crate::boundary::beside;
 use crate::exact_rows::{ListedFaces, exact_fluxes};
@@ -21,10 +21,11 @@ const NONE: u32 = u32::MAX;
 /// The mixed cells of a block and of the first layer around it.
 #[derive(Clone, Debug)]
 pub(crate) struct MixedCells {
-    /// Index into the lists of each padded cell.
+    /// Place of each padded cell among the states.
     index: Vec<u32>,
-    cells: Vec<usize>,
-    states: Vec<[FaceState; 4]>,
+    /// The listed cells and their places.
+    cells: Vec<(usize, u32)>,
+    states: FaceStates,
     /// Faces along z and r whose fluid comes from a mixed cell, with the gas's part of its mass.
     shares: [Vec<(usize, f64)>; 2],
     /// What the cells of each padded row are.
@@ -38,7 +39,7 @@ pub(crate) struct MixedCells {
     is_used: Vec<u8>,
 }
 
-/// A face of a listed cell: the places of the cells on both sides in the list, or [`NONE`].
+/// A face of a listed cell: the places of the cells on both sides among the states, or [`NONE`].
 #[derive(Clone, Copy, Debug)]
 struct Problem {
     face: usize,
@@ -54,7 +55,7 @@ impl MixedCells {
             is_used: (0..len).map(|k| is_used(k, 1) | is_used(k, stride) << 1).collect(),
             index: vec![NONE; len],
             cells: Vec::with_capacity(len),
-            states: Vec::with_capacity(len),
+            states: FaceStates::default(),
             shares: [Vec::with_capacity(len), Vec::with_capacity(len)],
             kinds: vec![RowKinds::default(); len / stride],
             windows: Vec::with_capacity(len),
@@ -65,10 +66,9 @@ impl MixedCells {
 
     /// Forgets the last block.
     pub fn clear(&mut self) {
-        for k in self.cells.drain(..) {
+        for (k, _) in self.cells.drain(..) {
             self.index[k] = NONE;
         }
-        self.states.clear();
         self.shares.iter_mut().for_each(Vec::clear);
     }
 
@@ -77,18 +77,14 @@ impl MixedCells {
         &self.mixed
     }
 
-    /// The padded cells on the list with the states on their faces.
-    pub fn listed(&self) -> impl Iterator<Item = (usize, &[FaceState; 4])> {
-        self.cells.iter().copied().zip(&self.states)
+    /// The padded cells on the list with the states on their lower faces along z.
+    pub fn listed(&self) -> impl Iterator<Item = (usize, FaceState)> {
+        self.cells.iter().map(|(k, place)| (*k, self.states.of(*place as usize, 0)))
     }
 
-    fn list(&mut self, k: usize) {
-        self.index[k] = self.cells.len() as u32;
-        self.cells.push(k);
-    }
-
-    fn of(&self, k: usize) -> Option<&[FaceState; 4]> {
-        self.states.get(self.index[k] as usize)
+    fn list(&mut self, k: usize, place: usize) {
+        self.index[k] = place as u32;
+        self.cells.push((k, place as u32));
     }
 
     /// Finds and reconstructs the cells of a block and of those of its ghosts that share a face with it.
@@ -131,20 +127,23 @@ impl MixedCells {
             windows::<N>(ghost(0), ghost(1) - ghost(0), listed, |window| self.windows.push(window));
         }
         let windows = std::mem::take(&mut self.windows);
-        windows.iter().flat_map(|window| window.cells()).for_each(|k| self.list(k));
+        for (window, first) in windows.iter().zip((0..).step_by(LANES)) {
+            window.listed_lanes().for_each(|lane| self.list(window.cell(lane), first + lane));
+        }
         self.windows = windows;
         face_states(cells, &self.windows, stencil, &mut self.states);
         if let Some(is_marked) = is_marked {
-            for (k, states) in self.cells.iter().zip(&mut self.states).filter(|(k, _)| is_marked[**k]) {
-                *states = [cells.mean(*k); 4];
+            for (k, place) in self.cells.iter().filter(|(k, _)| is_marked[*k]) {
+                (0..4).for_each(|face| self.states.set(*place as usize, face, cells.mean(*k)));
             }
         }
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Mirror) {
             for along in 0..N {
                 let [inner, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
-                if let Some(states) = self.of(inner).copied() {
-                    self.list(ghost);
-                    self.states.push(mirrored(states, side));
+                if self.index[inner] != NONE {
+                    let states = [0, 1, 2, 3].map(|face| self.states.of(self.index[inner] as usize, face));
+                    let place = self.states.push(mirrored(states, side));
+                    self.list(ghost, place);
                 }
             }
         }
@@ -178,7 +177,7 @@ impl MixedCells {
         let step = if AXIS == 0 { 1 } else { Padded::<N>::STRIDE };
         let mut problems = std::mem::take(&mut self.problems);
         problems.clear();
-        for (own, &k) in (0..).zip(&self.cells) {
+        for &(k, own) in &self.cells {
             // The face below is the upper one of a listed neighbour.
             if self.is_used[k - step] >> AXIS & 1 == 1 && self.index[k - step] == NONE {
                 problems.push(Problem { face: k - step, lower: NONE, upper: own });
@@ -205,7 +204,7 @@ impl MixedCells {
 
 /// Faces of listed cells along one axis (0: z, 1: r).
 struct Along<'a, const AXIS: usize> {
-    states: &'a [[FaceState; 4]],
+    states: &'a FaceStates,
     /// The other cells.
     cells: &'a Reconstruction<'a>,
     stencil: &'a Stencil<'a>,
@@ -218,10 +217,10 @@ impl<const AXIS: usize> Along<'_, AXIS> {
     /// What a cell has on its lower (0) or upper (1) face.
     #[inline(always)]
     fn side(&self, index: u32, k: usize, side: usize) -> FaceState {
-        match self.states.get(index as usize) {
-            Some(states) => turned(states[2 * AXIS + side], AXIS),
-            None => FaceState { w: self.cells.face_state(k, [-1.0, 1.0][side]), gas_share: f64::NAN },
+        if index == NONE {
+            return FaceState { w: self.cells.face_state(k, [-1.0, 1.0][side]), gas_share: f64::NAN };
         }
+        turned(self.states.of(index as usize, 2 * AXIS + side), AXIS)
     }
 }
 

@@ -21,5 +21,5 @@ pub(crate) use cells::{Cells, FaceState};
 pub(crate) use closure::{Compression, is_compliant, is_mixed};
 pub(crate) use gas_block::{GasBlock, GasScratch, is_near_gas};
 pub(crate) use marks::marked_blocks;
-pub(crate) use reconstruction::{Stencil, face_states};
+pub(crate) use reconstruction::{FaceStates, Stencil, face_states};
 pub(crate) use windows::Window;

@@ -41,14 +41,13 @@ pub(crate) struct Stencil<'a> {
 /// and the momentum's of [`crate::rows::rates`]. Phase densities are flat across an interface where partial ones are not. Where
 /// THINC finds a step, the gas fraction is its mean over what crosses the face and the phase densities are the cell's.
 ///
-/// - `windows`: the cells; `states`: those of the listed ones in the same order, written. They do not depend on each
-///   other.
+/// - `windows`: the cells; `states`: those of their lanes, one after the other, written. They do not depend on each other.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn face_states(
     cells: &Cells<'_>,
     windows: &[Window],
     stencil: &Stencil<'_>,
-    states: &mut Vec<[FaceState; 4]>,
+    states: &mut FaceStates,
 ) {
     match stencil.limiter {
         Limiter::Mc => states_of(|a, b| Limiter::Mc.difference(a, b), cells, windows, stencil, states),
@@ -60,25 +59,60 @@ pub(crate) fn face_states(
     }
 }
 
+/// The states on the four faces of cells, by windows: for each face ρ, v_z, v_r, p, φ and the gas's part of the mass.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FaceStates {
+    windows: Vec<[Phases; 4]>,
+    /// How many cells were put behind those of the windows.
+    pushed: usize,
+}
+
+impl FaceStates {
+    /// What the cell in a place has on one of its faces.
+    #[inline(always)]
+    pub fn of(&self, place: usize, face: usize) -> FaceState {
+        let [rho, v_z, v_r, p, phi, gas_share] = &self.windows[place / LANES][face];
+        let lane = place % LANES;
+        FaceState { w: [rho[lane], v_z[lane], v_r[lane], p[lane], phi[lane]], gas_share: gas_share[lane] }
+    }
+
+    /// Puts a state in its place.
+    pub fn set(&mut self, place: usize, face: usize, state: FaceState) {
+        let [rho, v_z, v_r, p, phi] = state.w;
+        for (row, value) in
+            self.windows[place / LANES][face].iter_mut().zip([rho, v_z, v_r, p, phi, state.gas_share])
+        {
+            row[place % LANES] = value;
+        }
+    }
+
+    /// Puts a cell behind the others.
+    ///
+    /// - returns: its place.
+    pub fn push(&mut self, states: [FaceState; 4]) -> usize {
+        if self.pushed.is_multiple_of(LANES) {
+            self.windows.push([ZERO; 4]);
+        }
+        let place = LANES * (self.windows.len() - 1) + self.pushed % LANES;
+        self.pushed += 1;
+        states.into_iter().enumerate().for_each(|(face, state)| self.set(place, face, state));
+        place
+    }
+}
+
 #[inline(always)]
 fn states_of(
     limit: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
     windows: &[Window],
     stencil: &Stencil<'_>,
-    states: &mut Vec<[FaceState; 4]>,
+    states: &mut FaceStates,
 ) {
-    let mut faces = [ZERO; 4];
-    states.clear();
-    for window in windows {
-        window_states(limit, cells, *window, stencil, &mut faces);
-        for lane in lanes(window.listed) {
-            let state = |[rho, v_z, v_r, p, phi, gas_share]: &[Lane; 6]| FaceState {
-                w: [rho[lane], v_z[lane], v_r[lane], p[lane], phi[lane]],
-                gas_share: gas_share[lane],
-            };
-            states.push([state(&faces[0]), state(&faces[1]), state(&faces[2]), state(&faces[3])]);
-        }
+    states.pushed = 0;
+    // What was there is written over.
+    states.windows.resize(windows.len(), [ZERO; 4]);
+    for (window, faces) in windows.iter().zip(&mut states.windows) {
+        window_states(limit, cells, *window, stencil, faces);
     }
 }
 
@@ -316,9 +350,9 @@ mod tests {
             mixture: &mixture,
             options,
         };
-        let mut states = Vec::new();
+        let mut states = FaceStates::default();
         face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &stencil, &mut states);
-        states[0]
+        [0, 1, 2, 3].map(|face| states.of(0, face))
     }
 
     /// Gas on the left of water at one pressure and velocity, with a mixed cell in between.

@@ -16,9 +16,20 @@ pub(crate) struct Window {
 }
 
 impl Window {
+    /// The lanes that are on the list.
+    pub fn listed_lanes(self) -> impl Iterator<Item = usize> {
+        lanes(self.listed)
+    }
+
+    /// The cell of a lane.
+    #[inline(always)]
+    pub fn cell(self, lane: usize) -> usize {
+        self.first + lane * self.step
+    }
+
     /// The cells of a window that are on the list.
     pub fn cells(self) -> impl Iterator<Item = usize> {
-        lanes(self.listed).map(move |lane| self.first + lane * self.step)
+        self.listed_lanes().map(move |lane| self.cell(lane))
     }
 
     #[inline(always)]
@@ -33,9 +44,16 @@ impl Window {
         if self.step == 1 {
             *row[first..].first_chunk().expect("rows go on beyond a block's cells")
         } else {
-            std::array::from_fn(|lane| row[first + lane * self.step])
+            apart(row, first, self.step)
         }
     }
+}
+
+/// Lanes that lie apart: in a place of its own, as it is rare and long.
+#[inline(never)]
+fn apart(row: &[f64], first: usize, step: usize) -> Lane {
+    let row = &row[first..=first + (LANES - 1) * step];
+    std::array::from_fn(|lane| row[lane * step])
 }
 
 /// The fewest windows that hold the cells asked for of a line of N.
