@@ -71,8 +71,14 @@ impl Curvature {
     pub fn on_wall(self, component: usize, cell: [f64; 3], across: f64, along: f64) -> f64 {
         let [p, phi, difference] = cell;
         let [is_weak, is_acoustic] = self.takes(p, phi, difference);
-        let of = |takes: bool, share: f64| if takes { share } else { 0.0 };
-        of(is_weak, self.share) * across + of(is_acoustic, self.oblique[component]) * along
+        let kept = [is_weak, is_acoustic].map(|takes| if takes { 1.0 } else { 0.0 });
+        self.left_out(component, kept, across, along)
+    }
+
+    /// What v_n (component 0) or p (1) lacks, of which `kept` stays for the differences across and along.
+    #[inline(always)]
+    fn left_out(self, component: usize, kept: [f64; 2], across: f64, along: f64) -> f64 {
+        kept[0] * (self.share * across) + kept[1] * (self.oblique[component] * along)
     }
 }
 
@@ -103,8 +109,7 @@ fn left_out(
     let across = upper.differences[row][k] - lower.differences[row][k];
     let low = lower.along_faces.second_difference(component, k);
     let high = upper.along_faces.second_difference(component, k);
-    let curvature = &lower.curvature;
-    kept[0] * (curvature.share * across) + kept[1] * (curvature.oblique[component] * (0.5 * (low + high)))
+    lower.curvature.left_out(component, kept, across, 0.5 * (low + high))
 }
 
 /// The states on both sides of the face between cells `k` of `lower` and of `upper`.

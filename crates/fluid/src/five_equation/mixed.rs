@@ -7,7 +7,8 @@ use mesh::{GHOSTS, Padded, Side};
 
 use super::cells::{Cells, FaceState, RowKinds, find_interface};
 use super::closure::{Compression, is_mixed};
-use super::reconstruction::{FaceStates, Stencil, face_states};
+use super::face_states::FaceStates;
+use super::reconstruction::{Stencil, face_states};
 use super::windows::{LANES, Window, windows};
 use crate::block::used_face;
 use crate::boundary::beside;

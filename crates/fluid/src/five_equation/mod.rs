@@ -8,6 +8,7 @@
 
 mod cells;
 mod closure;
+mod face_states;
 mod gas_block;
 mod marks;
 mod mixed;
@@ -19,7 +20,8 @@ mod windows;
 
 pub(crate) use cells::{Cells, FaceState};
 pub(crate) use closure::{Compression, is_compliant, is_mixed};
+pub(crate) use face_states::FaceStates;
 pub(crate) use gas_block::{GasBlock, GasScratch, is_near_gas};
 pub(crate) use marks::marked_blocks;
-pub(crate) use reconstruction::{FaceStates, Stencil, face_states};
+pub(crate) use reconstruction::{Stencil, face_states};
 pub(crate) use windows::Window;

@@ -2,8 +2,9 @@
 
 use mesh::Limiter;
 
-use super::cells::{Cells, FaceState};
+use super::cells::Cells;
 use super::closure::{Compression, PURE};
+use super::face_states::FaceStates;
 use super::thinc;
 use super::windows::{LANES, Lane, Window, lanes};
 use crate::Mixture;
@@ -59,47 +60,6 @@ pub(crate) fn face_states(
     }
 }
 
-/// The states on the four faces of cells, by windows: for each face ρ, v_z, v_r, p, φ and the gas's part of the mass.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct FaceStates {
-    windows: Vec<[Phases; 4]>,
-    /// How many cells were put behind those of the windows.
-    pushed: usize,
-}
-
-impl FaceStates {
-    /// What the cell in a place has on one of its faces.
-    #[inline(always)]
-    pub fn of(&self, place: usize, face: usize) -> FaceState {
-        let [rho, v_z, v_r, p, phi, gas_share] = &self.windows[place / LANES][face];
-        let lane = place % LANES;
-        FaceState { w: [rho[lane], v_z[lane], v_r[lane], p[lane], phi[lane]], gas_share: gas_share[lane] }
-    }
-
-    /// Puts a state in its place.
-    pub fn set(&mut self, place: usize, face: usize, state: FaceState) {
-        let [rho, v_z, v_r, p, phi] = state.w;
-        for (row, value) in
-            self.windows[place / LANES][face].iter_mut().zip([rho, v_z, v_r, p, phi, state.gas_share])
-        {
-            row[place % LANES] = value;
-        }
-    }
-
-    /// Puts a cell behind the others.
-    ///
-    /// - returns: its place.
-    pub fn push(&mut self, states: [FaceState; 4]) -> usize {
-        if self.pushed.is_multiple_of(LANES) {
-            self.windows.push([ZERO; 4]);
-        }
-        let place = LANES * (self.windows.len() - 1) + self.pushed % LANES;
-        self.pushed += 1;
-        states.into_iter().enumerate().for_each(|(face, state)| self.set(place, face, state));
-        place
-    }
-}
-
 #[inline(always)]
 fn states_of(
     limit: impl Fn(f64, f64) -> f64 + Copy,
@@ -108,10 +68,7 @@ fn states_of(
     stencil: &Stencil<'_>,
     states: &mut FaceStates,
 ) {
-    states.pushed = 0;
-    // What was there is written over.
-    states.windows.resize(windows.len(), [ZERO; 4]);
-    for (window, faces) in windows.iter().zip(&mut states.windows) {
+    for (window, faces) in windows.iter().zip(states.of_windows(windows.len())) {
         window_states(limit, cells, *window, stencil, faces);
     }
 }
@@ -328,6 +285,7 @@ fn kept_share(cells: &Cells<'_>, k: usize, stencil: &Stencil<'_>) -> f64 {
 mod tests {
     use super::*;
     use crate::StiffenedGas;
+    use crate::five_equation::FaceState;
 
     /// Five cells and what windows look at beyond them.
     const STRIDE: usize = 12;
