@@ -46,6 +46,13 @@ pub(crate) struct StepContext<'a, const N: usize> {
     pub wall_first: &'a [usize],
 }
 
+impl<const N: usize> StepContext<'_, N> {
+    /// The limiter of the gas fraction's slopes.
+    fn fraction_limiter(&self) -> Limiter {
+        self.two_phase.map_or(self.limiter, |options| options.fraction_limiter(self.limiter))
+    }
+}
+
 /// Scratch of one thread.
 pub(crate) struct BlockScratch<const N: usize> {
     pub cells: Padded<N>,
@@ -160,7 +167,7 @@ pub(crate) fn reconstruct<const N: usize>(
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     for component in 0..COUNT {
         limited_differences(
-            ctx.limiter,
+            if component == PHI { ctx.fraction_limiter() } else { ctx.limiter },
             cells.component(component),
             Padded::<N>::STRIDE,
             s_z.component_mut(component),
@@ -188,6 +195,7 @@ pub(crate) fn step_block<const N: usize>(
     let gas_block = gas_block.and_then(|block| block.reached_by_gas(&scratch.cells));
     let predictor = Predictor {
         limiter: ctx.limiter,
+        has_sharper_fraction: ctx.fraction_limiter() != ctx.limiter,
         stride,
         inverse_h,
         inverse_r: &scratch.inverse_r,

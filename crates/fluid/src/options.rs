@@ -1,5 +1,7 @@
 //! The choices a case makes by name.
 
+use mesh::Limiter;
+
 /// The two-phase model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
@@ -58,6 +60,14 @@ impl TwoPhaseOptions {
             Model::Allaire => Some(Self { has_closure: false, is_sharp }),
             Model::FiveEquation => Some(Self { has_closure: true, is_sharp }),
         }
+    }
+
+    /// The limiter of the gas fraction's slopes where there is no step, beside `limiter` for all else.
+    ///
+    /// A sharp interface is THINC's business, whatever serves the waves: what `minmod` adds in the cells next to a step are
+    /// traces of gas that the interface leaves behind, a third more mixed cells.
+    pub fn fraction_limiter(self, limiter: Limiter) -> Limiter {
+        if self.is_sharp && limiter == Limiter::Minmod { Limiter::Mc } else { limiter }
     }
 }
 

@@ -4,6 +4,8 @@ use mesh::Limiter;
 
 use crate::Mixture;
 use crate::five_equation::is_compliant;
+#[cfg(doc)]
+use crate::options::TwoPhaseOptions;
 use crate::rows::{Rows, cut, half_step, whole_half_step};
 
 /// Cells after which the pass looks whether all of them keep their slopes: whole lines of the cache, few enough that
@@ -14,6 +16,8 @@ const CHUNK: usize = 64;
 #[derive(Clone, Copy)]
 pub(crate) struct Predictor<'a> {
     pub limiter: Limiter,
+    /// Whether the gas fraction has a sharper limiter, see [`TwoPhaseOptions::fraction_limiter`].
+    pub has_sharper_fraction: bool,
     /// Distance between cells that neighbour each other along r.
     pub stride: usize,
     /// 1/h_z, 1/h_r.
@@ -46,17 +50,24 @@ pub(crate) fn predict(
     keep: &mut [f64],
 ) {
     let m = *mixture;
-    match p.limiter {
-        Limiter::Mc => body(|a, b| Limiter::Mc.difference(a, b), w, p, m, s_z, s_r, half, keep),
-        Limiter::Minmod => body(|a, b| Limiter::Minmod.difference(a, b), w, p, m, s_z, s_r, half, keep),
-        Limiter::Eno => body(|a, b| Limiter::Eno.difference(a, b), w, p, m, s_z, s_r, half, keep),
-        Limiter::None => body(|a, b| Limiter::None.difference(a, b), w, p, m, s_z, s_r, half, keep),
+    // A function of its own for each, so that the compiler sees what it does.
+    let mc = |a, b| Limiter::Mc.difference(a, b);
+    let minmod = |a, b| Limiter::Minmod.difference(a, b);
+    let eno = |a, b| Limiter::Eno.difference(a, b);
+    let none = |a, b| Limiter::None.difference(a, b);
+    match (p.limiter, p.has_sharper_fraction) {
+        (Limiter::Mc, _) => body(mc, mc, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Minmod, false) => body(minmod, minmod, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Minmod, true) => body(minmod, mc, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Eno, _) => body(eno, eno, w, p, m, s_z, s_r, half, keep),
+        (Limiter::None, _) => body(none, none, w, p, m, s_z, s_r, half, keep),
     }
 }
 
 #[inline(always)]
 fn body(
     limit: impl Fn(f64, f64) -> f64 + Copy,
+    limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
     w: Rows<'_>,
     p: Predictor<'_>,
     mixture: Mixture,
@@ -75,6 +86,7 @@ fn body(
         differences_and_half(
             n,
             limit,
+            limit_fraction,
             here,
             [
                 cut(&w, first - 1, n),
@@ -132,6 +144,7 @@ fn body(
 fn differences_and_half(
     n: usize,
     limit: impl Fn(f64, f64) -> f64,
+    limit_fraction: impl Fn(f64, f64) -> f64,
     w: Rows<'_>,
     [west, east, south, north]: [Rows<'_>; 4],
     inverse_r: &[f64],
@@ -159,8 +172,10 @@ fn differences_and_half(
         let here = [w[0][k], w[1][k], w[2][k], w[3][k], w[4][k]];
         let along_z = |c: usize| limit(here[c] - west[c][k], east[c][k] - here[c]);
         let along_r = |c: usize| limit(here[c] - south[c][k], north[c][k] - here[c]);
-        let s_z = [along_z(0), along_z(1), along_z(2), along_z(3), along_z(4)];
-        let s_r = [along_r(0), along_r(1), along_r(2), along_r(3), along_r(4)];
+        let fraction_along_z = limit_fraction(here[4] - west[4][k], east[4][k] - here[4]);
+        let fraction_along_r = limit_fraction(here[4] - south[4][k], north[4][k] - here[4]);
+        let s_z = [along_z(0), along_z(1), along_z(2), along_z(3), fraction_along_z];
+        let s_r = [along_r(0), along_r(1), along_r(2), along_r(3), fraction_along_r];
         let (half, kept) = whole_half_step(here, s_z, s_r, inverse_h, inverse_r[k], half_dt, mixture);
         [z0[k], z1[k], z2[k], z3[k], z4[k]] = s_z;
         [r0[k], r1[k], r2[k], r3[k], r4[k]] = s_r;
@@ -220,12 +235,23 @@ mod tests {
         ];
         let inverse_r = row(10.0, 30.0, 0.07);
         let mut shares = [0; 3];
-        for (name, limiter) in Limiter::NAMES {
+        let sharper = [("minmod", Limiter::Minmod, true)];
+        let limiters = Limiter::NAMES.map(|(name, limiter)| (name, limiter, false));
+        for (name, limiter, has_sharper_fraction) in limiters.into_iter().chain(sharper) {
+            let of_component = |c: usize| if c == 4 && has_sharper_fraction { Limiter::Mc } else { limiter };
             let rows = || -> [Vec<f64>; 5] { std::array::from_fn(|_| vec![0.0; len]) };
             let (mut s_z, mut s_r, mut half, mut keep) = (rows(), rows(), rows(), vec![0.0; len]);
             predict(
                 w.each_ref().map(|row| &row[..]),
-                Predictor { limiter, stride, inverse_h, inverse_r: &inverse_r, half_dt, with_mixed: true },
+                Predictor {
+                    limiter,
+                    has_sharper_fraction,
+                    stride,
+                    inverse_h,
+                    inverse_r: &inverse_r,
+                    half_dt,
+                    with_mixed: true,
+                },
                 &mixture,
                 s_z.each_mut().map(|row| &mut row[..]),
                 s_r.each_mut().map(|row| &mut row[..]),
@@ -236,7 +262,7 @@ mod tests {
                 let here: [f64; 5] = std::array::from_fn(|c| w[c][k]);
                 let slopes = |by: usize| -> [f64; 5] {
                     std::array::from_fn(|c| {
-                        limiter.difference(here[c] - w[c][k - by], w[c][k + by] - here[c])
+                        of_component(c).difference(here[c] - w[c][k - by], w[c][k + by] - here[c])
                     })
                 };
                 let (z, r) = (slopes(1), slopes(stride));

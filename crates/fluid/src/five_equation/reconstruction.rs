@@ -50,32 +50,37 @@ pub(crate) fn face_states(
     stencil: &Stencil<'_>,
     states: &mut FaceStates,
 ) {
-    match stencil.limiter {
-        Limiter::Mc => states_of(|a, b| Limiter::Mc.difference(a, b), cells, windows, stencil, states),
-        Limiter::Minmod => {
-            states_of(|a, b| Limiter::Minmod.difference(a, b), cells, windows, stencil, states)
-        }
-        Limiter::Eno => states_of(|a, b| Limiter::Eno.difference(a, b), cells, windows, stencil, states),
-        Limiter::None => states_of(|a, b| Limiter::None.difference(a, b), cells, windows, stencil, states),
+    let mc = |a, b| Limiter::Mc.difference(a, b);
+    let minmod = |a, b| Limiter::Minmod.difference(a, b);
+    let eno = |a, b| Limiter::Eno.difference(a, b);
+    let none = |a, b| Limiter::None.difference(a, b);
+    match (stencil.limiter, stencil.options.fraction_limiter(stencil.limiter)) {
+        (Limiter::Mc, _) => states_of(mc, mc, cells, windows, stencil, states),
+        (Limiter::Minmod, Limiter::Mc) => states_of(minmod, mc, cells, windows, stencil, states),
+        (Limiter::Minmod, _) => states_of(minmod, minmod, cells, windows, stencil, states),
+        (Limiter::Eno, _) => states_of(eno, eno, cells, windows, stencil, states),
+        (Limiter::None, _) => states_of(none, none, cells, windows, stencil, states),
     }
 }
 
 #[inline(always)]
 fn states_of(
     limit: impl Fn(f64, f64) -> f64 + Copy,
+    limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
     windows: &[Window],
     stencil: &Stencil<'_>,
     states: &mut FaceStates,
 ) {
     for (window, faces) in windows.iter().zip(states.of_windows(windows.len())) {
-        window_states(limit, cells, *window, stencil, faces);
+        window_states(limit, limit_fraction, cells, *window, stencil, faces);
     }
 }
 
 #[inline(always)]
 fn window_states(
     limit: impl Fn(f64, f64) -> f64 + Copy,
+    limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
     at: Window,
     stencil: &Stencil<'_>,
@@ -92,9 +97,10 @@ fn window_states(
     for (differences, [below, above]) in differences.iter_mut().zip(&around) {
         // Lane by lane: of a loop over the components around one over the lanes LLVM makes gathers.
         for k in 0..LANES {
-            for c in 0..6 {
+            for c in 0..PHI {
                 differences[c][k] = limit(w[c][k] - below[c][k], above[c][k] - w[c][k]);
             }
+            differences[PHI][k] = limit_fraction(w[PHI][k] - below[PHI][k], above[PHI][k] - w[PHI][k]);
         }
     }
     let mut half = half_step(&w, &differences, &at.load(stencil.inverse_r, 0), stencil);
@@ -264,8 +270,10 @@ fn kept_share(cells: &Cells<'_>, k: usize, stencil: &Stencil<'_>) -> f64 {
     }
     let [w, west, east, south, north] =
         [k, k - 1, k + 1, k - cells.stride, k + cells.stride].map(|k| cells.mean(k).w);
+    let fraction_limiter = stencil.options.fraction_limiter(stencil.limiter);
     let limited = |below: [f64; 5], above: [f64; 5]| -> [f64; 5] {
-        std::array::from_fn(|c| stencil.limiter.difference(w[c] - below[c], above[c] - w[c]))
+        let limiter = |c: usize| if c == 4 { fraction_limiter } else { stencil.limiter };
+        std::array::from_fn(|c| limiter(c).difference(w[c] - below[c], above[c] - w[c]))
     };
     let (s_z, s_r) = (limited(west, east), limited(south, north));
     let half_dt = 0.5 * stencil.dt;
