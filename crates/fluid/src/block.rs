@@ -195,7 +195,7 @@ pub(crate) fn step_block<const N: usize>(
     let gas_block = gas_block.and_then(|block| block.reached_by_gas(&scratch.cells));
     let predictor = Predictor {
         limiter: ctx.limiter,
-        has_sharper_fraction: ctx.fraction_limiter() != ctx.limiter,
+        fraction_limiter: ctx.fraction_limiter(),
         stride,
         inverse_h,
         inverse_r: &scratch.inverse_r,

@@ -4,8 +4,6 @@ use mesh::Limiter;
 
 use crate::Mixture;
 use crate::five_equation::is_compliant;
-#[cfg(doc)]
-use crate::options::TwoPhaseOptions;
 use crate::rows::{Rows, cut, half_step, whole_half_step};
 
 /// Cells after which the pass looks whether all of them keep their slopes: whole lines of the cache, few enough that
@@ -16,8 +14,8 @@ const CHUNK: usize = 64;
 #[derive(Clone, Copy)]
 pub(crate) struct Predictor<'a> {
     pub limiter: Limiter,
-    /// Whether the gas fraction has a sharper limiter, see [`TwoPhaseOptions::fraction_limiter`].
-    pub has_sharper_fraction: bool,
+    /// Of the gas fraction.
+    pub fraction_limiter: Limiter,
     /// Distance between cells that neighbour each other along r.
     pub stride: usize,
     /// 1/h_z, 1/h_r.
@@ -55,10 +53,10 @@ pub(crate) fn predict(
     let minmod = |a, b| Limiter::Minmod.difference(a, b);
     let eno = |a, b| Limiter::Eno.difference(a, b);
     let none = |a, b| Limiter::None.difference(a, b);
-    match (p.limiter, p.has_sharper_fraction) {
+    match (p.limiter, p.fraction_limiter) {
         (Limiter::Mc, _) => body(mc, mc, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Minmod, false) => body(minmod, minmod, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Minmod, true) => body(minmod, mc, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Minmod, Limiter::Mc) => body(minmod, mc, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Minmod, _) => body(minmod, minmod, w, p, m, s_z, s_r, half, keep),
         (Limiter::Eno, _) => body(eno, eno, w, p, m, s_z, s_r, half, keep),
         (Limiter::None, _) => body(none, none, w, p, m, s_z, s_r, half, keep),
     }
@@ -235,17 +233,17 @@ mod tests {
         ];
         let inverse_r = row(10.0, 30.0, 0.07);
         let mut shares = [0; 3];
-        let sharper = [("minmod", Limiter::Minmod, true)];
-        let limiters = Limiter::NAMES.map(|(name, limiter)| (name, limiter, false));
-        for (name, limiter, has_sharper_fraction) in limiters.into_iter().chain(sharper) {
-            let of_component = |c: usize| if c == 4 && has_sharper_fraction { Limiter::Mc } else { limiter };
+        let sharper = [("minmod", Limiter::Minmod, Limiter::Mc)];
+        let limiters = Limiter::NAMES.map(|(name, limiter)| (name, limiter, limiter));
+        for (name, limiter, fraction_limiter) in limiters.into_iter().chain(sharper) {
+            let of_component = |c: usize| if c == 4 { fraction_limiter } else { limiter };
             let rows = || -> [Vec<f64>; 5] { std::array::from_fn(|_| vec![0.0; len]) };
             let (mut s_z, mut s_r, mut half, mut keep) = (rows(), rows(), rows(), vec![0.0; len]);
             predict(
                 w.each_ref().map(|row| &row[..]),
                 Predictor {
                     limiter,
-                    has_sharper_fraction,
+                    fraction_limiter,
                     stride,
                     inverse_h,
                     inverse_r: &inverse_r,

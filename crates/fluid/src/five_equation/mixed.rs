@@ -9,7 +9,7 @@ use super::cells::{Cells, FaceState, RowKinds, find_interface};
 use super::closure::{Compression, is_mixed};
 use super::face_states::FaceStates;
 use super::reconstruction::{Stencil, face_states};
-use super::windows::{LANES, Window, windows};
+use super::windows::{LANES, Window, lanes, windows};
 use crate::block::used_face;
 use crate::boundary::beside;
 use crate::exact_rows::{ListedFaces, exact_fluxes};
@@ -129,7 +129,7 @@ impl MixedCells {
         }
         let windows = std::mem::take(&mut self.windows);
         for (window, first) in windows.iter().zip((0..).step_by(LANES)) {
-            window.listed_lanes().for_each(|lane| self.list(window.cell(lane), first + lane));
+            lanes(window.listed).for_each(|lane| self.list(window.cell(lane), first + lane));
         }
         self.windows = windows;
         face_states(cells, &self.windows, stencil, &mut self.states);

@@ -16,11 +16,6 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// The lanes that are on the list.
-    pub fn listed_lanes(self) -> impl Iterator<Item = usize> {
-        lanes(self.listed)
-    }
-
     /// The cell of a lane.
     #[inline(always)]
     pub fn cell(self, lane: usize) -> usize {
@@ -29,7 +24,7 @@ impl Window {
 
     /// The cells of a window that are on the list.
     pub fn cells(self) -> impl Iterator<Item = usize> {
-        self.listed_lanes().map(move |lane| self.cell(lane))
+        lanes(self.listed).map(move |lane| self.cell(lane))
     }
 
     #[inline(always)]
