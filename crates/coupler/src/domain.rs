@@ -1,4 +1,4 @@
-//! Where iceoryx2 keeps its objects, who may see them, and how the dead are cleared away.
+//! Where iceoryx2 keeps its objects, who may see them, and how a deserted domain is swept.
 
 use std::fs::{self, DirBuilder, File};
 use std::io::ErrorKind;
@@ -6,16 +6,11 @@ use std::os::unix::fs::{DirBuilderExt, MetadataExt};
 use std::path::{Path, PathBuf};
 
 use iceoryx2::config::Config;
-use iceoryx2::node::NodeView;
-use iceoryx2::prelude::{
-    CallbackProgression, FileName, LogLevel, Node, NodeState, Path as IoxPath, SemanticString,
-    set_log_level_from_env_or,
-};
+use iceoryx2::prelude::{FileName, LogLevel, Path as IoxPath, SemanticString, set_log_level_from_env_or};
 
 use rustix::fs::{Access, access, statvfs};
 
 use crate::error::CouplerError;
-use crate::making::Making;
 
 /// Ports can move to the thread that uses them, so the thread-safe flavour.
 pub(crate) type Ipc = iceoryx2::prelude::ipc_threadsafe::Service;
@@ -141,34 +136,6 @@ pub(crate) fn shared_objects(prefix: &str) -> impl Iterator<Item = (String, Path
 fn is_of(prefix: &str, name: &str) -> bool {
     let digits = name.strip_prefix(prefix).and_then(|rest| rest.split_once('_')).map(|(digits, _)| digits);
     digits.is_some_and(|digits| digits.len() == 40 && digits.bytes().all(|b| b.is_ascii_hexdigit()))
-}
-
-/// Removes what participants of this domain left behind when they were killed. Safe at any time: the living keep theirs.
-pub fn clean_up_dead(domain: &Domain) -> Result<(), CouplerError> {
-    let config = domain.config()?;
-    let _presence = Presence::enter(domain)?;
-    Making::begin(domain, &config).map(drop)
-}
-
-/// Removes what the dead had whole. To be called behind the lock of [`Making`].
-pub(crate) fn remove_dead(config: &Config) -> Result<usize, CouplerError> {
-    let mut removed = 0;
-    Node::<Ipc>::list(config, |state| {
-        if let NodeState::Dead(node) = state {
-            let id = *node.id();
-            match node.try_remove_stale_resources() {
-                Ok(()) => removed += 1,
-                // Another participant is at it, which is as good.
-                Err(cause) => tracing::debug!(%id, %cause, "a dead participant was not cleared away here"),
-            }
-        }
-        CallbackProgression::Continue
-    })
-    .map_err(|cause| CouplerError::SharedMemory {
-        what: "listing the participants",
-        cause: cause.to_string(),
-    })?;
-    Ok(removed)
 }
 
 /// A directory of ours that nobody else can enter; in a shared `/tmp` anyone could have made it first.

@@ -35,12 +35,13 @@ mod weak;
 
 pub use aitken::Aitken;
 pub use direct::{DirectLink, direct_pair};
-pub use domain::{Domain, clean_up_dead};
+pub use domain::Domain;
 pub use error::CouplerError;
 pub use exchange::{RegisterRow, TraceRow, WallRegister};
 pub use frame::{Expected, FRAME_VERSION, Fault, Frame, FrameHeader, FrameKind};
 pub use latency::Latencies;
 pub use link::{Link, LinkCounters, Participant};
+pub use making::clean_up_dead;
 pub use mapping::{CommonRefinement, SubFace};
 pub use meeting::{Meeting, ShortStep};
 pub use one_sided::{fluid_at_moving_wall, fluid_under_pressure, solid_moved, solid_under_pressure};

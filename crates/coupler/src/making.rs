@@ -12,8 +12,10 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use iceoryx2::config::Config;
+use iceoryx2::node::NodeView;
+use iceoryx2::prelude::{CallbackProgression, Node, NodeState};
 
-use crate::domain::{Domain, remove_dead, shared_objects};
+use crate::domain::{Domain, Ipc, Presence, shared_objects};
 use crate::error::CouplerError;
 
 /// Making takes milliseconds; only one that is stopped over it holds the lock for longer.
@@ -33,9 +35,7 @@ pub(crate) struct Making {
 
 impl Making {
     /// Waits for its turn, then clears away what the dead left, whole or half made.
-    ///
-    /// - returns: how many dead participants were cleared away, too.
-    pub(crate) fn begin(domain: &Domain, config: &Config) -> Result<(Self, usize), CouplerError> {
+    pub(crate) fn begin(domain: &Domain, config: &Config) -> Result<Self, CouplerError> {
         let start = Instant::now();
         loop {
             if let Some(begun) = Self::try_begin(domain, config)? {
@@ -52,7 +52,7 @@ impl Making {
     }
 
     /// As [`Making::begin`], but `None` if it is another's turn.
-    pub(crate) fn try_begin(domain: &Domain, config: &Config) -> Result<Option<(Self, usize)>, CouplerError> {
+    pub(crate) fn try_begin(domain: &Domain, config: &Config) -> Result<Option<Self>, CouplerError> {
         let path = domain.root.join("making");
         let refuse = |error: std::io::Error| CouplerError::BadRoot {
             path: domain.root.clone(),
@@ -65,9 +65,40 @@ impl Making {
             Err(fs::TryLockError::Error(error)) => return Err(refuse(error)),
         }
         remove_half_made(domain);
-        let removed = remove_dead(config)?;
-        Ok(Some((Self { _lock: lock }, removed)))
+        remove_dead(config)?;
+        Ok(Some(Self { _lock: lock }))
     }
+}
+
+/// Removes what participants of this domain left behind when they were killed. Safe at any time: the living keep theirs.
+pub fn clean_up_dead(domain: &Domain) -> Result<(), CouplerError> {
+    let config = domain.config()?;
+    let _presence = Presence::enter(domain)?;
+    Making::begin(domain, &config).map(drop)
+}
+
+/// Removes what the dead had whole. To be called behind the lock.
+fn remove_dead(config: &Config) -> Result<(), CouplerError> {
+    let mut removed = 0;
+    Node::<Ipc>::list(config, |state| {
+        if let NodeState::Dead(node) = state {
+            let id = *node.id();
+            match node.try_remove_stale_resources() {
+                Ok(()) => removed += 1,
+                // Another participant is at it, which is as good.
+                Err(cause) => tracing::debug!(%id, %cause, "a dead participant was not cleared away here"),
+            }
+        }
+        CallbackProgression::Continue
+    })
+    .map_err(|cause| CouplerError::SharedMemory {
+        what: "listing the participants",
+        cause: cause.to_string(),
+    })?;
+    if removed > 0 {
+        tracing::info!(removed, "cleared away participants that were killed");
+    }
+    Ok(())
 }
 
 /// Removes what can never be opened, for to clear away the dead is to open what they had. To be called behind the lock.
@@ -116,7 +147,6 @@ mod tests {
     use iceoryx2::prelude::NodeBuilder;
 
     use super::*;
-    use crate::domain::{Ipc, Presence};
 
     #[test]
     fn what_was_half_made_by_the_killed_is_cleared_away_and_what_is_whole_stays() {
@@ -142,7 +172,7 @@ mod tests {
                 File::create(path).unwrap().set_len(length).unwrap();
                 fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
             }
-            let (making, _) = Making::begin(&domain, &config).unwrap();
+            let making = Making::begin(&domain, &config).unwrap();
             assert!(objects().is_empty());
             assert!(!service.exists());
             assert!(Making::try_begin(&domain, &config).unwrap().is_none(), "one at a time");

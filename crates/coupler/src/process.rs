@@ -121,10 +121,7 @@ impl ProcessLink {
         check_run_id(&run_id)?;
         let config = domain.config()?;
         let presence = Presence::enter(&domain)?;
-        let (making, removed) = Making::begin(&domain, &config)?;
-        if removed > 0 {
-            tracing::info!(removed, "cleared away participants that were killed");
-        }
+        let making = Making::begin(&domain, &config)?;
         require_room(ROOM_TO_BEGIN + room_for(initial_len))?;
         let watch = Arc::new(PeerWatch::new(config.clone(), patience, notice));
         let ports = Ports::open(&config, &run_id, name, initial_len, &watch)?;

@@ -1,19 +1,19 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
 use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
-use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
 use crate::curvature::AlongFaces;
 use crate::even::{even_slopes, predict_beside_mirrors};
 use crate::exact_rows::exact_faces;
-use crate::five_equation::{GasBlock, GasScratch, is_near_gas};
+use crate::five_equation::{GasBlock, GasScratch, may_have_gas};
 use crate::options::TwoPhaseOptions;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
+use crate::report::{BlockReport, boundary_inflow, count_fallbacks};
 use crate::rows::{self, FaceRows, Reconstruction};
-use crate::state::conserved::{COUNT, PHI};
+use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::update::{Extremes, Metric, update};
 use crate::{Boundary, Mixture, RiemannSolver};
 
@@ -68,6 +68,8 @@ pub(crate) struct BlockScratch<const N: usize> {
     face_weight: Vec<f64>,
     inverse_weight: Vec<f64>,
     pub gas: GasScratch,
+    /// Whether the rows of the gas fraction may hold anything but zeros.
+    has_gas: bool,
 }
 
 impl<const N: usize> BlockScratch<N> {
@@ -88,7 +90,20 @@ impl<const N: usize> BlockScratch<N> {
             face_weight: vec![0.0; N + 1],
             inverse_weight: vec![0.0; N],
             gas: GasScratch::new::<N>(),
+            has_gas: false,
         }
+    }
+
+    /// There is no gas in the block; most leave it at that.
+    fn without_gas(&mut self) {
+        if std::mem::take(&mut self.has_gas) {
+            for rows in [&mut self.cells, &mut self.s_z, &mut self.s_r, &mut self.half] {
+                rows.component_mut(PHI).fill(0.0);
+            }
+            self.cells.component_mut(GAS).fill(0.0);
+        }
+        self.z_faces.without_gas();
+        self.r_faces.without_gas();
     }
 
     /// The cells of the last block that should be done again at first order.
@@ -97,60 +112,24 @@ impl<const N: usize> BlockScratch<N> {
     }
 }
 
-/// What one block tells of its step.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(crate) struct BlockReport<const N: usize> {
-    pub extremes: Extremes,
-    /// Whether there is gas in the block, or a trace of its mass.
-    pub has_gas: bool,
-    /// Cells that should be done again at first order, and those that were.
-    pub marked: u32,
-    pub redone: u32,
-    pub redone_volume: f64,
-    /// Cells that fell back to first order.
-    pub fallbacks: u32,
-    /// Cells lifted to the pressure floor, their volume and the energy that took (per radian in axial symmetry), J.
-    pub floored: u32,
-    pub floored_volume: f64,
-    pub floor_energy: f64,
-    /// What came in through each side of the domain: mass, axial momentum, energy (per radian).
-    pub inflow: [[f64; 3]; 4],
-    /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
-    #[serde(with = "mesh::array")]
-    pub wall_pressure: [f64; N],
-}
-
-impl<const N: usize> Default for BlockReport<N> {
-    fn default() -> Self {
-        Self {
-            extremes: Extremes::default(),
-            has_gas: false,
-            marked: 0,
-            redone: 0,
-            redone_volume: 0.0,
-            fallbacks: 0,
-            floored: 0,
-            floored_volume: 0.0,
-            floor_energy: 0.0,
-            inflow: [[0.0; 3]; 4],
-            wall_pressure: [0.0; N],
-        }
-    }
-}
-
 /// Assembles a block with its ghosts: primitive variables in `cells`.
 ///
-/// - `with_gas`: whether the gas's mass is looked at; else its row holds nothing.
+/// - `with_gas`: whether the gas is looked at; else there is none, neither in the block nor in its neighbours.
 fn assemble<const N: usize>(
     ctx: &StepContext<'_, N>,
     slot: usize,
     with_gas: bool,
     scratch: &mut BlockScratch<N>,
 ) {
+    if !with_gas {
+        scratch.without_gas();
+    }
+    scratch.has_gas = with_gas;
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    let components = if with_gas { ctx.old.components() } else { COUNT };
+    let components = if with_gas { ctx.old.components() } else { PHI };
     cells.assemble_first(components, ctx.mesh, ctx.old, slot, ctx.analysis, patch);
-    rows::to_primitive(cells.split_mut(), ctx.mixture);
+    debug_assert!(with_gas || cells.component(PHI).iter().all(|phi| *phi == 0.0), "neighbours have no gas");
+    rows::to_primitive(cells.split_mut(), with_gas, ctx.mixture);
     ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     let id = ctx.mesh.tree().leaves()[slot];
     ctx.mesh.inverse_radii(id, inverse_r);
@@ -163,7 +142,7 @@ pub(crate) fn reconstruct<const N: usize>(
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
-    assemble(ctx, slot, is_near_gas(ctx, slot), scratch);
+    assemble(ctx, slot, may_have_gas(ctx, slot), scratch);
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     for component in 0..COUNT {
         limited_differences(
@@ -190,9 +169,13 @@ pub(crate) fn step_block<const N: usize>(
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let inverse_h = [1.0 / h_z, 1.0 / h_r];
 
-    let gas_block = GasBlock::of(ctx, slot);
-    assemble(ctx, slot, gas_block.is_some(), scratch);
-    let gas_block = gas_block.and_then(|block| block.reached_by_gas(&scratch.cells));
+    let may_have_gas = may_have_gas(ctx, slot);
+    assemble(ctx, slot, may_have_gas, scratch);
+    let gas_block = if may_have_gas { GasBlock::of(ctx, slot, &scratch.cells) } else { None };
+    let with_gas = ctx.two_phase.is_none() || gas_block.is_some();
+    if !with_gas {
+        scratch.without_gas();
+    }
     let predictor = Predictor {
         limiter: ctx.limiter,
         fraction_limiter: ctx.fraction_limiter(),
@@ -200,6 +183,7 @@ pub(crate) fn step_block<const N: usize>(
         inverse_h,
         inverse_r: &scratch.inverse_r,
         half_dt: 0.5 * ctx.dt,
+        with_gas,
         with_mixed: ctx.two_phase.is_none(),
     };
     predict(
@@ -236,6 +220,7 @@ pub(crate) fn step_block<const N: usize>(
         half: [rho, v_z, v_r, p, phi],
         differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
         keep: &scratch.keep,
+        with_gas,
         curvature: ctx.curvature(id.level, 0),
         along_faces: AlongFaces::new([1, 3].map(|c| scratch.s_r.component(c)), stride),
     };
@@ -259,6 +244,7 @@ pub(crate) fn step_block<const N: usize>(
         half: [rho, v_r, v_z, p, phi],
         differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
         keep: &scratch.keep,
+        with_gas,
         curvature: ctx.curvature(id.level, 1),
         along_faces: AlongFaces::new([2, 3].map(|c| scratch.s_z.component(c)), 1),
     };
@@ -267,9 +253,6 @@ pub(crate) fn step_block<const N: usize>(
     if let Some(block) = &gas_block {
         block.solve_faces(1, &along_r, &scratch.inverse_r, &mut scratch.gas, &mut scratch.r_faces);
         block.gas_fluxes(&mut scratch.gas, [&mut scratch.z_faces, &mut scratch.r_faces]);
-    } else if ctx.two_phase.is_some() {
-        scratch.z_faces.without_gas();
-        scratch.r_faces.without_gas();
     }
 
     register_fluxes(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, fluxes);
@@ -297,6 +280,7 @@ pub(crate) fn step_block<const N: usize>(
         &scratch.r_faces,
         ctx.dt,
         &metric,
+        with_gas,
         ctx.mixture,
         split_block::<N>(new),
         [speed_z, speed_r, floor],
@@ -317,8 +301,8 @@ pub(crate) fn step_block<const N: usize>(
             &mut speeds,
             &mut report,
         );
-    } else if ctx.two_phase.is_some() {
-        new[COUNT * N * N..].fill(0.0);
+    } else if !with_gas {
+        new[PHI * N * N..].fill(0.0);
     }
     let [speed_z, speed_r, floor] = &speeds;
     report.extremes = Extremes::of(&new[PHI * N * N..(PHI + 1) * N * N], [speed_z, speed_r, floor]);
@@ -383,56 +367,4 @@ pub(crate) fn used_face<const N: usize>(k: usize, step: usize) -> bool {
     } else {
         inner.contains(&i) && faces.contains(&j)
     }
-}
-
-fn count_fallbacks<const N: usize>(keep: &[f64]) -> u32 {
-    let mut dropped = 0;
-    for j in 0..N {
-        let at = Padded::<N>::index(0, j as isize);
-        // Mixed cells of the five-equation model hold −0: they have face states of their own.
-        let is_dropped = |share: &&f64| **share == 0.0 && share.is_sign_positive();
-        dropped += keep[at..at + N].iter().filter(is_dropped).count() as u32;
-    }
-    dropped
-}
-
-/// Mass, axial momentum and energy that a block took in through the sides of the domain.
-fn boundary_inflow<const N: usize>(
-    ctx: &StepContext<'_, N>,
-    slot: usize,
-    z_faces: &FaceRows,
-    r_faces: &FaceRows,
-    face_weight: &[f64],
-) -> [[f64; 3]; 4] {
-    let mut inflow = [[0.0; 3]; 4];
-    let id = ctx.mesh.tree().leaves()[slot];
-    let [h_z, h_r] = ctx.mesh.widths(id.level);
-    for side in Side::ALL {
-        if !ctx.mesh.touches(slot, side) {
-            continue;
-        }
-        let total = &mut inflow[side as usize];
-        for along in 0..N {
-            let [mass, momentum, energy] = match side {
-                Side::ZMin | Side::ZMax => {
-                    let i = if side == Side::ZMin { -1 } else { N as isize - 1 };
-                    let k = Padded::<N>::index(i, along as isize);
-                    let area = ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r;
-                    let momentum = z_faces.mass[k] * z_faces.velocity[k] + z_faces.pressure[k];
-                    [area * z_faces.mass[k], area * momentum, area * z_faces.energy[k]]
-                }
-                Side::RMin | Side::RMax => {
-                    let j = if side == Side::RMin { -1 } else { N as isize - 1 };
-                    let k = Padded::<N>::index(along as isize, j);
-                    let area = face_weight[(j + 1) as usize] * h_z;
-                    [area * r_faces.mass[k], area * r_faces.shear[k], area * r_faces.energy[k]]
-                }
-            };
-            let sign = if matches!(side, Side::ZMin | Side::RMin) { ctx.dt } else { -ctx.dt };
-            total[0] += sign * mass;
-            total[1] += sign * momentum;
-            total[2] += sign * energy;
-        }
-    }
-    inflow
 }

@@ -38,6 +38,8 @@ pub(crate) struct Boundaries {
     /// The initial state in the cells along each side, and the gas's part of its mass.
     initial: SideStates<(Primitive, f64)>,
     inflow: Option<PressureHistory>,
+    /// The open sides that have gas beyond them.
+    has_gas_beyond: [bool; 4],
 }
 
 /// The state of the wall during a step: means over it of p*, v* and p*v*.
@@ -57,7 +59,16 @@ impl Boundaries {
         initial: SideStates<(Primitive, f64)>,
         inflow: Option<PressureHistory>,
     ) -> Self {
-        Self { kinds, initial, inflow }
+        let is_open = |side: Side| matches!(kinds[side as usize], Boundary::NonReflecting | Boundary::Inflow);
+        let has_gas =
+            |side: Side| initial.along(side).any(|(state, share)| state.phi != 0.0 || *share != 0.0);
+        let has_gas_beyond = Side::ALL.map(|side| is_open(side) && has_gas(side));
+        Self { kinds, initial, inflow, has_gas_beyond }
+    }
+
+    /// Whether a block touches an open side of the domain that has gas beyond it.
+    pub fn may_let_gas_in<const N: usize>(&self, mesh: &Mesh<N>, slot: usize) -> bool {
+        Side::ALL.into_iter().any(|side| self.has_gas_beyond[side as usize] && mesh.touches(slot, side))
     }
 
     pub fn kind(&self, side: Side) -> Boundary {

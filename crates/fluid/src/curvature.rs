@@ -4,7 +4,7 @@
 use mesh::{curvature_share, oblique_shares};
 
 use crate::block::StepContext;
-use crate::rows::Reconstruction;
+use crate::rows::{Reconstruction, fraction};
 
 /// What face states of weak waves in liquid get besides.
 #[derive(Clone, Copy, Debug, Default)]
@@ -116,18 +116,20 @@ fn left_out(
 ///
 /// Normal velocity and pressure are all that matters in a weak wave; density and the rest stay as they are.
 #[inline(always)]
-pub(crate) fn states_at_face(
+pub(crate) fn states_at_face<const WITH_GAS: bool>(
     lower: &Reconstruction<'_>,
     upper: &Reconstruction<'_>,
     k: usize,
 ) -> [[f64; 5]; 2] {
     let curvature = lower.curvature;
-    let low = curvature.takes(lower.half[3][k], lower.half[4][k], lower.differences[3][k]);
-    let high = curvature.takes(upper.half[3][k], upper.half[4][k], upper.differences[3][k]);
+    let takes = |cells: &Reconstruction<'_>| {
+        curvature.takes(cells.half[3][k], fraction::<WITH_GAS>(cells.half[4][k]), cells.differences[3][k])
+    };
+    let (low, high) = (takes(lower), takes(upper));
     let keep = lower.keep[k] * upper.keep[k];
     let kept = [if low[0] & high[0] { keep } else { 0.0 }, if low[1] & high[1] { keep } else { 0.0 }];
     let velocity = left_out(lower, upper, 0, k, kept);
     let pressure = left_out(lower, upper, 1, k, kept);
     [lower.face_state(k, 1.0), upper.face_state(k, -1.0)]
-        .map(|[rho, v_n, v_t, p, phi]| [rho, v_n + velocity, v_t, p + pressure, phi])
+        .map(|[rho, v_n, v_t, p, phi]| [rho, v_n + velocity, v_t, p + pressure, fraction::<WITH_GAS>(phi)])
 }

@@ -165,7 +165,7 @@ fn count(lane: &Lane, n: usize) -> usize {
 #[inline(always)]
 fn take(n: usize, lower: Reconstruction<'_>, upper: Reconstruction<'_>, left: &mut Sides, right: &mut Sides) {
     for k in 0..n.min(LANES) {
-        let [l, r] = states_at_face(&lower, &upper, k);
+        let [l, r] = states_at_face::<true>(&lower, &upper, k);
         [left.rho[k], left.u[k], left.v[k], left.p[k], left.phi[k]] = l;
         [right.rho[k], right.u[k], right.v[k], right.p[k], right.phi[k]] = r;
     }

@@ -29,6 +29,7 @@ mod participant;
 mod predictor;
 mod rayleigh;
 mod reflux;
+mod report;
 mod rows;
 mod saved;
 mod solver;

@@ -4,7 +4,7 @@ use mesh::Limiter;
 
 use crate::Mixture;
 use crate::five_equation::is_compliant;
-use crate::rows::{Rows, cut, half_step, whole_half_step};
+use crate::rows::{Rows, cut, fraction, half_step, whole_half_step};
 
 /// Cells after which the pass looks whether all of them keep their slopes: whole lines of the cache, few enough that
 /// what they need to be done again is still at hand.
@@ -24,6 +24,8 @@ pub(crate) struct Predictor<'a> {
     pub inverse_r: &'a [f64],
     /// Half the time step, s.
     pub half_dt: f64,
+    /// Whether there is gas in any cell. Without it the rows of the gas fraction are left alone; they must hold zeros.
+    pub with_gas: bool,
     /// Whether mixed cells count. Those of the five-equation model that are compliant have face states of their own.
     pub with_mixed: bool,
 }
@@ -53,17 +55,20 @@ pub(crate) fn predict(
     let minmod = |a, b| Limiter::Minmod.difference(a, b);
     let eno = |a, b| Limiter::Eno.difference(a, b);
     let none = |a, b| Limiter::None.difference(a, b);
-    match (p.limiter, p.fraction_limiter) {
-        (Limiter::Mc, _) => body(mc, mc, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Minmod, Limiter::Mc) => body(minmod, mc, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Minmod, _) => body(minmod, minmod, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Eno, _) => body(eno, eno, w, p, m, s_z, s_r, half, keep),
-        (Limiter::None, _) => body(none, none, w, p, m, s_z, s_r, half, keep),
+    // Without gas all limiters give the gas fraction the same slopes: none.
+    match (p.limiter, p.fraction_limiter, p.with_gas) {
+        (Limiter::Mc, _, true) => body::<true>(mc, mc, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Mc, _, false) => body::<false>(mc, mc, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Minmod, Limiter::Mc, true) => body::<true>(minmod, mc, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Minmod, _, true) => body::<true>(minmod, minmod, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Minmod, _, false) => body::<false>(minmod, minmod, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Eno, ..) => body::<true>(eno, eno, w, p, m, s_z, s_r, half, keep),
+        (Limiter::None, ..) => body::<true>(none, none, w, p, m, s_z, s_r, half, keep),
     }
 }
 
 #[inline(always)]
-fn body(
+fn body<const WITH_GAS: bool>(
     limit: impl Fn(f64, f64) -> f64 + Copy,
     limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
     w: Rows<'_>,
@@ -81,7 +86,7 @@ fn body(
         let n = CHUNK.min(end - first);
         let here = cut(&w, first, n);
         let inverse_r = &p.inverse_r[first..][..n];
-        differences_and_half(
+        differences_and_half::<WITH_GAS>(
             n,
             limit,
             limit_fraction,
@@ -139,7 +144,7 @@ fn body(
 }
 
 #[inline(always)]
-fn differences_and_half(
+fn differences_and_half<const WITH_GAS: bool>(
     n: usize,
     limit: impl Fn(f64, f64) -> f64,
     limit_fraction: impl Fn(f64, f64) -> f64,
@@ -167,17 +172,22 @@ fn differences_and_half(
     keep: &mut [f64],
 ) {
     for k in 0..n {
-        let here = [w[0][k], w[1][k], w[2][k], w[3][k], w[4][k]];
+        let phi = fraction::<WITH_GAS>(w[4][k]);
+        let here = [w[0][k], w[1][k], w[2][k], w[3][k], phi];
         let along_z = |c: usize| limit(here[c] - west[c][k], east[c][k] - here[c]);
         let along_r = |c: usize| limit(here[c] - south[c][k], north[c][k] - here[c]);
-        let fraction_along_z = limit_fraction(here[4] - west[4][k], east[4][k] - here[4]);
-        let fraction_along_r = limit_fraction(here[4] - south[4][k], north[4][k] - here[4]);
-        let s_z = [along_z(0), along_z(1), along_z(2), along_z(3), fraction_along_z];
-        let s_r = [along_r(0), along_r(1), along_r(2), along_r(3), fraction_along_r];
-        let (half, kept) = whole_half_step(here, s_z, s_r, inverse_h, inverse_r[k], half_dt, mixture);
-        [z0[k], z1[k], z2[k], z3[k], z4[k]] = s_z;
-        [r0[k], r1[k], r2[k], r3[k], r4[k]] = s_r;
-        [h0[k], h1[k], h2[k], h3[k], h4[k]] = half;
+        let fraction_along_z = limit_fraction(phi - west[4][k], east[4][k] - phi);
+        let fraction_along_r = limit_fraction(phi - south[4][k], north[4][k] - phi);
+        let s_z = [along_z(0), along_z(1), along_z(2), along_z(3), fraction::<WITH_GAS>(fraction_along_z)];
+        let s_r = [along_r(0), along_r(1), along_r(2), along_r(3), fraction::<WITH_GAS>(fraction_along_r)];
+        let (half, kept) =
+            whole_half_step::<WITH_GAS>(here, s_z, s_r, inverse_h, inverse_r[k], half_dt, mixture);
+        [z0[k], z1[k], z2[k], z3[k], _] = s_z;
+        [r0[k], r1[k], r2[k], r3[k], _] = s_r;
+        [h0[k], h1[k], h2[k], h3[k], _] = half;
+        if WITH_GAS {
+            (z4[k], r4[k], h4[k]) = (s_z[4], s_r[4], half[4]);
+        }
         keep[k] = kept;
     }
 }
@@ -248,6 +258,7 @@ mod tests {
                     inverse_h,
                     inverse_r: &inverse_r,
                     half_dt,
+                    with_gas: true,
                     with_mixed: true,
                 },
                 &mixture,

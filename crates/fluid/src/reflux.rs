@@ -3,8 +3,9 @@
 use mesh::{CorrectedFace, FluxRegister, Mesh, Side};
 
 use crate::Mixture;
-use crate::block::{BlockReport, StepContext};
+use crate::block::StepContext;
 use crate::five_equation::{Compression, is_mixed};
+use crate::report::BlockReport;
 use crate::rows::FaceRows;
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI};
 use crate::state::primitive;

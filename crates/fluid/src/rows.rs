@@ -16,6 +16,13 @@ use crate::state::primitive;
 /// Slices of the five primitive variables ρ, v_z, v_r, p, φ.
 pub(crate) type Rows<'a> = [&'a [f64]; 5];
 
+/// A gas fraction, or that of the liquid where there is no gas: a constant there, from which the compiler makes kernels that
+/// neither read nor carry it.
+#[inline(always)]
+pub(crate) fn fraction<const WITH_GAS: bool>(phi: f64) -> f64 {
+    if WITH_GAS { phi } else { 0.0 }
+}
+
 /// `n` numbers of each row from `at` on.
 #[inline(always)]
 pub(crate) fn cut<'a>(rows: &Rows<'a>, at: usize, n: usize) -> Rows<'a> {
@@ -195,7 +202,7 @@ pub(crate) fn half_step(
 
 /// [`half_step`] where all slopes are kept; where they are not, 0 tells so and the state counts for nothing.
 #[inline(always)]
-pub(crate) fn whole_half_step(
+pub(crate) fn whole_half_step<const WITH_GAS: bool>(
     w: [f64; 5],
     s_z: [f64; 5],
     s_r: [f64; 5],
@@ -204,20 +211,26 @@ pub(crate) fn whole_half_step(
     half_dt: f64,
     mixture: &Mixture,
 ) -> ([f64; 5], f64) {
-    let prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
+    let mut prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
+    prediction.change[4] = fraction::<WITH_GAS>(prediction.change[4]);
     (prediction.at(1.0), if prediction.admissible(1.0) { 1.0 } else { 0.0 })
 }
 
-/// Conserved to primitive variables, in place of rows of equal length.
+/// Conserved to primitive variables, in place of rows of equal length; without gas the last row is left alone.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn to_primitive(rows: [&mut [f64]; 5], mixture: &Mixture) {
+pub(crate) fn to_primitive(rows: [&mut [f64]; 5], with_gas: bool, mixture: &Mixture) {
     let n = rows[0].len();
     let [rho, a, b, c, phi] = rows;
-    to_primitive_body(n, &rho[..n], &mut a[..n], &mut b[..n], &mut c[..n], &phi[..n], mixture);
+    let (rho, phi) = (&rho[..n], &phi[..n]);
+    if with_gas {
+        to_primitive_body::<true>(n, rho, &mut a[..n], &mut b[..n], &mut c[..n], phi, mixture);
+    } else {
+        to_primitive_body::<false>(n, rho, &mut a[..n], &mut b[..n], &mut c[..n], phi, mixture);
+    }
 }
 
 #[inline(always)]
-fn to_primitive_body(
+fn to_primitive_body<const WITH_GAS: bool>(
     n: usize,
     rho: &[f64],
     a: &mut [f64],
@@ -227,7 +240,7 @@ fn to_primitive_body(
     mixture: &Mixture,
 ) {
     for k in 0..n {
-        let w = primitive([rho[k], a[k], b[k], c[k], phi[k]], mixture);
+        let w = primitive([rho[k], a[k], b[k], c[k], fraction::<WITH_GAS>(phi[k])], mixture);
         (a[k], b[k], c[k]) = (w[1], w[2], w[3]);
     }
 }
@@ -243,6 +256,7 @@ pub(crate) struct FaceRows {
     pub phi: AlignedRow,
     /// Mass flux of the gas, where the model has one; made by [`FaceRows::gas_mut`], which knows of it.
     gas: AlignedRow,
+    /// Whether that or the gas fraction may hold anything but zeros.
     has_gas: bool,
 }
 
@@ -277,6 +291,7 @@ impl FaceRows {
     pub fn without_gas(&mut self) {
         if std::mem::take(&mut self.has_gas) {
             self.gas.fill(0.0);
+            self.phi.fill(0.0);
         }
     }
 
@@ -323,6 +338,8 @@ pub(crate) struct Reconstruction<'a> {
     pub differences: Rows<'a>,
     /// The share of its slopes that each cell keeps, see [`half_step`].
     pub keep: &'a [f64],
+    /// Whether there is gas in any cell. Without it the rows of the gas fraction hold zeros.
+    pub with_gas: bool,
     pub curvature: Curvature,
     pub along_faces: AlongFaces<'a>,
 }
@@ -340,6 +357,7 @@ impl<'a> Reconstruction<'a> {
             half: cut(&self.half, at, n),
             differences: cut(&self.differences, at, n),
             keep: &self.keep[at..][..n],
+            with_gas: self.with_gas,
             curvature: self.curvature,
             along_faces: self.along_faces.cut(at, n),
         }
@@ -355,7 +373,7 @@ impl<'a> Reconstruction<'a> {
 }
 
 /// HLLC at the faces between cells `k` and `k + step`, for `k` in `range` and in whatever completes its lines;
-/// `stride` is that of the rows.
+/// `stride` is that of the rows. Without gas the gas fractions on the faces are left alone.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn hllc_faces(
     cells: &Reconstruction<'_>,
@@ -368,22 +386,20 @@ pub(crate) fn hllc_faces(
     let range = whole_lines(range, cells.lines(step, stride));
     let (first, n) = (range.start, range.len());
     let mixture = *mixture;
-    hllc_body(
-        n,
-        cells.cut(first, n),
-        cells.cut(first + step, n),
-        &mixture,
-        &mut faces.mass[first..][..n],
-        &mut faces.velocity[first..][..n],
-        &mut faces.pressure[first..][..n],
-        &mut faces.shear[first..][..n],
-        &mut faces.energy[first..][..n],
-        &mut faces.phi[first..][..n],
-    );
+    let (lower, upper) = (cells.cut(first, n), cells.cut(first + step, n));
+    let [mass, velocity, pressure, shear, energy, phi] = faces.fluxes_mut();
+    let (mass, velocity, pressure) =
+        (&mut mass[first..][..n], &mut velocity[first..][..n], &mut pressure[first..][..n]);
+    let (shear, energy, phi) = (&mut shear[first..][..n], &mut energy[first..][..n], &mut phi[first..][..n]);
+    if cells.with_gas {
+        hllc_body::<true>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi);
+    } else {
+        hllc_body::<false>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi);
+    }
 }
 
 #[inline(always)]
-fn hllc_body(
+fn hllc_body<const WITH_GAS: bool>(
     n: usize,
     lower: Reconstruction<'_>,
     upper: Reconstruction<'_>,
@@ -396,13 +412,18 @@ fn hllc_body(
     phi: &mut [f64],
 ) {
     for k in 0..n {
-        let [left, right] = states_at_face(&lower, &upper, k);
+        let [left, right] = states_at_face::<WITH_GAS>(&lower, &upper, k);
         let face = flux_hllc(left, right, mixture);
         mass[k] = face.mass;
         velocity[k] = face.velocity;
         pressure[k] = face.pressure;
         shear[k] = face.shear;
         energy[k] = face.energy;
-        phi[k] = face.phi;
+        if WITH_GAS {
+            phi[k] = face.phi;
+        }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use mesh::{BlockId, Field, Horizon, Misfit};
 use serde::{Deserialize, Serialize};
 
-use crate::block::BlockReport;
+use crate::report::BlockReport;
 use crate::{BoundaryLedger, Fixups, FluidSolver, WallState};
 
 /// Everything of a fluid that its setup and its initial condition do not say, between two steps of the whole.

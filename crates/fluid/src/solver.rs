@@ -8,10 +8,11 @@ use mesh::{
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::{Analysis, Scales};
-use crate::block::{BlockReport, BlockScratch, Marks};
+use crate::block::{BlockScratch, Marks};
 use crate::boundary::{Boundaries, PressureHistory, WallState};
 use crate::options::TwoPhaseOptions;
 use crate::reflux::{QUANTITIES, Register};
+use crate::report::BlockReport;
 use crate::state::Contents;
 use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::steps::check;

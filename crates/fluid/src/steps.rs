@@ -5,9 +5,10 @@
 
 use mesh::{Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, Part, for_each_block, for_some_blocks};
 
-use crate::block::{BlockReport, Marks, StepContext, step_block};
+use crate::block::{Marks, StepContext, step_block};
 use crate::five_equation::marked_blocks;
 use crate::reflux::{self, Register};
+use crate::report::BlockReport;
 use crate::state::conserved::COUNT;
 use crate::{FluidError, FluidSolver, Mixture, Primitive};
 

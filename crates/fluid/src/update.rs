@@ -5,7 +5,7 @@ use mesh::maximum;
 use serde::{Deserialize, Serialize};
 
 use crate::Mixture;
-use crate::rows::{FaceRows, Rows};
+use crate::rows::{FaceRows, Rows, fraction};
 
 /// Reductions over a block's new cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -66,9 +66,29 @@ impl Metric<'_> {
 /// pressure exerts exactly no radial force.
 ///
 /// - `old`, `new`: conserved variables `[component][j][i]` without ghosts.
+/// - `with_gas`: whether gas is in or comes into any cell; without it the gas fraction's rows are neither read nor written.
 /// - `speeds`: scratch of N² numbers each: |v_z| + c, |v_r| + c, energy added by the floor.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update<const N: usize>(
+    old: Rows<'_>,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+    dt: f64,
+    metric: &Metric<'_>,
+    with_gas: bool,
+    mixture: &Mixture,
+    new: [&mut [f64]; 5],
+    speeds: [&mut [f64]; 3],
+) {
+    if with_gas {
+        update_rows::<N, true>(old, z_faces, r_faces, dt, metric, mixture, new, speeds);
+    } else {
+        update_rows::<N, false>(old, z_faces, r_faces, dt, metric, mixture, new, speeds);
+    }
+}
+
+#[inline(always)]
+fn update_rows<const N: usize, const WITH_GAS: bool>(
     old: Rows<'_>,
     z_faces: &FaceRows,
     r_faces: &FaceRows,
@@ -84,7 +104,7 @@ pub(crate) fn update<const N: usize>(
     for j in 0..N {
         let at = j * N;
         let k = metric.origin + j * metric.stride;
-        update_row::<N>(
+        update_row::<N, WITH_GAS>(
             [row(old[0], at), row(old[1], at), row(old[2], at), row(old[3], at), row(old[4], at)],
             FaceSlices::cut(z_faces, k - 1),
             FaceSlices::cut(z_faces, k),
@@ -247,7 +267,7 @@ pub(crate) fn settled([rho, mz, mr, energy, phi]: [f64; 5], mixture: &Mixture) -
 }
 
 #[inline(always)]
-fn update_row<const N: usize>(
+fn update_row<const N: usize, const WITH_GAS: bool>(
     old: [&[f64; N]; 5],
     west: FaceSlices<'_, N>,
     east: FaceSlices<'_, N>,
@@ -267,8 +287,13 @@ fn update_row<const N: usize>(
     for k in 0..N {
         let faces = [west.at(k), east.at(k), south.at(k), north.at(k)];
         let before = [old[0][k], old[1][k], old[2][k], old[3][k], old[4][k]];
-        let cell = settled(balance(before, faces, metric), &mixture);
-        [rho[k], mz[k], mr[k], energy[k], phi[k]] = cell.conserved;
+        let mut after = balance(before, faces, metric);
+        after[4] = fraction::<WITH_GAS>(after[4]);
+        let cell = settled(after, &mixture);
+        [rho[k], mz[k], mr[k], energy[k], _] = cell.conserved;
+        if WITH_GAS {
+            phi[k] = cell.conserved[4];
+        }
         speed_z[k] = cell.speed_z;
         speed_r[k] = cell.speed_r;
         floor[k] = cell.floor;

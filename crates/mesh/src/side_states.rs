@@ -38,6 +38,11 @@ impl<S> SideStates<S> {
         Self { root_level, states }
     }
 
+    /// The states of all cells on a side, level by level.
+    pub fn along(&self, side: Side) -> impl Iterator<Item = &S> {
+        self.states[side as usize].iter().flatten()
+    }
+
     /// The state of the cell number `along` of a level on a side.
     pub fn at(&self, side: Side, level: u8, along: usize) -> &S {
         &self.states[side as usize][usize::from(level - self.root_level)][along]

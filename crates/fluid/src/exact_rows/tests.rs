@@ -121,6 +121,7 @@ fn rows_equal_the_scalar_flux_and_do_not_depend_on_their_company() {
         half: half.each_ref().map(|row| &row[..]),
         differences: differences.each_ref().map(|row| &row[..]),
         keep: &keep,
+        with_gas: true,
         curvature: Curvature::default(),
         along_faces: AlongFaces::new([&differences[1], &differences[3]], 1),
     };

@@ -21,7 +21,7 @@ mod windows;
 pub(crate) use cells::{Cells, FaceState};
 pub(crate) use closure::{Compression, is_compliant, is_mixed};
 pub(crate) use face_states::FaceStates;
-pub(crate) use gas_block::{GasBlock, GasScratch, is_near_gas};
+pub(crate) use gas_block::{GasBlock, GasScratch, may_have_gas};
 pub(crate) use marks::marked_blocks;
 pub(crate) use reconstruction::{Stencil, face_states};
 pub(crate) use windows::Window;

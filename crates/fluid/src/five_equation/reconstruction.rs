@@ -117,23 +117,21 @@ fn window_states(
             }
         }
     }
-    let normals = normals(&around, stencil.inverse_h);
-    for axis in 0..2 {
-        let mut ends = [ZERO; 2];
+    let mut ends = [[ZERO; 2]; 2];
+    for (axis, ends) in ends.iter_mut().enumerate() {
         for k in 0..LANES {
             for c in 0..6 {
                 ends[0][c][k] = half[c][k] - 0.5 * differences[axis][c][k];
                 ends[1][c][k] = half[c][k] + 0.5 * differences[axis][c][k];
             }
         }
-        if stencil.options.is_sharp {
-            let per_cell = stencil.dt * stencil.inverse_h[axis];
-            let [below, above] = &around[axis];
-            sharpen(&w, &below[PHI], &above[PHI], &normals[axis], axis, per_cell, &mut ends);
-        }
-        for (end, phases) in ends.iter().enumerate() {
-            admissible(phases, &w, &mut faces[2 * axis + end]);
-        }
+    }
+    if stencil.options.is_sharp {
+        let normals = normals(&around, stencil.inverse_h);
+        sharpen(&w, &around, &normals, stencil.inverse_h.map(|inverse_h| stencil.dt * inverse_h), &mut ends);
+    }
+    for (phases, face) in ends.as_flattened().iter().zip(faces) {
+        admissible(phases, &w, face);
     }
 }
 
@@ -193,32 +191,45 @@ fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, stencil: &S
 
 /// Puts THINC's step in the place of the linear gas fraction, and the cells' own phase densities, where there is one.
 ///
-/// - `per_cell`: Δt/h; `ends`: the states on the lower and the upper face.
+/// - `around`: the neighbours on both sides along z and r; `per_cell`: Δt/h along both.
+/// - `ends`: along z and r the states on the lower and the upper face.
 #[inline(always)]
 fn sharpen(
     w: &Phases,
-    below: &Lane,
-    above: &Lane,
-    normal: &Lane,
-    axis: usize,
-    per_cell: f64,
-    [lower, upper]: &mut [Phases; 2],
+    around: &[[Phases; 2]; 2],
+    normals: &[Lane; 2],
+    per_cell: [f64; 2],
+    ends: &mut [[Phases; 2]; 2],
 ) {
     let mut steps = 0;
-    for k in 0..LANES {
-        steps += u64::from(thinc::is_step(below[k], w[PHI][k], above[k], normal[k]));
+    for (axis, [below, above]) in around.iter().enumerate() {
+        for k in 0..LANES {
+            steps += u64::from(thinc::is_step(below[PHI][k], w[PHI][k], above[PHI][k], normals[axis][k]));
+        }
     }
     if steps == 0 {
         return;
     }
+    let [[west, east], [south, north]] = around;
+    let [mut along_z, mut along_r] = [[[0.0; LANES]; 3]; 2];
     for k in 0..LANES {
-        let step = thinc::faces(below[k], w[PHI][k], above[k], normal[k], w[V_Z + axis][k] * per_cell);
-        let pick = |sharp: f64, smooth: f64| if step.is_step { sharp } else { smooth };
-        lower[PHI][k] = pick(step.lower, lower[PHI][k]);
-        upper[PHI][k] = pick(step.upper, upper[PHI][k]);
-        for c in [RHO_G, RHO_L] {
-            lower[c][k] = pick(w[c][k], lower[c][k]);
-            upper[c][k] = pick(w[c][k], upper[c][k]);
+        // Both axes in one pass: neither waits for the other's exponentials.
+        let phi = w[PHI][k];
+        let z = thinc::faces(west[PHI][k], phi, east[PHI][k], normals[0][k], w[V_Z][k] * per_cell[0]);
+        let r = thinc::faces(south[PHI][k], phi, north[PHI][k], normals[1][k], w[V_R][k] * per_cell[1]);
+        (along_z[0][k], along_z[1][k]) = (z.lower, z.upper);
+        (along_r[0][k], along_r[1][k]) = (r.lower, r.upper);
+        along_z[2][k] = if z.is_step { 1.0 } else { 0.0 };
+        along_r[2][k] = if r.is_step { 1.0 } else { 0.0 };
+    }
+    for (steps, ends) in [along_z, along_r].iter().zip(ends) {
+        for (fractions, end) in steps.iter().zip(ends) {
+            for k in 0..LANES {
+                let pick = |sharp: f64, smooth: f64| if steps[2][k] != 0.0 { sharp } else { smooth };
+                end[PHI][k] = pick(fractions[k], end[PHI][k]);
+                end[RHO_G][k] = pick(w[RHO_G][k], end[RHO_G][k]);
+                end[RHO_L][k] = pick(w[RHO_L][k], end[RHO_L][k]);
+            }
         }
     }
 }

@@ -105,6 +105,7 @@ impl<const LANES: usize> Relaxation<LANES> {
         let (mut x, mut gas_volume, mut liquid_volume) = ([0.0; LANES], self.gas, self.liquid);
         // (p' + π_g)/(p + π_g), and the same of the liquid.
         let (mut gas_ratio, mut liquid_ratio) = (one, one);
+        let mut next = [0.0; LANES];
         for _ in 0..STEPS {
             let mut ended = 0;
             for k in 0..LANES {
@@ -116,19 +117,10 @@ impl<const LANES: usize> Relaxation<LANES> {
                 let yielding = gas_volume[k] * over_g
                     + liquid_volume[k] * over_l * softness[k] * gas_ratio[k] / liquid_ratio[k];
                 let step = excess * sum / yielding;
+                next[k] = x[k] + step;
                 let shrinks = step * over_g;
                 let converged = step.abs() <= LAST_STEP;
                 let settled = gas_volume[k] * (1.0 - shrinks * (1.0 - 0.5 * shrinks));
-
-                let next = x[k] + step;
-                let is_within = (next > low[k]) & (next < high[k]);
-                x[k] = if is_within { next } else { 0.5 * (low[k] + high[k]) };
-                let (ratio, increment) = exp_and_less_one(x[k]);
-                let increment = softness[k] * increment;
-                (gas_ratio[k], liquid_ratio[k]) = (ratio, 1.0 + increment);
-                gas_volume[k] = self.gas[k] * exp_and_less_one(-x[k] * over_g).0;
-                liquid_volume[k] =
-                    self.liquid[k] * exp_and_less_one(-over_l * ln_of(liquid_ratio[k], increment)).0;
 
                 let was_done = self.done[k] != 0.0;
                 let is_done = was_done | converged;
@@ -139,6 +131,16 @@ impl<const LANES: usize> Relaxation<LANES> {
             }
             if ended == LANES as u64 {
                 return;
+            }
+            for k in 0..LANES {
+                let is_within = (next[k] > low[k]) & (next[k] < high[k]);
+                x[k] = if is_within { next[k] } else { 0.5 * (low[k] + high[k]) };
+                let (ratio, increment) = exp_and_less_one(x[k]);
+                let increment = softness[k] * increment;
+                (gas_ratio[k], liquid_ratio[k]) = (ratio, 1.0 + increment);
+                gas_volume[k] = self.gas[k] * exp_and_less_one(-x[k] * over_g).0;
+                liquid_volume[k] =
+                    self.liquid[k] * exp_and_less_one(-over_l * ln_of(liquid_ratio[k], increment)).0;
             }
         }
         for k in 0..LANES {

@@ -78,10 +78,11 @@ pub(crate) fn settle_gas(phi: &mut [f64], gas: &mut [f64]) -> bool {
     is_left
 }
 
-/// Zero in the place of numbers that would end as subnormal ones, which are slow.
+/// Zero in the place of a trace of gas, φ or kg/m³, that nothing can feel: no cell's law changes by a bit, nor, after all
+/// steps of a run, the mass of the gas. Else advection would leave none of the liquid without.
 #[inline(always)]
 fn without_trace(value: f64) -> f64 {
-    const NOTHING: f64 = 1e-40;
+    const NOTHING: f64 = 1e-20;
     if value.abs() < NOTHING { 0.0 } else { value }
 }
 

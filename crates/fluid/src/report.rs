@@ -1,0 +1,102 @@
+//! What one block tells of its step.
+
+use mesh::{Padded, Side};
+use serde::{Deserialize, Serialize};
+
+use crate::block::StepContext;
+use crate::rows::FaceRows;
+use crate::update::Extremes;
+
+/// What one block tells of its step.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(crate) struct BlockReport<const N: usize> {
+    pub extremes: Extremes,
+    /// Whether there is gas in the block, or a trace of its mass.
+    pub has_gas: bool,
+    /// Cells that should be done again at first order, and those that were.
+    pub marked: u32,
+    pub redone: u32,
+    pub redone_volume: f64,
+    /// Cells that fell back to first order.
+    pub fallbacks: u32,
+    /// Cells lifted to the pressure floor, their volume and the energy that took (per radian in axial symmetry), J.
+    pub floored: u32,
+    pub floored_volume: f64,
+    pub floor_energy: f64,
+    /// What came in through each side of the domain: mass, axial momentum, energy (per radian).
+    pub inflow: [[f64; 3]; 4],
+    /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
+    #[serde(with = "mesh::array")]
+    pub wall_pressure: [f64; N],
+}
+
+impl<const N: usize> Default for BlockReport<N> {
+    fn default() -> Self {
+        Self {
+            extremes: Extremes::default(),
+            has_gas: false,
+            marked: 0,
+            redone: 0,
+            redone_volume: 0.0,
+            fallbacks: 0,
+            floored: 0,
+            floored_volume: 0.0,
+            floor_energy: 0.0,
+            inflow: [[0.0; 3]; 4],
+            wall_pressure: [0.0; N],
+        }
+    }
+}
+
+/// Cells of the block that keep none of their slopes, for want of admissible face states.
+pub(crate) fn count_fallbacks<const N: usize>(keep: &[f64]) -> u32 {
+    let mut dropped = 0;
+    for j in 0..N {
+        let at = Padded::<N>::index(0, j as isize);
+        // Mixed cells of the five-equation model hold −0: they have face states of their own.
+        let is_dropped = |share: &&f64| **share == 0.0 && share.is_sign_positive();
+        dropped += keep[at..at + N].iter().filter(is_dropped).count() as u32;
+    }
+    dropped
+}
+
+/// Mass, axial momentum and energy that a block took in through the sides of the domain.
+pub(crate) fn boundary_inflow<const N: usize>(
+    ctx: &StepContext<'_, N>,
+    slot: usize,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+    face_weight: &[f64],
+) -> [[f64; 3]; 4] {
+    let mut inflow = [[0.0; 3]; 4];
+    let id = ctx.mesh.tree().leaves()[slot];
+    let [h_z, h_r] = ctx.mesh.widths(id.level);
+    for side in Side::ALL {
+        if !ctx.mesh.touches(slot, side) {
+            continue;
+        }
+        let total = &mut inflow[side as usize];
+        for along in 0..N {
+            let [mass, momentum, energy] = match side {
+                Side::ZMin | Side::ZMax => {
+                    let i = if side == Side::ZMin { -1 } else { N as isize - 1 };
+                    let k = Padded::<N>::index(i, along as isize);
+                    let area = ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r;
+                    let momentum = z_faces.mass[k] * z_faces.velocity[k] + z_faces.pressure[k];
+                    [area * z_faces.mass[k], area * momentum, area * z_faces.energy[k]]
+                }
+                Side::RMin | Side::RMax => {
+                    let j = if side == Side::RMin { -1 } else { N as isize - 1 };
+                    let k = Padded::<N>::index(along as isize, j);
+                    let area = face_weight[(j + 1) as usize] * h_z;
+                    [area * r_faces.mass[k], area * r_faces.shear[k], area * r_faces.energy[k]]
+                }
+            };
+            let sign = if matches!(side, Side::ZMin | Side::RMin) { ctx.dt } else { -ctx.dt };
+            total[0] += sign * mass;
+            total[1] += sign * momentum;
+            total[2] += sign * energy;
+        }
+    }
+    inflow
+}
