@@ -3,8 +3,9 @@
 use mesh::{Mesh, Padded, Side, SideStates};
 use serde::{Deserialize, Serialize};
 
+use crate::face_rows::FaceRows;
 use crate::hllc::Face;
-use crate::rows::{FaceRows, Reconstruction};
+use crate::rows::Reconstruction;
 use crate::{Boundary, Mixture, Primitive};
 
 /// A pressure history, linear between its points and constant beyond them.

@@ -14,8 +14,9 @@ use mesh::whole_lines;
 use crate::Mixture;
 use crate::curvature::states_at_face;
 use crate::elementary::{exp_and_less_one, ln_of};
+use crate::face_rows::FaceRows;
 use crate::godunov::flux_exact;
-use crate::rows::{FaceRows, Reconstruction};
+use crate::rows::Reconstruction;
 
 pub(crate) use listed::{ListedFaces, exact_fluxes};
 

@@ -18,6 +18,7 @@ mod error;
 mod even;
 pub mod exact_riemann;
 mod exact_rows;
+mod face_rows;
 mod fill;
 mod five_equation;
 mod godunov;

@@ -4,9 +4,9 @@ use mesh::{CorrectedFace, FluxRegister, Mesh, Side};
 
 use crate::Mixture;
 use crate::block::StepContext;
+use crate::face_rows::FaceRows;
 use crate::five_equation::{Compression, is_mixed};
 use crate::report::BlockReport;
-use crate::rows::FaceRows;
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI};
 use crate::state::primitive;
 

@@ -4,7 +4,7 @@ use mesh::{Padded, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::block::StepContext;
-use crate::rows::FaceRows;
+use crate::face_rows::FaceRows;
 use crate::update::Extremes;
 
 /// What one block tells of its step.

@@ -5,7 +5,8 @@ use mesh::maximum;
 use serde::{Deserialize, Serialize};
 
 use crate::Mixture;
-use crate::rows::{FaceRows, Rows, fraction};
+use crate::face_rows::FaceRows;
+use crate::rows::{Rows, fraction};
 
 /// Reductions over a block's new cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

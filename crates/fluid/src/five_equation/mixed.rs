@@ -13,8 +13,9 @@ use super::windows::{LANES, Window, lanes, windows};
 use crate::block::used_face;
 use crate::boundary::beside;
 use crate::exact_rows::{ListedFaces, exact_fluxes};
+use crate::face_rows::{FaceRows, set_face};
 use crate::hllc::Face;
-use crate::rows::{FaceRows, Reconstruction, set_face};
+use crate::rows::Reconstruction;
 
 /// No mixed cell.
 const NONE: u32 = u32::MAX;

@@ -8,7 +8,8 @@ use super::reconstruction::Stencil;
 use super::relaxation::{Advected, relaxed_fractions};
 use super::windows::{LANES, Lane, bits, lanes};
 use crate::Mixture;
-use crate::rows::{FaceRows, Rows};
+use crate::face_rows::FaceRows;
+use crate::rows::Rows;
 use crate::state::conserved::{COUNT, ENERGY, PHI};
 use crate::update::{FaceSlices, FaceValues, Metric, balance, row, settled};
 
