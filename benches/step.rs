@@ -264,6 +264,7 @@ fn fluid_setup(
         limiter,
         boundaries,
         inflow: None,
+        far_field: None,
         adaptation: None,
         scales: fluid::Scales { pressure: 1e6, density: 1e3 },
     }

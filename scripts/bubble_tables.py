@@ -6,6 +6,7 @@
     python3 scripts/bubble_tables.py wall [--cells 20 40 80]        near a rigid wall
     python3 scripts/bubble_tables.py robustness                     many pressures, stand-offs and resolutions, rigid and steel
     python3 scripts/bubble_tables.py stand-off [--cells 40]         collapse time and jet against the stand-off
+    python3 scripts/bubble_tables.py sides [--cells 16]             near sides against far ones
 
 Runs `cav` (target/release/cav, or --cav) in a directory of its own (--out) and prints Markdown. Needs
 scripts/requirements.txt.
@@ -14,7 +15,7 @@ scripts/requirements.txt.
 import argparse
 from pathlib import Path
 
-from bubble import free, robustness, stand_off, wall
+from bubble import free, robustness, sides, stand_off, wall
 
 TABLES = {
     "free": free.table,
@@ -22,6 +23,7 @@ TABLES = {
     "wall": wall.table,
     "robustness": robustness.table,
     "stand-off": stand_off.table,
+    "sides": sides.table,
 }
 
 

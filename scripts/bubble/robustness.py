@@ -2,7 +2,7 @@
 
 import itertools
 
-from .runs import rayleigh_time, run, wide_enough
+from .runs import rayleigh_time, run, box_side
 
 RADIUS = 1e-3
 # Ambient pressure and gas pressure; the gas is air at 293 K.
@@ -33,7 +33,7 @@ def table(options):
         end = 1.6 * rayleigh_time(RADIUS, pressure, gas)
         name = f"robust-{pressure:.0e}-{gas:.0e}-{stand_off}-{wall}-{cells}"
         result, code = run(options, name, pressure=pressure, gas=(density, gas), radius=RADIUS,
-                           centre=stand_off * RADIUS, side=wide_enough(RADIUS, end), cells=cells, end=end, wall=wall)
+                           centre=stand_off * RADIUS, side=box_side(RADIUS), cells=cells, end=end, wall=wall)
         total += 1
         failed += code != 0
         start = f"| {pressure:.0e}, {gas:.0e} Pa | {stand_off} | {wall} | {cells} "

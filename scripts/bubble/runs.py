@@ -19,6 +19,13 @@ class Run:
             self.volume = file["bubble/volume"][:]
             self.jet = file["bubble/jet_velocity"][:]
 
+    def rebound(self):
+        """Time and volume of the largest volume after the first minimum."""
+        collapse, _ = self.first_minimum()
+        after = self.time > collapse
+        k = np.flatnonzero(after)[np.argmax(self.volume[after])] if after.any() else 0
+        return self.time[k], self.volume[k]
+
     def first_minimum(self):
         """Time and volume of the first minimum of the volume below half the initial one that a rise of 1 % follows."""
         volume, time = self.volume, self.time
@@ -34,28 +41,39 @@ class Run:
 
 
 def case_text(*, pressure, gas, radius, centre, side, cells, end, model="five-equation", interface=None,
-              limiter="mc", epsilon=1e-3, wall="rigid", start="uniform"):
+              limiter="mc", epsilon=1e-3, wall="rigid", start="uniform", box=None, second=None):
     """A case: a gas bubble (density, pressure) about (centre, 0) in liquid of a pressure, in a box of a side that is
-    2^n times the radius times 32 over the cells per radius."""
+    2^n times the radius times 32 over the cells per radius; or in a box (z from, z to, r to) of whole radii, with 2^n cells
+    per radius. `second`: centre and radius of another bubble."""
     levels = round(np.log2(side / radius * cells / ROOT_CELLS))
     # Without a wall the bubble is in the middle of a box twice as long.
     low, roots = (-side, 2 * ROOT_CELLS) if wall == "none" else (0.0, ROOT_CELLS)
+    z, r, roots = (low, side), side, (roots, ROOT_CELLS)
+    if box:
+        levels = round(np.log2(cells))
+        z, r = box[:2], box[2]
+        roots = round((z[1] - z[0]) / radius), round(r / radius)
     sharpening = f'interface = "{interface}"\n' if interface else ""
     began = f'initial_pressure = "{start}"\n' if start != "uniform" else ""
     solid = ""
     if wall not in ("rigid", "none"):
         solid = f"""
 [solid]
-z = [-{side}, 0.0]
-r = [0.0, {side}]
-cells = [{ROOT_CELLS}, {ROOT_CELLS}]
+z = [-{r}, 0.0]
+r = [0.0, {r}]
+cells = [{roots[1]}, {roots[1]}]
 levels = {levels}
 epsilon = {epsilon}
 material = "{wall}"
-
-[solid.boundary]
-z_min = "non-reflecting"
-r_max = "non-reflecting"
+"""
+    other = "" if second is None else f"""
+[[fluid.region]]
+shape = "sphere"
+centre = [{second[0]}, 0.0]
+radius = {second[1]}
+phase = "gas"
+density = {gas[0]}
+pressure = {gas[1]}
 """
     scheme = wall if wall in ("rigid", "none") else "riemann"
     return f"""geometry = "axisymmetric"
@@ -65,9 +83,9 @@ end = {end}
 cfl = 0.45
 
 [fluid]
-z = [{low}, {side}]
-r = [0.0, {side}]
-cells = [{roots}, {ROOT_CELLS}]
+z = [{z[0]}, {z[1]}]
+r = [0.0, {r}]
+cells = [{roots[0]}, {roots[1]}]
 levels = {levels}
 epsilon = {epsilon}
 model = "{model}"
@@ -93,11 +111,7 @@ radius = {radius}
 phase = "gas"
 density = {gas[0]}
 pressure = {gas[1]}
-
-[fluid.boundary]
-z_max = "non-reflecting"
-r_max = "non-reflecting"
-{solid}
+{other}{solid}
 [coupling]
 scheme = "{scheme}"
 """
@@ -117,10 +131,9 @@ def run(options, name, **parameters):
     return Run(directory), 0
 
 
-def wide_enough(radius, end):
-    """Side of a box, 6.4 · 2^n radii, to whose far sides and back no wave gets before the end. A non-reflecting side
-    lets waves out but holds back the inflow of a slow collapse: p∞ − p = ρcv there."""
-    return 6.4 * radius * 2.0 ** max(0, int(np.ceil(np.log2(0.5 * 1500.0 * end / (6.4 * radius)))))
+def box_side(radius):
+    """Side of a box about a bubble or above a wall, 6.4 radii: the far field takes it for unbounded liquid."""
+    return 6.4 * radius
 
 
 def rayleigh_time(radius, pressure, gas_pressure):

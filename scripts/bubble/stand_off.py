@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .runs import rayleigh_time, run, wide_enough
+from .runs import rayleigh_time, run, box_side
 
 RADIUS = 1e-3
 STAND_OFFS = [1.1, 1.3, 1.5, 2.0, 2.5, 3.0]
@@ -26,7 +26,7 @@ def table(options):
         free = None
         for stand_off in [FREE, *STAND_OFFS]:
             is_free = stand_off == FREE
-            side = wide_enough(RADIUS, 1.5 * scale)
+            side = box_side(RADIUS)
             result, code = run(options, f"stand-off-{pressure:.0e}-{'free' if is_free else stand_off}-{cells}",
                                pressure=pressure, gas=(density, gas), radius=RADIUS,
                                centre=0.0 if is_free else stand_off * RADIUS, side=side, cells=cells,

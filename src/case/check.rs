@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use coupler::Scheme;
-use fluid::{Phase, PhaseState, PulseShape, RayleighField, Shape};
+use fluid::{Boundary, Phase, PhaseState, PulseShape, RayleighField, Shape};
 use mesh::{BLOCK, Geometry, Side};
 use solid::Material;
 
@@ -43,6 +43,7 @@ pub fn report(case: &Case) -> String {
         let [pressure, density] = [(fluid.scale_pressure, "Pa"), (fluid.scale_density, "kg/m3")];
         adaptation(&mut text, &fluid.grid, &[pressure, density]);
         regions(&mut text, case, fluid);
+        sides(&mut text, fluid);
     }
     if let Some(solid) = &case.solid {
         side(&mut text, "solid", &solid.grid, SOLID_NUMBERS);
@@ -187,6 +188,17 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
     }
 }
 
+/// What bounds the fluid.
+fn sides(text: &mut String, fluid: &FluidCase) {
+    let name = |kind: Boundary| match kind {
+        Boundary::Axis => "axis",
+        Boundary::Interface => "interface",
+        other => Boundary::NAMES.iter().find(|(_, named)| *named == other).map_or("", |(name, _)| name),
+    };
+    let sides = Side::NAMES.map(|(key, side)| format!("{key} {}", name(fluid.boundary[side as usize])));
+    line(text, "  sides", &sides.join(", "));
+}
+
 /// 0.915 R √(ρ/(p∞ − p_gas)) of a gas bubble in a liquid of higher pressure, s.
 fn rayleigh_time(ambient: &PhaseState, bubble: &PhaseState, radius: f64) -> Option<f64> {
     let driving = ambient.pressure - bubble.pressure;
@@ -222,12 +234,11 @@ fn impedances(text: &mut String, fluid: &FluidCase, solid: &SolidCase) {
     line(text, "impedance", &numbers);
 }
 
-/// The fluid's step at t = 0, s: cfl · min over cells of min(h_z/(|v_z| + c), h_r/(|v_r| + c)).
+/// The fluid's step at t = 0, s: the shortest of its cells', see [`mesh::longest_step`].
 fn fluid_step(fluid: &FluidCase, cfl: f64) -> f64 {
-    let [h_z, h_r] = fluid.grid.cell_size();
     let limit = |state: &PhaseState| {
         let c = sound_speed(fluid.eos(state), state.density, state.pressure);
-        (h_z / (state.velocity[0].abs() + c)).min(h_r / (state.velocity[1].abs() + c))
+        mesh::longest_step(cfl, fluid.grid.cell_size(), state.velocity.map(|v| v.abs() + c))
     };
     let initial = &fluid.initial;
     let mut step = limit(&initial.ambient);
@@ -248,13 +259,12 @@ fn fluid_step(fluid: &FluidCase, cfl: f64) -> f64 {
         }
         step = step.min(limit(&state));
     }
-    cfl * step
+    step
 }
 
-/// The solid's step, s: cfl · h/c₁.
+/// The solid's step, s.
 fn solid_step(solid: &SolidCase, cfl: f64) -> f64 {
-    let [h_z, h_r] = solid.grid.cell_size();
-    cfl * h_z.min(h_r) / solid.material.c1()
+    mesh::longest_step(cfl, solid.grid.cell_size(), [solid.material.c1(); 2])
 }
 
 fn steps(text: &mut String, case: &Case) {
@@ -284,7 +294,8 @@ fn steps(text: &mut String, case: &Case) {
         text,
         "cfl",
         &format!(
-            "{:?}, no further factor; the unsplit step adds both directions, so up to {SAFE_CFL} is safe",
+            "{:?}; the unsplit step adds both directions, and their Courant numbers stay below one together: \
+             {SAFE_CFL} each with square cells",
             case.time.cfl
         ),
     );

@@ -4,6 +4,7 @@ mod check;
 mod cross;
 mod effective;
 mod error;
+mod far_field;
 mod format;
 mod initial_pressure;
 mod read;

@@ -2,7 +2,7 @@
 
 use mesh::{Adaptation, LevelBound, Side, Zone};
 
-use super::reader::{Faults, Table};
+use super::reader::{Faults, Given, Table};
 
 /// Threshold of the details where a case does not say and its fluid begins with jumps (regions, an inflow history):
 /// there the scheme's own error is of first order.
@@ -26,6 +26,7 @@ enum Kind {
     Sphere,
     Box,
     Interface,
+    Outer,
 }
 
 /// The levels of a side's blocks.
@@ -74,24 +75,56 @@ pub(super) fn adaptation(
         faults.of(epsilon, message, help);
     }
     let every = table.whole("adapt_every", 1..=MOST_STEPS, faults);
-    let bounds: Vec<Option<LevelBound>> = (table.tables("refine", faults).into_iter())
-        .map(|table| bound(table, levels, interface, faults))
+    let bounds: Vec<LevelBound> = (table.tables("refine", faults).into_iter())
+        .flat_map(|table| bounds(table, levels, interface, faults))
         .collect();
     (adapt && levels.roots < levels.finest).then(|| Adaptation {
         epsilon: epsilon.map_or(default, |given| given.value),
         every: every.map_or(DEFAULT_ADAPT_EVERY, |given| given.value) as u32,
-        bounds: bounds.into_iter().flatten().collect(),
+        bounds,
     })
 }
 
-/// One element of `[[....refine]]`.
-fn bound(
+/// One element of `[[....refine]]`; none where it is faulty.
+fn bounds(
     mut table: Table<'_>,
     levels: Levels,
     interface: Option<Side>,
     faults: &mut Faults,
+) -> Vec<LevelBound> {
+    let kind = kind(&mut table, faults);
+    if kind.as_ref().is_some_and(|kind| kind.value == Kind::Outer) {
+        let outer = outer(&mut table, levels, faults);
+        table.finish(faults);
+        return outer.unwrap_or_default();
+    }
+    bound(table, kind, levels, interface, faults).into_iter().collect()
+}
+
+/// A region around a circle in which each doubling of the distance from its centre is one level coarser: cells there are as wide
+/// as they are far away, so that far sides cost little.
+fn outer(table: &mut Table<'_>, levels: Levels, faults: &mut Faults) -> Option<Vec<LevelBound>> {
+    let centre = table.required_pair("centre", "m, as [z, r]", faults);
+    let radius = table.required_positive("radius", "m", faults);
+    let (centre, radius) = (centre?.value, radius?);
+    let coarser = 1..=levels.finest.saturating_sub(levels.roots);
+    let ring = |halvings: usize| LevelBound {
+        zone: Zone::Beyond { centre, radius: radius * f64::powi(2.0, halvings as i32 - 1) },
+        at_least: levels.roots as u8,
+        at_most: (levels.finest - halvings) as u8,
+    };
+    Some(coarser.map(ring).collect())
+}
+
+/// A zone and the levels in it.
+fn bound(
+    mut table: Table<'_>,
+    kind: Option<Given<Kind>>,
+    levels: Levels,
+    interface: Option<Side>,
+    faults: &mut Faults,
 ) -> Option<LevelBound> {
-    let zone = zone(&mut table, interface, faults);
+    let zone = kind.and_then(|kind| zone(&mut table, &kind, interface, faults));
     let at_least = table.whole("at_least", 0..=levels.finest, faults);
     let at_most = table.whole("at_most", 0..=levels.finest, faults);
     if !table.has("at_least") && !table.has("at_most") {
@@ -115,13 +148,26 @@ fn bound(
     })
 }
 
-fn zone(table: &mut Table<'_>, interface: Option<Side>, faults: &mut Faults) -> Option<Zone> {
-    const KINDS: [(&str, Kind); 3] =
-        [("sphere", Kind::Sphere), ("box", Kind::Box), ("interface", Kind::Interface)];
+fn kind(table: &mut Table<'_>, faults: &mut Faults) -> Option<Given<Kind>> {
+    const KINDS: [(&str, Kind); 4] = [
+        ("sphere", Kind::Sphere),
+        ("box", Kind::Box),
+        ("interface", Kind::Interface),
+        ("outer", Kind::Outer),
+    ];
     if !table.has("shape") {
-        table.missing("shape", "give `shape = ` one of \"sphere\", \"box\", \"interface\"", faults);
+        let help = "give `shape = ` one of \"sphere\", \"box\", \"interface\", \"outer\"";
+        table.missing("shape", help, faults);
     }
-    let kind = table.choice("shape", &KINDS, faults)?;
+    table.choice("shape", &KINDS, faults)
+}
+
+fn zone(
+    table: &mut Table<'_>,
+    kind: &Given<Kind>,
+    interface: Option<Side>,
+    faults: &mut Faults,
+) -> Option<Zone> {
     match kind.value {
         Kind::Sphere => {
             let centre = table.required_pair("centre", "m, as [z, r]", faults);
@@ -141,10 +187,11 @@ fn zone(table: &mut Table<'_>, interface: Option<Side>, faults: &mut Faults) -> 
         Kind::Interface => {
             if interface.is_none() {
                 let help = "take shape = \"box\" with the ranges z and r, or couple two media";
-                faults.of(&kind, "scheme = \"none\" has no interface", help);
+                faults.of(kind, "scheme = \"none\" has no interface", help);
             }
             interface.map(Zone::Along)
         }
+        Kind::Outer => None,
     }
 }
 

@@ -10,7 +10,7 @@ use mesh::{Geometry, Limiter, Side};
 use super::read::{Context, boundaries, history};
 use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, Given, Table, number, pair};
-use super::{FluidCase, GridCase, Inflow, initial_pressure, scales};
+use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, scales};
 
 /// The shapes of regions and pulses by name.
 #[derive(Clone, Copy, PartialEq)]
@@ -63,11 +63,15 @@ pub(super) fn fluid(
     };
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
     let initial = initial(&mut table, pressure.as_ref(), &setting, faults);
-    let boundary = sides(&mut table, context, faults);
+    let (mut boundary, named) = sides(&mut table, context, faults);
     if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
         initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
     }
     let inflow = inflow(&mut table, boundary, liquid, faults);
+    if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
+        let media = [liquid, gas];
+        far_field::decide(&mut boundary, &named, initial, grid, media, inflow.as_ref(), context, faults);
+    }
     let riemann = table.choice("riemann", &RiemannSolver::NAMES, faults);
     let model = table.choice("model", &Model::NAMES, faults);
     let model = model.map_or(Model::FiveEquation, |given| given.value);
@@ -321,10 +325,15 @@ fn unit(given: &Given<[f64; 2]>, geometry: Geometry, faults: &mut Faults) -> [f6
     if (length - 1.0).abs() < 1e-14 { [z, r] } else { [z / length, r / length] }
 }
 
-fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Boundary; 4] {
+/// The sides, and the span of each that the case names. Open ones have a far field if it does not, see [`far_field::decide`].
+fn sides(
+    table: &mut Table<'_>,
+    context: Context,
+    faults: &mut Faults,
+) -> ([Boundary; 4], [Option<Given<()>>; 4]) {
     let z_min = match context.scheme {
         Some(Scheme::Rigid) => Boundary::Wall,
-        Some(Scheme::None | Scheme::Load) | None => Boundary::NonReflecting,
+        Some(Scheme::None | Scheme::Load) | None => Boundary::FarField,
         Some(_) => Boundary::Interface,
     };
     let r_min = match context.geometry {
@@ -343,9 +352,11 @@ fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Bound
         }
         _ => None,
     };
-    let default = [z_min, Boundary::NonReflecting, r_min, Boundary::NonReflecting];
+    let default = [z_min, Boundary::FarField, r_min, Boundary::FarField];
     let table = table.table("boundary", faults);
-    boundaries(table, &Boundary::NAMES, fixed, default, Boundary::Periodic, faults)
+    let named = Side::NAMES.map(|(key, _)| table.as_ref().and_then(|table| table.place(key)));
+    let sides = boundaries(table, &Boundary::NAMES, fixed, default, Boundary::Periodic, faults);
+    (sides, named)
 }
 
 fn inflow(

@@ -68,6 +68,12 @@ impl<'a> Table<'a> {
         self.entries.contains_key(key)
     }
 
+    /// Where a key stands, if it is there, whatever its value.
+    pub fn place(&self, key: &str) -> Option<Given<()>> {
+        let value = self.entries.get(key)?;
+        Some(Given { value: (), path: self.path_of(key), span: value.span() })
+    }
+
     /// The value of a key as it stands.
     pub fn raw(&mut self, key: &'static str) -> Option<Given<&'a DeValue<'a>>> {
         self.asked.push(key);

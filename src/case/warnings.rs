@@ -1,8 +1,9 @@
 //! What is allowed but probably not meant.
 
-use fluid::{Phase, Shape};
-use mesh::Geometry;
+use fluid::{Boundary, Phase, Shape};
+use mesh::{Geometry, Side};
 
+use super::scales::sound_speed;
 use super::{Case, FluidCase};
 
 /// Fewer cells than this along a radius or a width resolve nothing.
@@ -11,19 +12,28 @@ const RESOLVED: f64 = 4.0;
 /// must stay below one.
 pub(super) const SAFE_CFL: f64 = 0.5;
 
+/// Sides with a far field nearer than so many radii of the bubble are too near, see docs/bubble.md.
+const FAR_FIELD_RADII: f64 = 3.0;
+/// A side that holds the incoming characteristic lacks a pressure of ρc times the velocity there. Against what drives the
+/// collapse that is about c/√(Δp/ρ) (R/s)²; beyond this share it matters.
+const HELD_UP: f64 = 0.02;
+/// How much later a bubble collapses than in unbounded liquid, of that share: 0.08 to 0.14 from 1e5 to 5e6 Pa.
+const LATE: f64 = 0.1;
+
 impl Case {
     /// What was left aside in reading, and what is allowed but probably not meant.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = self.notes.clone();
         if self.time.cfl > SAFE_CFL {
             warnings.push(format!(
-                "time.cfl = {:?} is above {SAFE_CFL}: both directions add up in the unsplit step, \
-                 which may become unstable",
+                "time.cfl = {:?} is above {SAFE_CFL}: both directions add up in the unsplit step, so with \
+                 square cells it is {SAFE_CFL}",
                 self.time.cfl
             ));
         }
         if let Some(fluid) = &self.fluid {
             fluid_warnings(fluid, self.geometry, &mut warnings);
+            near_sides(fluid, self.geometry, &mut warnings);
         }
         if let Some(solid) = &self.solid {
             let [h_z, h_r] = solid.grid.cell_size();
@@ -58,6 +68,54 @@ fn fluid_warnings(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<Stri
     }
     if geometry == Geometry::Axisymmetric && initial.ambient.velocity[1] != 0.0 {
         warnings.push("fluid.ambient.velocity has a radial part, which is singular at the axis".to_owned());
+    }
+}
+
+/// Sides that are too near for what they hold while bubbles collapse.
+fn near_sides(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>) {
+    let ambient = &fluid.initial.ambient;
+    if ambient.phase != Phase::Liquid {
+        return;
+    }
+    let sound = sound_speed(fluid.eos(ambient), ambient.density, ambient.pressure);
+    for (number, region) in fluid.initial.regions.iter().enumerate() {
+        let Shape::Sphere { centre: [z, r], radius } = region.shape else { continue };
+        if region.state.phase != Phase::Gas {
+            continue;
+        }
+        let driving = (ambient.pressure - region.state.pressure).abs();
+        for (key, side) in Side::NAMES {
+            let distance = match side {
+                Side::ZMin => z - fluid.grid.z[0],
+                Side::ZMax => fluid.grid.z[1] - z,
+                Side::RMin => r - fluid.grid.r[0],
+                Side::RMax => fluid.grid.r[1] - r,
+            };
+            let radii = distance / radius;
+            let where_it_is = format!("fluid.boundary.{key} is {radii:.1} radii from fluid.region.{number}");
+            match fluid.boundary[side as usize] {
+                Boundary::FarField if radii < FAR_FIELD_RADII => warnings.push(format!(
+                    "{where_it_is}: nearer than {FAR_FIELD_RADII} radii its far field is a point source's, and \
+                     pressures on the wall are off by some per cent"
+                )),
+                Boundary::NonReflecting => {
+                    let held = sound / (driving / ambient.density).sqrt() / (radii * radii);
+                    if held > HELD_UP {
+                        let enough = radii * (held / HELD_UP).sqrt();
+                        let otherwise = match geometry {
+                            Geometry::Axisymmetric => "\"far-field\", or move it",
+                            Geometry::Planar => "move it",
+                        };
+                        warnings.push(format!(
+                            "{where_it_is} and \"non-reflecting\": it holds the flow to the bubble up, which collapses \
+                             about {:.0} % late; take {otherwise} to {enough:.0} radii",
+                            (100.0 * LATE * held).ceil()
+                        ));
+                    }
+                }
+                _ => {}
+            }
+        }
     }
 }
 

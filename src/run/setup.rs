@@ -1,6 +1,8 @@
 //! A case made into solvers.
 
-use fluid::{FluidError, FluidSetup, FluidSolver, PressureHistory, RayleighField};
+use fluid::{
+    Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory, RayleighField,
+};
 use mesh::{BLOCK, Domain, Side};
 use solid::{ElasticState, InitialStress, PotentialPulse, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
 
@@ -10,8 +12,26 @@ fn domain(case: &Case, grid: &GridCase) -> Domain {
     Domain { geometry: case.geometry, z: grid.z, r: grid.r }
 }
 
+/// What a case's open sides hold, where they have a far field.
+fn far_field(case: &Case, fluid: &FluidCase, inflow: Option<&PressureHistory>) -> Option<FarField> {
+    if !fluid.boundary.contains(&Boundary::FarField) {
+        return None;
+    }
+    // A plane wave's from a solid; else the wall is rigid.
+    let reflection = case.solid.as_ref().map_or(1.0, |solid| {
+        let ambient = &fluid.initial.ambient;
+        let sound = fluid.eos(ambient).sound_speed(ambient.density, ambient.pressure);
+        let [own, other] = [ambient.density * sound, solid.material.impedance_p()];
+        (other - own) / (other + own)
+    });
+    let (mixture, domain) = (Mixture::new(fluid.liquid, fluid.gas), domain(case, &fluid.grid));
+    // A case is refused in reading if it has not the far field that it asks for.
+    FarField::of(&fluid.initial, &mixture, &domain, fluid.boundary, inflow, reflection).ok()
+}
+
 /// The setup of a case's fluid.
 pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
+    let inflow = fluid.inflow.as_ref().and_then(|inflow| PressureHistory::new(inflow.pressure.clone()));
     FluidSetup {
         domain: domain(case, &fluid.grid),
         coarsest: fluid.grid.cells,
@@ -23,7 +43,8 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         riemann: fluid.riemann,
         limiter: fluid.limiter,
         boundaries: fluid.boundary,
-        inflow: fluid.inflow.as_ref().and_then(|inflow| PressureHistory::new(inflow.pressure.clone())),
+        far_field: far_field(case, fluid, inflow.as_ref()),
+        inflow,
         adaptation: fluid.grid.adaptation.clone(),
         scales: fluid::Scales { pressure: fluid.scale_pressure, density: fluid.scale_density },
     }

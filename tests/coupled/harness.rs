@@ -204,6 +204,7 @@ pub fn water(
         limiter,
         boundaries,
         inflow: None,
+        far_field: None,
         adaptation: None,
         scales: fluid::Scales { pressure: 1e6, density: 1e3 },
     };

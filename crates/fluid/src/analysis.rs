@@ -43,7 +43,7 @@ impl Multiresolution for Analysis {
     }
 
     fn counts_beside(&self, side: Side) -> bool {
-        self.boundaries[side as usize] != Boundary::NonReflecting
+        !matches!(self.boundaries[side as usize], Boundary::NonReflecting | Boundary::FarField)
     }
 
     fn share(&self, mean: &[f64], deviations: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
@@ -106,6 +106,11 @@ impl Multiresolution for Analysis {
         let impedance = (rho * self.mixture.stiffness(p, phi)).max(0.0).sqrt();
         let by_pressure = d_p.abs().max(impedance * d_v) / self.scales.pressure;
         by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs())
+    }
+
+    /// That of the gas fraction: the interface between gas and liquid is on the finest level wherever it goes.
+    fn significance_everywhere(&self, _: &[f64], detail: &[f64]) -> f64 {
+        detail[PHI].abs()
     }
 }
 

@@ -8,11 +8,12 @@ use crate::curvature::AlongFaces;
 use crate::even::{even_slopes, predict_beside_mirrors};
 use crate::exact_rows::exact_faces;
 use crate::face_rows::FaceRows;
+use crate::far_field::{Moment, SideImpulses, SourceHistory};
 use crate::five_equation::{GasBlock, GasScratch, may_have_gas};
 use crate::options::TwoPhaseOptions;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
-use crate::report::{BlockReport, boundary_inflow, count_fallbacks};
+use crate::report::{BlockReport, boundary_inflow, count_fallbacks, far_field_gains};
 use crate::rows::{self, Reconstruction};
 use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::update::{Extremes, Metric, update};
@@ -35,19 +36,31 @@ pub(crate) struct StepContext<'a, const N: usize> {
     /// Cells that fall back to first order in this step.
     pub marks: &'a Marks,
     pub boundaries: &'a Boundaries,
+    /// What the far field remembers along the open sides.
+    pub impulses: &'a SideImpulses,
+    /// What the bubbles have done lately.
+    pub sources: &'a SourceHistory,
     /// The state at the beginning of the step.
     pub old: &'a Field,
     /// Time at the beginning of the step, s.
     pub time: f64,
     pub dt: f64,
-    /// The largest |v| + c along z and r, m/s.
-    pub fastest: [f64; 2],
     /// The faces of the wall to the solid in the order of r, and each block's first one.
     pub wall: &'a [WallState],
     pub wall_first: &'a [usize],
 }
 
 impl<const N: usize> StepContext<'_, N> {
+    /// The middle of the step, s.
+    pub fn middle(&self) -> f64 {
+        self.time + 0.5 * self.dt
+    }
+
+    /// The step as the far field sees it.
+    pub fn moment(&self) -> Moment<'_> {
+        Moment { middle: self.middle(), dt: self.dt, history: self.sources }
+    }
+
     /// The limiter of the gas fraction's slopes.
     fn fraction_limiter(&self) -> Limiter {
         self.two_phase.map_or(self.limiter, |options| options.fraction_limiter(self.limiter))
@@ -62,6 +75,8 @@ pub(crate) struct BlockScratch<const N: usize> {
     pub s_r: Padded<N>,
     pub half: Padded<N>,
     pub keep: AlignedRow,
+    /// Sound speeds at the beginning of the step.
+    sound: AlignedRow,
     pub inverse_r: Vec<f64>,
     z_faces: FaceRows,
     r_faces: FaceRows,
@@ -84,6 +99,7 @@ impl<const N: usize> BlockScratch<N> {
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
             keep: AlignedRow::zeros(len, Padded::<N>::STRIDE),
+            sound: AlignedRow::zeros(len, Padded::<N>::STRIDE),
             inverse_r: vec![0.0; len],
             z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
             r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
@@ -105,11 +121,6 @@ impl<const N: usize> BlockScratch<N> {
         }
         self.z_faces.without_gas();
         self.r_faces.without_gas();
-    }
-
-    /// The cells of the last block that should be done again at first order.
-    pub fn marked_cells(&self) -> &[usize] {
-        self.gas.marked()
     }
 }
 
@@ -195,17 +206,12 @@ pub(crate) fn step_block<const N: usize>(
         scratch.s_r.split_mut(),
         scratch.half.split_mut(),
         &mut scratch.keep,
+        &mut scratch.sound,
     );
     even_slopes(ctx, slot, scratch);
     predict_beside_mirrors(ctx, slot, inverse_h, scratch);
-    ctx.boundaries.impose_outer(
-        ctx.mesh,
-        slot,
-        ctx.time + 0.5 * ctx.dt,
-        ctx.mixture,
-        &mut scratch.half,
-        &mut scratch.keep,
-    );
+    let slopes = [&scratch.s_z, &scratch.s_r];
+    ctx.boundaries.impose_outer(ctx, slot, slopes, &mut scratch.half, &mut scratch.keep);
 
     if !ctx.marks.is_empty() {
         at_first_order(ctx, slot, scratch);
@@ -221,6 +227,7 @@ pub(crate) fn step_block<const N: usize>(
         half: [rho, v_z, v_r, p, phi],
         differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
         keep: &scratch.keep,
+        sound: &scratch.sound,
         with_gas,
         curvature: ctx.curvature(id.level, 0),
         along_faces: AlongFaces::new([1, 3].map(|c| scratch.s_r.component(c)), stride),
@@ -245,6 +252,7 @@ pub(crate) fn step_block<const N: usize>(
         half: [rho, v_r, v_z, p, phi],
         differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
         keep: &scratch.keep,
+        sound: &scratch.sound,
         with_gas,
         curvature: ctx.curvature(id.level, 1),
         along_faces: AlongFaces::new([2, 3].map(|c| scratch.s_z.component(c)), 1),
@@ -308,12 +316,12 @@ pub(crate) fn step_block<const N: usize>(
     let [speed_z, speed_r, floor] = &speeds;
     report.extremes = Extremes::of(&new[PHI * N * N..(PHI + 1) * N * N], [speed_z, speed_r, floor]);
     if report.extremes.floor > 0.0 {
-        for j in 0..N {
-            for added in floor[j * N..(j + 1) * N].iter().filter(|added| **added > 0.0) {
-                report.floored += 1;
-                report.floored_volume += ctx.mesh.volume(id, j);
-                report.floor_energy += added * ctx.mesh.volume(id, j);
-            }
+        for (cell, added) in floor.iter().enumerate().filter(|(_, added)| **added > 0.0) {
+            let volume = ctx.mesh.volume(id, cell / N);
+            report.marked.insert(cell);
+            report.floored += 1;
+            report.floored_volume += volume;
+            report.floor_energy += added * volume;
         }
     }
     if ctx.mesh.touches(slot, Side::ZMin) {
@@ -322,6 +330,7 @@ pub(crate) fn step_block<const N: usize>(
         }
     }
     report.inflow = boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces, &scratch.face_weight);
+    report.impulse = far_field_gains(ctx, slot, &scratch.half, &scratch.z_faces, &scratch.r_faces);
     report
 }
 

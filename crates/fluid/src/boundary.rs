@@ -1,12 +1,14 @@
 //! What bounds the fluid: ghost cells before the slopes, outer states and wall fluxes after them.
 
-use mesh::{Mesh, Padded, Side, SideStates};
+use mesh::{Domain, Mesh, Padded, Side, SideStates};
 use serde::{Deserialize, Serialize};
 
+use crate::block::StepContext;
 use crate::face_rows::FaceRows;
+use crate::far_field::{FarField, Inner, SideImpulses, SourceHistory, face_centre, first_face};
 use crate::hllc::Face;
 use crate::rows::Reconstruction;
-use crate::{Boundary, Mixture, Primitive};
+use crate::{Boundary, Mixture, Primitive, TRACE_GAS};
 
 /// A pressure history, linear between its points and constant beyond them.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +41,7 @@ pub(crate) struct Boundaries {
     /// The initial state in the cells along each side, and the gas's part of its mass.
     initial: SideStates<(Primitive, f64)>,
     inflow: Option<PressureHistory>,
+    far_field: Option<FarField>,
     /// The open sides that have gas beyond them.
     has_gas_beyond: [bool; 4],
 }
@@ -59,12 +62,12 @@ impl Boundaries {
         kinds: [Boundary; 4],
         initial: SideStates<(Primitive, f64)>,
         inflow: Option<PressureHistory>,
+        far_field: Option<FarField>,
     ) -> Self {
-        let is_open = |side: Side| matches!(kinds[side as usize], Boundary::NonReflecting | Boundary::Inflow);
         let has_gas =
             |side: Side| initial.along(side).any(|(state, share)| state.phi != 0.0 || *share != 0.0);
-        let has_gas_beyond = Side::ALL.map(|side| is_open(side) && has_gas(side));
-        Self { kinds, initial, inflow, has_gas_beyond }
+        let has_gas_beyond = Side::ALL.map(|side| kinds[side as usize].is_open() && has_gas(side));
+        Self { kinds, initial, inflow, far_field, has_gas_beyond }
     }
 
     /// Whether a block touches an open side of the domain that has gas beyond it.
@@ -74,6 +77,36 @@ impl Boundaries {
 
     pub fn kind(&self, side: Side) -> Boundary {
         self.kinds[side as usize]
+    }
+
+    pub fn has_far_field(&self, side: Side) -> bool {
+        self.kind(side) == Boundary::FarField
+    }
+
+    pub fn far_field(&self) -> Option<&FarField> {
+        self.far_field.as_ref()
+    }
+
+    /// What the far field is to know of the bubbles: nothing yet.
+    pub fn source_history(&self, domain: &Domain) -> SourceHistory {
+        let of = |far_field| SourceHistory::new(far_field, domain, self.kinds);
+        self.far_field.as_ref().map_or_else(SourceHistory::default, of)
+    }
+
+    /// The impulses with which the far field begins, such that the faces have the initial state.
+    pub fn initial_impulses<const N: usize>(&self, mesh: &Mesh<N>, mixture: &Mixture) -> SideImpulses {
+        let finest = mesh.tree().finest();
+        SideImpulses::new(
+            mesh,
+            |side| self.has_far_field(side),
+            |side, along, face| {
+                let (Primitive { density, v_z, v_r, pressure, phi }, _) =
+                    *self.initial.at(side, finest, along);
+                let state = Inner([density, v_z, v_r, pressure]);
+                let far_field = self.far_field.as_ref().filter(|_| phi.abs() <= TRACE_GAS);
+                far_field.map_or(0.0, |far_field| far_field.initial_impulse(side, face, state, mixture))
+            },
+        )
     }
 
     /// Fills the ghosts of one block beyond the domain, in primitive variables.
@@ -89,8 +122,8 @@ impl Boundaries {
                     Boundary::Axis | Boundary::Wall => {
                         Padded::<N>::reflect(row, side, if component == normal(side) { -1.0 } else { 1.0 });
                     }
-                    Boundary::NonReflecting | Boundary::Inflow | Boundary::Interface => {
-                        Padded::<N>::extrapolate(row, side);
+                    Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow | Boundary::Interface => {
+                        Padded::<N>::extrapolate(row, side)
                     }
                     Boundary::Periodic => unreachable!("a periodic side has neighbours"),
                 }
@@ -101,15 +134,17 @@ impl Boundaries {
     /// Puts the outer states into the ghost cells at mid-step: on open sides without slopes, at walls and on the
     /// axis the mirror images of the inner ones. (Their own predictor would not be that: beyond the outer wall
     /// the metric goes on. Nothing must pass a wall, to the last bit.)
+    ///
+    /// - `slopes`: differences across the cells along z and r.
     pub fn impose_outer<const N: usize>(
         &self,
-        mesh: &Mesh<N>,
+        ctx: &StepContext<'_, N>,
         slot: usize,
-        time: f64,
-        mixture: &Mixture,
+        slopes: [&Padded<N>; 2],
         half: &mut Padded<N>,
         keep: &mut [f64],
     ) {
+        let (mesh, mixture) = (ctx.mesh, ctx.mixture);
         let id = mesh.tree().leaves()[slot];
         for side in Side::ALL {
             let inflow = match self.kind(side) {
@@ -117,21 +152,30 @@ impl Boundaries {
                     mirror::<N>(side, half, keep);
                     continue;
                 }
-                Boundary::NonReflecting => None,
+                Boundary::NonReflecting | Boundary::FarField => None,
                 Boundary::Inflow => self.inflow.as_ref(),
                 _ => continue,
             };
             if !mesh.touches(slot, side) {
                 continue;
             }
-            let first = if normal(side) == 1 { id.j } else { id.i } as usize * N;
+            let first = first_face::<N>(id, side);
+            let far_field = self.far_field.as_ref().filter(|_| self.kind(side) == Boundary::FarField);
             for along in 0..N {
                 let (mut state, _) = *self.initial.at(side, id.level, first + along);
+                let [inner, k] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
                 if let Some(history) = inflow {
-                    state = entering(state, side, history.at(time), mixture);
+                    state = entering(state, side, history.at(ctx.middle()), mixture);
                 }
-                let [_, (i, j)] = beside(side, N, along as isize);
-                let k = Padded::<N>::index(i, j);
+                if let Some(far_field) = far_field {
+                    let reach =
+                        if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 } * keep[inner];
+                    let across = slopes[normal(side) - 1];
+                    let on_face = |c: usize| half.component(c)[inner] + reach * across.component(c)[inner];
+                    let trace = Primitive::from_array([0, 1, 2, 3, 4].map(on_face));
+                    let face = (side, id.level, first + along);
+                    state = far_state(far_field, ctx, face, trace, state).unwrap_or(state);
+                }
                 keep[k] = 0.0;
                 for (component, value) in state.to_array().into_iter().enumerate() {
                     half.component_mut(component)[k] = value;
@@ -149,9 +193,8 @@ impl Boundaries {
         along: usize,
     ) -> Option<f64> {
         let id = mesh.tree().leaves()[slot];
-        let first = if normal(side) == 1 { id.j } else { id.i } as usize * N;
-        matches!(self.kind(side), Boundary::NonReflecting | Boundary::Inflow)
-            .then(|| self.initial.at(side, id.level, first + along).1)
+        let first = first_face::<N>(id, side);
+        self.kind(side).is_open().then(|| self.initial.at(side, id.level, first + along).1)
     }
 
     /// Replaces the fluxes through the wall between fluid and solid by those that the wall's state makes.
@@ -194,6 +237,38 @@ fn wall_face(trace: [f64; 5], wall: WallState, mixture: &Mixture) -> Face {
         phi,
         compression: star / density,
     }
+}
+
+/// The state beyond a face of a side with a far field; `None` where there is gas, which that is not about.
+///
+/// - `side`, level, number along the side: of the face. `trace`: what the cell within has on it; `initial`: what was beyond it
+///   at t = 0, from where the liquid's isentrope leads to its density.
+fn far_state<const N: usize>(
+    far_field: &FarField,
+    ctx: &StepContext<'_, N>,
+    (side, level, along): (Side, u8, usize),
+    trace: Primitive,
+    initial: Primitive,
+) -> Option<Primitive> {
+    let mixture = ctx.mixture;
+    let is_liquid = |state: &Primitive| state.phi.abs() <= TRACE_GAS;
+    let is_state = trace.density > 0.0 && trace.pressure > mixture.pressure_floor(0.0);
+    if !(is_liquid(&trace) && is_liquid(&initial) && is_state) {
+        return None;
+    }
+    let impulse = ctx.impulses.at(side, level, along);
+    let inner = Inner([trace.density, trace.v_z, trace.v_r, trace.pressure]);
+    let centre = face_centre(ctx.mesh, side, level, along);
+    let outer = far_field.outer(side, centre, inner, mixture, ctx.moment(), impulse);
+    let pressure = outer.pressure.max(mixture.pressure_floor(0.0));
+    let density = mixture.liquid.isentropic_density(initial.density, initial.pressure, pressure);
+    let velocity = if matches!(side, Side::ZMin | Side::RMin) { -outer.velocity } else { outer.velocity };
+    let state = Primitive { density, pressure, phi: 0.0, ..trace };
+    Some(if normal(side) == 1 {
+        Primitive { v_z: velocity, ..state }
+    } else {
+        Primitive { v_r: velocity, ..state }
+    })
 }
 
 /// The state behind a plane wave of pressure `p` that enters into `initial` through a side: isentropic, with

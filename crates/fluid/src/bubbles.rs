@@ -215,6 +215,7 @@ mod tests {
             limiter: Limiter::Mc,
             boundaries: [Boundary::Periodic, Boundary::Periodic, Boundary::Axis, Boundary::Wall],
             inflow: None,
+            far_field: None,
             adaptation: None,
             scales: Scales { pressure: 1e5, density: 1e3 },
         };

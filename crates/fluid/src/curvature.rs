@@ -7,14 +7,26 @@ use crate::block::StepContext;
 use crate::rows::{Reconstruction, fraction};
 
 /// What face states of weak waves in liquid get besides.
+///
+/// How much depends on the Courant number of the sound that crosses the face. It is that of the two cells beside it, in the
+/// step that they really make: elsewhere in the domain there may be faster sound, and the level may make longer steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Curvature {
-    /// Of the difference of two neighbours' differences along the normal, see [`mesh::curvature_share`].
-    pub share: f64,
-    /// Of the second differences of v_n and p along the face, see [`mesh::oblique_shares`].
-    pub oblique: [f64; 2],
+    /// Δt/h_n, s/m: with a speed it makes a Courant number.
+    pub per_speed: f64,
+    /// h_n/h_s: the cells' width along the normal over that along the face.
+    pub aspect: f64,
     /// π of the liquid, Pa.
     pub liquid_pi: f64,
+}
+
+/// The shares that make what is left out of second differences.
+#[derive(Clone, Copy)]
+struct Shares {
+    /// Of the difference of two neighbours' differences along the normal, see [`mesh::curvature_share`].
+    across: f64,
+    /// Of the second differences of v_n and p along the face, see [`mesh::oblique_shares`].
+    along: [f64; 2],
 }
 
 /// Second differences along the faces of v_n and p.
@@ -67,18 +79,27 @@ impl Curvature {
     /// What v_n (component 0) or p (1) of a cell on a wall below it along z gets, the differences across the cells continued in
     /// a line beyond the wall.
     ///
-    /// - `p`, `phi`, `difference`: of the cell, see above. `across`, `along`: second differences.
-    pub fn on_wall(self, component: usize, cell: [f64; 3], across: f64, along: f64) -> f64 {
+    /// - `p`, `phi`, `difference`: of the cell, see above; `speed`: its |v_n| + c, m/s. `across`, `along`: second differences.
+    pub fn on_wall(self, component: usize, cell: [f64; 3], speed: f64, across: f64, along: f64) -> f64 {
         let [p, phi, difference] = cell;
         let [is_weak, is_acoustic] = self.takes(p, phi, difference);
         let kept = [is_weak, is_acoustic].map(|takes| if takes { 1.0 } else { 0.0 });
-        self.left_out(component, kept, across, along)
+        self.shares(speed).left_out(component, kept, across, along)
     }
 
+    /// Of sound that crosses the face with `speed`, m/s.
+    #[inline(always)]
+    fn shares(self, speed: f64) -> Shares {
+        let courant = self.per_speed * speed;
+        Shares { across: curvature_share(courant), along: oblique_shares(courant, self.aspect) }
+    }
+}
+
+impl Shares {
     /// What v_n (component 0) or p (1) lacks, of which `kept` stays for the differences across and along.
     #[inline(always)]
     fn left_out(self, component: usize, kept: [f64; 2], across: f64, along: f64) -> f64 {
-        kept[0] * (self.share * across) + kept[1] * (self.oblique[component] * along)
+        kept[0] * (self.across * across) + kept[1] * (self.along[component] * along)
     }
 }
 
@@ -86,10 +107,9 @@ impl<const N: usize> StepContext<'_, N> {
     /// For the faces normal to an axis (0: z, 1: r) of a block of a level.
     pub fn curvature(&self, level: u8, axis: usize) -> Curvature {
         let widths = self.mesh.widths(level);
-        let courant = self.fastest[axis] * self.dt / widths[axis];
         Curvature {
-            share: curvature_share(courant),
-            oblique: oblique_shares(courant, widths[axis] / widths[1 - axis]),
+            per_speed: self.dt / widths[axis],
+            aspect: widths[axis] / widths[1 - axis],
             liquid_pi: self.mixture.at(0.0).pi,
         }
     }
@@ -103,13 +123,14 @@ fn left_out(
     upper: &Reconstruction<'_>,
     component: usize,
     k: usize,
+    shares: Shares,
     kept: [f64; 2],
 ) -> f64 {
     let row = [1, 3][component];
     let across = upper.differences[row][k] - lower.differences[row][k];
     let low = lower.along_faces.second_difference(component, k);
     let high = upper.along_faces.second_difference(component, k);
-    lower.curvature.left_out(component, kept, across, 0.5 * (low + high))
+    shares.left_out(component, kept, across, 0.5 * (low + high))
 }
 
 /// The states on both sides of the face between cells `k` of `lower` and of `upper`.
@@ -128,8 +149,10 @@ pub(crate) fn states_at_face<const WITH_GAS: bool>(
     let (low, high) = (takes(lower), takes(upper));
     let keep = lower.keep[k] * upper.keep[k];
     let kept = [if low[0] & high[0] { keep } else { 0.0 }, if low[1] & high[1] { keep } else { 0.0 }];
-    let velocity = left_out(lower, upper, 0, k, kept);
-    let pressure = left_out(lower, upper, 1, k, kept);
+    let speed = |cells: &Reconstruction<'_>| cells.half[1][k].abs() + cells.sound[k];
+    let shares = curvature.shares(0.5 * (speed(lower) + speed(upper)));
+    let velocity = left_out(lower, upper, 0, k, shares, kept);
+    let pressure = left_out(lower, upper, 1, k, shares, kept);
     [lower.face_state(k, 1.0), upper.face_state(k, -1.0)]
         .map(|[rho, v_n, v_t, p, phi]| [rho, v_n + velocity, v_t, p + pressure, fraction::<WITH_GAS>(phi)])
 }

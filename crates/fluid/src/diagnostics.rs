@@ -192,8 +192,7 @@ impl<const N: usize> FluidSolver<N> {
         snapshot
     }
 
-    /// The context of a step of length `dt` from the present state; of no length, to look at that. In no time nothing moves,
-    /// so the speeds of all blocks need not be gone through.
+    /// The context of a step of length `dt` from the present state; of no length, to look at that.
     pub(crate) fn context(&self, dt: f64) -> StepContext<'_, N> {
         StepContext {
             mesh: &self.mesh,
@@ -205,10 +204,11 @@ impl<const N: usize> FluidSolver<N> {
             has_gas: &self.has_gas,
             marks: &self.marks,
             boundaries: &self.boundaries,
+            impulses: &self.impulses,
+            sources: &self.sources,
             old: &self.state,
             time: self.time,
             dt,
-            fastest: if dt == 0.0 { [0.0; 2] } else { self.largest_speeds() },
             wall: &self.wall,
             wall_first: &self.wall_first,
         }

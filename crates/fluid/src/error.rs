@@ -9,6 +9,9 @@ pub enum FluidError {
     /// A side is an inflow, but there is no pressure history.
     #[error("a side of the fluid is an inflow, but there is no pressure history for it")]
     NoInflow,
+    /// A side is that of a far field, but there is none.
+    #[error("a side of the fluid is to have a far field, but there is none for it")]
+    NoFarField,
     /// The liquid's pressure cannot be the harmonic one.
     #[error("the initial pressure cannot be Rayleigh's: {0}")]
     Rayleigh(#[from] crate::RayleighError),

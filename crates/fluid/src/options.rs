@@ -94,6 +94,8 @@ pub enum Boundary {
     Wall,
     /// Waves leave: the incoming characteristic is held at the initial state there.
     NonReflecting,
+    /// Waves leave, and liquid flows to the bubbles and back as in unbounded liquid, see [`crate::FarField`].
+    FarField,
     /// A pressure history enters as a plane wave.
     Inflow,
     /// The opposite side of the domain.
@@ -104,10 +106,16 @@ pub enum Boundary {
 
 impl Boundary {
     /// Those a case file may name.
-    pub const NAMES: [(&'static str, Self); 4] = [
+    pub const NAMES: [(&'static str, Self); 5] = [
         ("wall", Self::Wall),
         ("non-reflecting", Self::NonReflecting),
+        ("far-field", Self::FarField),
         ("inflow", Self::Inflow),
         ("periodic", Self::Periodic),
     ];
+
+    /// Whether fluid passes: the side holds a state outside.
+    pub fn is_open(self) -> bool {
+        matches!(self, Self::NonReflecting | Self::FarField | Self::Inflow)
+    }
 }

@@ -6,37 +6,8 @@ use mesh::{GroupStep, Padded};
 use crate::block::{BlockScratch, reconstruct};
 use crate::five_equation::{Cells, FaceStates, Stencil, Window, face_states};
 use crate::rows::{half_step, rates};
+use crate::wall_trace::Trace;
 use crate::{FluidSolver, Mixture, WallState};
-
-/// Writes a trace that stays as it is through the step and along the face.
-fn put_steady(w: [f64; 5], mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
-    let at = mixture.at(w[4]);
-    use TraceRow::{
-        Density, DensityRate, DensitySlope, Gamma, Impedance, NormalVelocity, NormalVelocityRate,
-        NormalVelocitySlope, Pi, Pressure, PressureRate, PressureSlope, Shear, TangentialVelocity,
-        TangentialVelocityRate,
-    };
-    let state = [(Density, w[0]), (NormalVelocity, w[1]), (TangentialVelocity, w[2]), (Pressure, w[3])];
-    let law = [(Gamma, at.gamma), (Pi, at.pi), (Impedance, impedance(w, mixture))];
-    let still = [
-        Shear,
-        DensityRate,
-        NormalVelocityRate,
-        TangentialVelocityRate,
-        PressureRate,
-        DensitySlope,
-        NormalVelocitySlope,
-        PressureSlope,
-    ];
-    for (row, value) in state.into_iter().chain(law).chain(still.map(|row| (row, 0.0))) {
-        put(row, face, value);
-    }
-}
-
-/// ρc of a trace ρ, v_n, v_t, p, φ.
-fn impedance(w: [f64; 5], mixture: &Mixture) -> f64 {
-    (w[0] * mixture.stiffness(w[3], w[4].clamp(0.0, 1.0))).max(0.0).sqrt()
-}
 
 impl<const N: usize> FluidSolver<N> {
     /// Number of faces on the wall to the solid; 0 without one.
@@ -58,7 +29,8 @@ impl<const N: usize> FluidSolver<N> {
     /// Writes the traces on the wall at the present time and their rates of change.
     ///
     /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the
-    /// predictor uses; at mid-step it is what the face's Riemann problem would see.
+    /// predictor uses; at mid-step it is what the face's Riemann problem would see. It is a state on the whole of the step and
+    /// the face: density and p + π stay clear of zero.
     ///
     /// - `dt`: the step about to be made: a cell that falls back to first order in it has no slope and no rate.
     /// - `row`: gives the place to write one [`TraceRow`] of a face.
@@ -94,13 +66,14 @@ impl<const N: usize> FluidSolver<N> {
                 for j in 0..N {
                     let k = Padded::<N>::index(0, j as isize);
                     if let Some(state) = at_interface(k) {
-                        put_steady(state, &self.mixture, first + j, &mut put);
+                        put_rows(Trace::steady(state), &self.mixture, first + j, &mut put);
                         continue;
                     }
                     let w: [f64; 5] = std::array::from_fn(|c| cells.component(c)[k]);
                     let d_z: [f64; 5] = std::array::from_fn(|c| s_z.component(c)[k]);
                     let d_r: [f64; 5] = std::array::from_fn(|c| s_r.component(c)[k]);
                     let (_, keep) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, &self.mixture);
+                    let slope = d_r.map(|d| keep * d * inverse_h[1]);
                     let rate = rates(
                         w,
                         d_z.map(|d| d * inverse_h[0]),
@@ -109,33 +82,25 @@ impl<const N: usize> FluidSolver<N> {
                         &self.mixture,
                     )
                     .map(|rate| keep * rate);
-                    let trace: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
+                    let mut state: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
                     let curvature = context.curvature(id.level, 0);
                     let more = |c: usize, component: usize| {
                         let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
                         let stride = Padded::<N>::STRIDE;
                         let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
-                        keep * curvature.on_wall(c, [w[3], w[4], d_z[3]], across, along)
+                        let sound = (self.mixture.stiffness(w[3], w[4]) / w[0]).sqrt();
+                        let speed = w[1].abs() + sound;
+                        keep * curvature.on_wall(c, [w[3], w[4], d_z[3]], speed, across, along)
                     };
+                    state[1] += more(0, 1);
+                    state[3] += more(1, 3);
                     // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
                     // mixture's β₁ soon has the wrong sign, and γ with it.
-                    let at = self.mixture.at(trace[4].clamp(0.0, 1.0));
-                    let face = first + j;
-                    put(TraceRow::Density, face, trace[0]);
-                    put(TraceRow::NormalVelocity, face, trace[1] + more(0, 1));
-                    put(TraceRow::TangentialVelocity, face, trace[2]);
-                    put(TraceRow::Pressure, face, trace[3] + more(1, 3));
-                    put(TraceRow::Shear, face, 0.0);
-                    put(TraceRow::DensityRate, face, rate[0]);
-                    put(TraceRow::NormalVelocityRate, face, rate[1]);
-                    put(TraceRow::TangentialVelocityRate, face, rate[2]);
-                    put(TraceRow::PressureRate, face, rate[3]);
-                    put(TraceRow::Gamma, face, at.gamma);
-                    put(TraceRow::Pi, face, at.pi);
-                    put(TraceRow::Impedance, face, impedance(trace, &self.mixture));
-                    put(TraceRow::PressureSlope, face, keep * d_r[3] * inverse_h[1]);
-                    put(TraceRow::NormalVelocitySlope, face, keep * d_r[1] * inverse_h[1]);
-                    put(TraceRow::DensitySlope, face, keep * d_r[0] * inverse_h[1]);
+                    state[4] = state[4].clamp(0.0, 1.0);
+                    let trace = Trace { state, rate, slope };
+                    let reach = [0.5 * dt, 0.5 / inverse_h[1]];
+                    let trace = trace.admissible(w, reach, &self.mixture);
+                    put_rows(trace, &self.mixture, first + j, &mut put);
                 }
             });
         }
@@ -228,5 +193,31 @@ impl<const N: usize> FluidSolver<N> {
                 put(first + j, cell.pressure, cell.v_z);
             }
         }
+    }
+}
+
+/// Writes the rows of a trace.
+fn put_rows(trace: Trace, mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
+    let Trace { state: [rho, v_z, v_r, p, phi], rate, slope } = trace;
+    let at = mixture.at(phi);
+    let impedance = (rho * mixture.stiffness(p, phi)).max(0.0).sqrt();
+    for (row, value) in [
+        (TraceRow::Density, rho),
+        (TraceRow::NormalVelocity, v_z),
+        (TraceRow::TangentialVelocity, v_r),
+        (TraceRow::Pressure, p),
+        (TraceRow::Shear, 0.0),
+        (TraceRow::DensityRate, rate[0]),
+        (TraceRow::NormalVelocityRate, rate[1]),
+        (TraceRow::TangentialVelocityRate, rate[2]),
+        (TraceRow::PressureRate, rate[3]),
+        (TraceRow::Gamma, at.gamma),
+        (TraceRow::Pi, at.pi),
+        (TraceRow::Impedance, impedance),
+        (TraceRow::DensitySlope, slope[0]),
+        (TraceRow::NormalVelocitySlope, slope[1]),
+        (TraceRow::PressureSlope, slope[3]),
+    ] {
+        put(row, face, value);
     }
 }

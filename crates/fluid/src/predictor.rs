@@ -30,14 +30,14 @@ pub(crate) struct Predictor<'a> {
     pub with_mixed: bool,
 }
 
-/// Limited differences, primitive variables at mid-step and the share of slopes kept, in all cells but the outermost
-/// layer.
+/// Limited differences, primitive variables at mid-step, the share of slopes kept and the sound speed, in all cells but the
+/// outermost layer.
 ///
 /// MUSCL-Hancock: [`mesh::limited_differences`], then the predictor, paper eqs. (24), (25) with τ = Δt/2, in both
 /// directions at once. The differences are made and used in registers. Nearly all cells keep their slopes; a chunk of
 /// cells in which one does not is predicted again by [`half_step`].
 ///
-/// - `w`: the cells. `s_z`, `s_r`, `half`, `keep`: padded rows, written.
+/// - `w`: the cells. `s_z`, `s_r`, `half`, `keep`, `sound`: padded rows, written.
 /// - tested by: equality with the limiter and [`half_step`], cell by cell.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn predict(
@@ -48,6 +48,7 @@ pub(crate) fn predict(
     s_r: [&mut [f64]; 5],
     half: [&mut [f64]; 5],
     keep: &mut [f64],
+    sound: &mut [f64],
 ) {
     let m = *mixture;
     // A function of its own for each, so that the compiler sees what it does.
@@ -57,13 +58,15 @@ pub(crate) fn predict(
     let none = |a, b| Limiter::None.difference(a, b);
     // Without gas all limiters give the gas fraction the same slopes: none.
     match (p.limiter, p.fraction_limiter, p.with_gas) {
-        (Limiter::Mc, _, true) => body::<true>(mc, mc, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Mc, _, false) => body::<false>(mc, mc, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Minmod, Limiter::Mc, true) => body::<true>(minmod, mc, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Minmod, _, true) => body::<true>(minmod, minmod, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Minmod, _, false) => body::<false>(minmod, minmod, w, p, m, s_z, s_r, half, keep),
-        (Limiter::Eno, ..) => body::<true>(eno, eno, w, p, m, s_z, s_r, half, keep),
-        (Limiter::None, ..) => body::<true>(none, none, w, p, m, s_z, s_r, half, keep),
+        (Limiter::Mc, _, true) => body::<true>(mc, mc, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::Mc, _, false) => body::<false>(mc, mc, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::Minmod, Limiter::Mc, true) => {
+            body::<true>(minmod, mc, w, p, m, s_z, s_r, half, keep, sound)
+        }
+        (Limiter::Minmod, _, true) => body::<true>(minmod, minmod, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::Minmod, _, false) => body::<false>(minmod, minmod, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::Eno, ..) => body::<true>(eno, eno, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::None, ..) => body::<true>(none, none, w, p, m, s_z, s_r, half, keep, sound),
     }
 }
 
@@ -78,6 +81,7 @@ fn body<const WITH_GAS: bool>(
     [r0, r1, r2, r3, r4]: [&mut [f64]; 5],
     [h0, h1, h2, h3, h4]: [&mut [f64]; 5],
     keep: &mut [f64],
+    sound: &mut [f64],
 ) {
     // The first and the last cell of these rows have neighbours, if not their own; all lines are whole.
     let end = keep.len() - p.stride;
@@ -117,6 +121,7 @@ fn body<const WITH_GAS: bool>(
             &mut h3[first..][..n],
             &mut h4[first..][..n],
             &mut keep[first..][..n],
+            &mut sound[first..][..n],
         );
         let dropped: u64 = keep[first..][..n].iter().map(|share| u64::from(*share == 0.0)).sum();
         let [_, _, _, pressure, phi] = here;
@@ -170,6 +175,7 @@ fn differences_and_half<const WITH_GAS: bool>(
     h3: &mut [f64],
     h4: &mut [f64],
     keep: &mut [f64],
+    sound: &mut [f64],
 ) {
     for k in 0..n {
         let phi = fraction::<WITH_GAS>(w[4][k]);
@@ -180,7 +186,7 @@ fn differences_and_half<const WITH_GAS: bool>(
         let fraction_along_r = limit_fraction(phi - south[4][k], north[4][k] - phi);
         let s_z = [along_z(0), along_z(1), along_z(2), along_z(3), fraction::<WITH_GAS>(fraction_along_z)];
         let s_r = [along_r(0), along_r(1), along_r(2), along_r(3), fraction::<WITH_GAS>(fraction_along_r)];
-        let (half, kept) =
+        let (half, kept, speed) =
             whole_half_step::<WITH_GAS>(here, s_z, s_r, inverse_h, inverse_r[k], half_dt, mixture);
         [z0[k], z1[k], z2[k], z3[k], _] = s_z;
         [r0[k], r1[k], r2[k], r3[k], _] = s_r;
@@ -188,7 +194,7 @@ fn differences_and_half<const WITH_GAS: bool>(
         if WITH_GAS {
             (z4[k], r4[k], h4[k]) = (s_z[4], s_r[4], half[4]);
         }
-        keep[k] = kept;
+        (keep[k], sound[k]) = (kept, speed);
     }
 }
 
@@ -249,6 +255,7 @@ mod tests {
             let of_component = |c: usize| if c == 4 { fraction_limiter } else { limiter };
             let rows = || -> [Vec<f64>; 5] { std::array::from_fn(|_| vec![0.0; len]) };
             let (mut s_z, mut s_r, mut half, mut keep) = (rows(), rows(), rows(), vec![0.0; len]);
+            let mut sound = vec![0.0; len];
             predict(
                 w.each_ref().map(|row| &row[..]),
                 Predictor {
@@ -266,6 +273,7 @@ mod tests {
                 s_r.each_mut().map(|row| &mut row[..]),
                 half.each_mut().map(|row| &mut row[..]),
                 &mut keep,
+                &mut sound,
             );
             for k in stride + 1..len - stride - 1 {
                 let here: [f64; 5] = std::array::from_fn(|c| w[c][k]);
@@ -279,6 +287,8 @@ mod tests {
                 assert_eq!(s_r.each_ref().map(|row| row[k]), r, "{name}");
                 let (state, kept) = half_step(here, z, r, inverse_h, inverse_r[k], half_dt, &mixture);
                 assert_eq!((half.each_ref().map(|row| row[k]), keep[k]), (state, kept), "{name}, cell {k}");
+                let stiffness = mixture.stiffness(here[3], here[4]);
+                approx::assert_relative_eq!(sound[k].powi(2), stiffness / here[0], max_relative = 1e-13);
                 shares[(2.0 * kept) as usize] += 1;
             }
         }

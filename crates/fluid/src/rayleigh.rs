@@ -163,6 +163,11 @@ impl RayleighField {
         self.far + inside.map_or_else(|| self.excess(point), |sphere| sphere.excess)
     }
 
+    /// R a₀ of each bubble, Pa m, in the order of the gas regions: far away p − p∞ is the sum of these over the distances.
+    pub fn monopoles(&self) -> Vec<f64> {
+        self.spheres.iter().map(|sphere| sphere.radius * sphere.multipoles[0]).collect()
+    }
+
     /// The largest error on the bubbles' surfaces, relative to the largest difference of pressure.
     pub fn error(&self) -> f64 {
         self.error

@@ -4,7 +4,9 @@ use mesh::{Padded, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::block::StepContext;
+use crate::boundary::{beside, normal};
 use crate::face_rows::FaceRows;
+use crate::far_field::{face_centre, first_face};
 use crate::update::Extremes;
 
 /// What one block tells of its step.
@@ -13,8 +15,9 @@ pub(crate) struct BlockReport<const N: usize> {
     pub extremes: Extremes,
     /// Whether there is gas in the block, or a trace of its mass.
     pub has_gas: bool,
-    /// Cells that should be done again at first order, and those that were.
-    pub marked: u32,
+    /// Cells that should be done again at first order: a phase was drained, or the pressure floor would act.
+    pub marked: CellBits<N>,
+    /// Cells that were done again.
     pub redone: u32,
     pub redone_volume: f64,
     /// Cells that fell back to first order.
@@ -28,14 +31,48 @@ pub(crate) struct BlockReport<const N: usize> {
     /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
     #[serde(with = "mesh::array")]
     pub wall_pressure: [f64; N],
+    /// What the far field's impulse on the faces of each side has gained, Pa s.
+    pub impulse: [FaceRow<N>; 4],
 }
+
+/// Some of the cells of a block: bit i of number j is cell (i, j).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct CellBits<const N: usize>(#[serde(with = "mesh::array")] [u32; N]);
+
+impl<const N: usize> Default for CellBits<N> {
+    fn default() -> Self {
+        const { assert!(N <= 32, "a row fits its bits") };
+        Self([0; N])
+    }
+}
+
+impl<const N: usize> CellBits<N> {
+    /// - `cell`: j N + i.
+    pub fn insert(&mut self, cell: usize) {
+        self.0[cell / N] |= 1 << (cell % N);
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.iter().all(|row| *row == 0)
+    }
+
+    /// Ascending.
+    pub fn cells(&self) -> impl Iterator<Item = usize> {
+        let rows = self.0;
+        (0..N * N).filter(move |cell| rows[cell / N] >> (cell % N) & 1 == 1)
+    }
+}
+
+/// A number on each face along a side of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct FaceRow<const N: usize>(#[serde(with = "mesh::array")] pub [f64; N]);
 
 impl<const N: usize> Default for BlockReport<N> {
     fn default() -> Self {
         Self {
             extremes: Extremes::default(),
             has_gas: false,
-            marked: 0,
+            marked: CellBits::default(),
             redone: 0,
             redone_volume: 0.0,
             fallbacks: 0,
@@ -44,6 +81,7 @@ impl<const N: usize> Default for BlockReport<N> {
             floor_energy: 0.0,
             inflow: [[0.0; 3]; 4],
             wall_pressure: [0.0; N],
+            impulse: [FaceRow([0.0; N]); 4],
         }
     }
 }
@@ -58,6 +96,38 @@ pub(crate) fn count_fallbacks<const N: usize>(keep: &[f64]) -> u32 {
         dropped += keep[at..at + N].iter().filter(is_dropped).count() as u32;
     }
     dropped
+}
+
+/// What the far field's impulses gain on the faces of a block.
+///
+/// - `half`: the cells at mid-step.
+pub(crate) fn far_field_gains<const N: usize>(
+    ctx: &StepContext<'_, N>,
+    slot: usize,
+    half: &Padded<N>,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+) -> [FaceRow<N>; 4] {
+    let mut gains = [FaceRow([0.0; N]); 4];
+    let Some(far_field) = ctx.boundaries.far_field() else { return gains };
+    let id = ctx.mesh.tree().leaves()[slot];
+    for side in Side::ALL {
+        if !(ctx.boundaries.has_far_field(side) && ctx.mesh.touches(slot, side)) {
+            continue;
+        }
+        let faces = if normal(side) == 1 { z_faces } else { r_faces };
+        let is_low = matches!(side, Side::ZMin | Side::RMin);
+        for along in 0..N {
+            let [inner, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+            let k = if is_low { ghost } else { inner };
+            let u_n = if is_low { -faces.velocity[k] } else { faces.velocity[k] };
+            let [rho, u_t] = [0, 3 - normal(side)].map(|component| half.component(component)[inner]);
+            let centre = face_centre(ctx.mesh, side, id.level, first_face::<N>(id, side) + along);
+            let state = [u_n, u_t, faces.pressure[k]];
+            gains[side as usize].0[along] = far_field.gain(side, centre, rho, state, ctx.moment());
+        }
+    }
+    gains
 }
 
 /// Mass, axial momentum and energy that a block took in through the sides of the domain.

@@ -170,6 +170,12 @@ impl<'a> Prediction<'a> {
         }
     }
 
+    /// c, m/s.
+    #[inline(always)]
+    fn sound_speed(&self) -> f64 {
+        (self.law.stiffness * self.law.inverse_rho).sqrt()
+    }
+
     #[inline(always)]
     fn at(&self, share: f64) -> [f64; 5] {
         let moved = |k: usize| self.w[k] + share * self.change[k];
@@ -201,7 +207,8 @@ pub(crate) fn half_step(
     (prediction.at(keep), keep)
 }
 
-/// [`half_step`] where all slopes are kept; where they are not, 0 tells so and the state counts for nothing.
+/// [`half_step`] where all slopes are kept, and the cell's sound speed; where they are not, 0 tells so and the state counts for
+/// nothing.
 #[inline(always)]
 pub(crate) fn whole_half_step<const WITH_GAS: bool>(
     w: [f64; 5],
@@ -211,10 +218,10 @@ pub(crate) fn whole_half_step<const WITH_GAS: bool>(
     inverse_r: f64,
     half_dt: f64,
     mixture: &Mixture,
-) -> ([f64; 5], f64) {
+) -> ([f64; 5], f64, f64) {
     let mut prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
     prediction.change[4] = fraction::<WITH_GAS>(prediction.change[4]);
-    (prediction.at(1.0), if prediction.admissible(1.0) { 1.0 } else { 0.0 })
+    (prediction.at(1.0), if prediction.admissible(1.0) { 1.0 } else { 0.0 }, prediction.sound_speed())
 }
 
 /// Conserved to primitive variables, in place of rows of equal length; without gas the last row is left alone.
@@ -255,6 +262,8 @@ pub(crate) struct Reconstruction<'a> {
     pub differences: Rows<'a>,
     /// The share of its slopes that each cell keeps, see [`half_step`].
     pub keep: &'a [f64],
+    /// The cells' sound speed at the beginning of the step, m/s.
+    pub sound: &'a [f64],
     /// Whether there is gas in any cell. Without it the rows of the gas fraction hold zeros.
     pub with_gas: bool,
     pub curvature: Curvature,
@@ -274,6 +283,7 @@ impl<'a> Reconstruction<'a> {
             half: cut(&self.half, at, n),
             differences: cut(&self.differences, at, n),
             keep: &self.keep[at..][..n],
+            sound: &self.sound[at..][..n],
             with_gas: self.with_gas,
             curvature: self.curvature,
             along_faces: self.along_faces.cut(at, n),

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use mesh::{BlockId, Field, Horizon, Misfit};
 use serde::{Deserialize, Serialize};
 
+use crate::far_field::{SideImpulses, SourceHistory};
 use crate::report::BlockReport;
 use crate::{BoundaryLedger, Fixups, FluidSolver, WallState};
 
@@ -21,6 +22,8 @@ pub struct FluidState<'a, const N: usize> {
     has_gas: Cow<'a, [bool]>,
     horizon: Horizon,
     wall: Cow<'a, [WallState]>,
+    impulses: Cow<'a, SideImpulses>,
+    sources: Cow<'a, SourceHistory>,
     time: f64,
     steps: u64,
     cell_updates: u64,
@@ -41,6 +44,8 @@ impl<const N: usize> FluidSolver<N> {
             riemann: _,
             two_phase: _,
             boundaries: _,
+            impulses,
+            sources,
             state,
             next: _,
             register: _,
@@ -74,6 +79,8 @@ impl<const N: usize> FluidSolver<N> {
             has_gas: Cow::Borrowed(has_gas),
             horizon: *horizon,
             wall: Cow::Borrowed(wall),
+            impulses: Cow::Borrowed(impulses),
+            sources: Cow::Borrowed(sources),
             time: *time,
             steps: *steps,
             cell_updates: *cell_updates,
@@ -96,6 +103,8 @@ impl<const N: usize> FluidSolver<N> {
             has_gas,
             horizon,
             wall,
+            impulses,
+            sources,
             time,
             steps,
             cell_updates,
@@ -116,6 +125,11 @@ impl<const N: usize> FluidSolver<N> {
         if self.wall.len() != wall.len() {
             return Err(Misfit(format!("{} faces of the wall are not the grid's", wall.len())));
         }
+        if !impulses.fits(&self.mesh, |side| self.boundaries.has_far_field(side)) {
+            return Err(Misfit("the far field's faces are not those of the fluid's sides".to_owned()));
+        }
+        self.impulses = impulses.into_owned();
+        self.sources = sources.into_owned();
         self.state = state.into_owned();
         self.next = self.state.clone();
         self.register.resize(blocks);

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::analysis::{Analysis, Scales};
 use crate::block::{BlockScratch, Marks};
 use crate::boundary::{Boundaries, PressureHistory, WallState};
+use crate::far_field::{SideImpulses, SourceHistory};
 use crate::options::TwoPhaseOptions;
 use crate::reflux::{QUANTITIES, Register};
 use crate::report::BlockReport;
@@ -18,8 +19,8 @@ use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::steps::check;
 use crate::update::Extremes;
 use crate::{
-    Boundary, FluidError, InitialCondition, Mixture, Model, Primitive, RayleighField, RiemannSolver,
-    Sharpening, StiffenedGas,
+    Boundary, FarField, FluidError, InitialCondition, Mixture, Model, Primitive, RayleighField,
+    RiemannSolver, Sharpening, StiffenedGas,
 };
 
 /// Everything that defines a fluid.
@@ -47,6 +48,8 @@ pub struct FluidSetup {
     pub boundaries: [Boundary; 4],
     /// What enters through sides of kind [`Boundary::Inflow`].
     pub inflow: Option<PressureHistory>,
+    /// What sides of kind [`Boundary::FarField`] hold.
+    pub far_field: Option<FarField>,
     /// How the grid adapts; all cells are on the finest level without.
     pub adaptation: Option<Adaptation>,
     /// What adaptation measures details by.
@@ -104,6 +107,8 @@ pub struct FluidSolver<const N: usize> {
     pub(crate) riemann: RiemannSolver,
     pub(crate) two_phase: Option<TwoPhaseOptions>,
     pub(crate) boundaries: Boundaries,
+    pub(crate) impulses: SideImpulses,
+    pub(crate) sources: SourceHistory,
     pub(crate) state: Field,
     pub(crate) next: Field,
     pub(crate) register: Register<N>,
@@ -170,6 +175,9 @@ impl<const N: usize> FluidSolver<N> {
         if kinds.contains(&Boundary::Inflow) && setup.inflow.is_none() {
             return Err(FluidError::NoInflow);
         }
+        if kinds.contains(&Boundary::FarField) && setup.far_field.is_none() {
+            return Err(FluidError::NoFarField);
+        }
         let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
         let mixture = Mixture::new(setup.liquid, setup.gas);
         let components = setup.model.components();
@@ -182,7 +190,10 @@ impl<const N: usize> FluidSolver<N> {
             let Contents { state, gas } = initial(centre, widths);
             (Primitive::from_conserved(state.to_conserved(&mixture), &mixture), gas / state.density)
         });
+        let boundaries = Boundaries::new(kinds, sides, setup.inflow.clone(), setup.far_field.clone());
         let mut solver = Self {
+            impulses: boundaries.initial_impulses(&mesh, &mixture),
+            sources: boundaries.source_history(&setup.domain),
             reports: vec![BlockReport::default(); mesh.blocks()],
             pending: Vec::new(),
             levels: LevelSteps::new(components),
@@ -194,7 +205,7 @@ impl<const N: usize> FluidSolver<N> {
             limiter: setup.limiter,
             riemann: setup.riemann,
             two_phase: TwoPhaseOptions::of(setup.model, setup.sharpening),
-            boundaries: Boundaries::new(kinds, sides, setup.inflow.clone()),
+            boundaries,
             analysis,
             adaptation: setup.adaptation.clone(),
             horizon: Horizon::default(),
@@ -219,6 +230,7 @@ impl<const N: usize> FluidSolver<N> {
         }
         solver.pending.clone_from(&solver.reports);
         solver.note_gas();
+        solver.follow_sources();
         check(&solver.mesh, &solver.mixture, &solver.state, &solver.reports, 0.0, 1)?;
         Ok(solver)
     }
@@ -305,6 +317,17 @@ impl<const N: usize> FluidSolver<N> {
         let has_any =
             |component: usize| self.state.component(slot, component).iter().any(|value| *value != 0.0);
         self.reports[slot].has_gas = self.two_phase.is_some() && (has_any(PHI) || has_any(GAS));
+    }
+
+    /// Tells the far field what the bubbles do; between two steps of the whole.
+    pub(crate) fn follow_sources(&mut self) {
+        if !self.sources.is_due(self.time) {
+            return;
+        }
+        let mut sources = std::mem::take(&mut self.sources);
+        sources.cuts.follow(self);
+        sources.sample(self.time, &self.bubbles(&sources.cuts));
+        self.sources = sources;
     }
 
     /// Takes from the reports which blocks have gas, or will have at the end of the step they are in.

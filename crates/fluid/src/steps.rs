@@ -3,9 +3,10 @@
 //! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
-use mesh::{Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, Part, for_each_block, for_some_blocks};
+use mesh::{Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, Part, Side, for_each_block, for_some_blocks};
 
 use crate::block::{Marks, StepContext, step_block};
+use crate::far_field::first_face;
 use crate::five_equation::marked_blocks;
 use crate::reflux::{self, Register};
 use crate::report::BlockReport;
@@ -22,13 +23,12 @@ impl<const N: usize> FluidSolver<N> {
 
     /// The longest step of the block in `slot`, s.
     fn limit_of(&self, slot: usize, cfl: f64) -> f64 {
-        let [h_z, h_r] = self.mesh.widths(self.mesh.tree().leaves()[slot].level);
+        let widths = self.mesh.widths(self.mesh.tree().leaves()[slot].level);
         let extremes = &self.reports[slot].extremes;
-        (cfl * h_z / extremes.speed_z).min(cfl * h_r / extremes.speed_r)
+        mesh::longest_step(cfl, widths, [extremes.speed_z, extremes.speed_r])
     }
 
-    /// The largest step that the Courant number allows all cells, s:
-    /// cfl · min over cells of min(h_z/(|v_z| + c), h_r/(|v_r| + c)).
+    /// The largest step that the Courant number allows all cells, s, see [`mesh::longest_step`].
     pub fn time_step_limit(&self, cfl: f64) -> f64 {
         (0..self.mesh.blocks()).fold(f64::INFINITY, |limit, slot| limit.min(self.limit_of(slot, cfl)))
     }
@@ -138,32 +138,27 @@ impl<const N: usize> FluidSolver<N> {
         Ok(())
     }
 
-    /// Does cells again at first order that the step has taken too far: mixed ones that are marked, and any that are not
-    /// physical any more. What is left is for [`check`] to find.
+    /// Does cells again at first order that the step has taken too far: mixed ones of which a phase would be drained, those that
+    /// the pressure floor would lift, and any that are not physical any more. Whatever the floor still lifts then stays lifted;
+    /// what is still not physical is for [`check`] to find.
     fn rescue(
         &self,
         context: &StepContext<'_, N>,
         next: &mut Field,
         register: &mut Register<N>,
         reports: &mut [BlockReport<N>],
-        is_due: impl Fn(usize) -> bool,
+        is_due: impl Fn(usize) -> bool + Sync,
     ) {
         /// The neighbours of a cell at first order may fail in turn.
         const ROUNDS: usize = 4;
         let mut marks = Marks::new();
-        if reports.iter().enumerate().any(|(slot, report)| report.marked > 0 && is_due(slot)) {
-            marks = self.marked_cells(context, next, register, reports, &is_due);
-            self.redo(context, &marks, next, register, reports, &is_due);
-        }
         for _ in 0..ROUNDS {
             let mut is_new = false;
-            for (slot, cells) in failed_cells(&self.mesh, &self.mixture, next, reports, &is_due) {
+            for (slot, cell) in self.cells_at_fault(next, reports, &is_due) {
                 let known = marks.entry(slot).or_default();
-                for cell in cells {
-                    if !known.contains(&cell) {
-                        known.push(cell);
-                        is_new = true;
-                    }
+                if !known.contains(&cell) {
+                    known.push(cell);
+                    is_new = true;
                 }
             }
             if !is_new {
@@ -173,26 +168,24 @@ impl<const N: usize> FluidSolver<N> {
         }
     }
 
-    /// The cells that blocks have marked. Which they are is still in the scratch of a block's step, and only there: their
-    /// blocks are done again.
-    fn marked_cells(
+    /// The cells of blocks that are due which should be done again: those that the blocks have marked, and those that are not
+    /// physical.
+    fn cells_at_fault(
         &self,
-        context: &StepContext<'_, N>,
-        next: &mut Field,
-        register: &mut Register<N>,
-        reports: &mut [BlockReport<N>],
+        next: &Field,
+        reports: &[BlockReport<N>],
         is_due: impl Fn(usize) -> bool,
-    ) -> Marks {
-        let marked: Vec<usize> =
-            (0..reports.len()).filter(|slot| reports[*slot].marked > 0 && is_due(*slot)).collect();
-        let of_block = |slot: usize| {
-            self.scratch.with(|scratch| {
-                let fluxes = register.values_mut().block_mut(slot);
-                reports[slot] = step_block(context, slot, next.block_mut(slot), fluxes, scratch);
-                (slot, scratch.marked_cells().to_vec())
-            })
+    ) -> Vec<(usize, usize)> {
+        let has_any = |slot: &usize| {
+            let report = &reports[*slot];
+            is_due(*slot) && !(report.marked.is_empty() && is_sane(report))
         };
-        marked.into_iter().map(of_block).collect()
+        let of_block = |slot: usize| {
+            let failed = |cell: &usize| failed_state::<N>(&self.mixture, next, slot, *cell).is_some();
+            let failed = (0..N * N).filter(failed).filter(|_| !is_sane(&reports[slot]));
+            reports[slot].marked.cells().chain(failed).map(move |cell| (slot, cell)).collect::<Vec<_>>()
+        };
+        (0..self.mesh.blocks()).filter(has_any).flat_map(of_block).collect()
     }
 
     /// Does the blocks around marked cells again, with those cells at first order. Beyond the group's blocks the fluxes are
@@ -204,15 +197,14 @@ impl<const N: usize> FluidSolver<N> {
         next: &mut Field,
         register: &mut Register<N>,
         reports: &mut [BlockReport<N>],
-        is_due: impl Fn(usize) -> bool,
+        is_due: impl Fn(usize) -> bool + Sync,
     ) {
         let context = StepContext { marks, ..*context };
-        for slot in marked_blocks(&self.mesh, marks).into_iter().filter(|slot| is_due(*slot)) {
-            self.scratch.with(|scratch| {
-                let fluxes = register.values_mut().block_mut(slot);
-                reports[slot] = step_block(&context, slot, next.block_mut(slot), fluxes, scratch);
-            });
-        }
+        let around = marked_blocks(&self.mesh, marks);
+        let is_around = |slot: usize| is_due(slot) && around.contains(&slot);
+        for_each_block(next, register.values_mut(), reports, is_around, |slot, new, fluxes, report| {
+            *report = self.scratch.with(|scratch| step_block(&context, slot, new, fluxes, scratch));
+        });
         for (slot, cells) in marks {
             let id = self.mesh.tree().leaves()[*slot];
             reports[*slot].redone = cells.len() as u32;
@@ -242,6 +234,9 @@ impl<const N: usize> FluidSolver<N> {
         self.time = later;
         self.steps += 1;
         self.common_updates += self.mesh.cells() as u64;
+        if self.clock().is_over() {
+            self.follow_sources();
+        }
         Ok(())
     }
 
@@ -279,11 +274,18 @@ impl<const N: usize> FluidSolver<N> {
             self.ledger.momentum[side] += momentum;
             self.ledger.energy[side] += energy;
         }
+        let id = self.mesh.tree().leaves()[slot];
+        for side in Side::ALL {
+            if self.boundaries.has_far_field(side) && self.mesh.touches(slot, side) {
+                for (along, gain) in report.impulse[side as usize].0.into_iter().enumerate() {
+                    self.impulses.add(side, id.level, first_face::<N>(id, side) + along, gain);
+                }
+            }
+        }
         let first = self.wall_first[slot];
         if first == usize::MAX {
             return;
         }
-        let id = self.mesh.tree().leaves()[slot];
         let h_r = self.mesh.widths(id.level)[1];
         for j in 0..N {
             let area = self.mesh.weight(self.mesh.centre(id, 0, j)[1]) * h_r;
@@ -311,26 +313,6 @@ fn failed_state<const N: usize>(
     let stiffness = mixture.stiffness(w.pressure, w.phi);
     let is_physical = w.density > 0.0 && stiffness >= 0.0 && (stiffness / w.density).is_finite();
     (!is_physical).then_some(u)
-}
-
-/// The cells of a new state that are not physical, block by block.
-fn failed_cells<const N: usize>(
-    mesh: &Mesh<N>,
-    mixture: &Mixture,
-    state: &Field,
-    reports: &[BlockReport<N>],
-    is_due: impl Fn(usize) -> bool,
-) -> Marks {
-    let failed = |slot: usize| {
-        let cells: Vec<usize> =
-            (0..N * N).filter(|cell| failed_state::<N>(mixture, state, slot, *cell).is_some()).collect();
-        (slot, cells)
-    };
-    (0..mesh.blocks())
-        .filter(|slot| is_due(*slot) && !is_sane(&reports[*slot]))
-        .map(failed)
-        .filter(|(_, cells)| !cells.is_empty())
-        .collect()
 }
 
 /// Fails if a cell of a new state is not physical.

@@ -8,9 +8,11 @@
 /// Of a wave along the cells nothing is left of third order; for oblique ones see [`oblique_shares`].
 ///
 /// - `courant`: ν = c Δt/h of the wave. returns: 0 from ν = ½ on, where the error changes its sign.
+#[inline(always)]
 #[must_use]
 pub fn curvature_share(courant: f64) -> f64 {
-    ((1.0 - courant) * (1.0 - 2.0 * courant).max(0.0)).max(0.0) / 12.0
+    // A select, so that rows vectorise and a Courant number that is none gives nothing.
+    if courant < 0.5 { (1.0 - courant) * (1.0 - 2.0 * courant) * (1.0 / 12.0) } else { 0.0 }
 }
 
 /// The shares of the second difference along a face, δ²w = h_s² ∂²w/∂s², that its normal velocity and its pressure lack in
@@ -24,12 +26,14 @@ pub fn curvature_share(courant: f64) -> f64 {
 /// wave in any direction while ν_n < ½, and the scheme is stable where it was without (von Neumann).
 ///
 /// - `courant`: ν_n = c Δt/h_n. `aspect`: h_n/h_s, the cell's width along the normal over that along the face.
-/// - returns: of the normal velocity, of the pressure.
+/// - returns: of the normal velocity, of the pressure; nothing from ν_n = ½ on, as [`curvature_share`].
+#[inline(always)]
 #[must_use]
 pub fn oblique_shares(courant: f64, aspect: f64) -> [f64; 2] {
     let along = courant * aspect;
-    let pressure = along * along / 6.0;
-    [pressure - 0.25 * courant * aspect * aspect, pressure]
+    let pressure = along * along * (1.0 / 6.0);
+    let velocity = pressure - 0.25 * courant * aspect * aspect;
+    if courant < 0.5 { [velocity, pressure] } else { [0.0, 0.0] }
 }
 
 #[cfg(test)]
@@ -54,7 +58,7 @@ mod tests {
     #[test]
     fn the_star_state_of_an_oblique_parabola_becomes_exact() {
         let [h, k] = [1.0, 0.7];
-        for (courant, angle) in [(0.05, 0.3), (0.2, 1.0), (0.45, 0.8), (0.45, 2.5), (0.5, -0.6)] {
+        for (courant, angle) in [(0.05, 0.3), (0.2, 1.0), (0.45, 0.8), (0.45, 2.5), (0.499, -0.6)] {
             let [n, t]: [f64; 2] = [f64::cos(angle), f64::sin(angle)];
             let dt = courant * h;
             let mean =
@@ -85,7 +89,9 @@ mod tests {
 
     #[test]
     fn fast_waves_are_left_alone() {
-        assert_eq!(curvature_share(0.5), 0.0);
-        assert_eq!(curvature_share(0.8), 0.0);
+        for courant in [0.5, 0.8, 1.8, f64::NAN] {
+            assert_eq!(curvature_share(courant), 0.0);
+            assert_eq!(oblique_shares(courant, 1.0), [0.0; 2]);
+        }
     }
 }

@@ -6,7 +6,8 @@ use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations_among}
 pub(crate) struct DetailRows<const N: usize> {
     /// The cells, set by the caller.
     pub own: [[[f64; N]; 2]; MOST_COMPONENTS],
-    details: [[[f64; N]; 2]; MOST_COMPONENTS],
+    /// Their details.
+    pub details: [[[f64; N]; 2]; MOST_COMPONENTS],
     /// The sizes of their details.
     pub sizes: [[f64; N]; 2],
 }
@@ -16,6 +17,11 @@ impl<const N: usize> DetailRows<N> {
         let zero = [[0.0; N]; 2];
         Self { own: [zero; MOST_COMPONENTS], details: [zero; MOST_COMPONENTS], sizes: zero }
     };
+
+    /// The components of a cell, and of its detail.
+    pub fn cell(&self, b: usize, i: usize) -> [[f64; MOST_COMPONENTS]; 2] {
+        [&self.own, &self.details].map(|rows| std::array::from_fn(|component| rows[component][b][i]))
+    }
 }
 
 /// Details, what cells are minus what is predicted, of two rows of a block and their sizes.

@@ -60,9 +60,15 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
         };
         self.follows.clear();
         self.follows.extend((0..mesh.blocks()).map(is_read));
-        let at_points = self.points.iter().filter_map(|point| mesh.locate(*point)).map(|(slot, ..)| slot);
-        for slot in watched.into_iter().copied().chain(at_points) {
+        for slot in watched.into_iter().copied() {
             self.follows[slot] = true;
+        }
+        // The slopes at a point are made with the neighbours, too.
+        for (slot, ..) in self.points.iter().filter_map(|point| mesh.locate(*point)) {
+            let around = mesh.tree().neighbours(slot).iter().flat_map(Neighbour::slots);
+            for slot in std::iter::once(slot).chain(around) {
+                self.follows[slot] = true;
+            }
         }
     }
 

@@ -19,6 +19,7 @@ mod adaptation;
 mod ahead;
 mod aligned;
 pub mod array;
+mod courant;
 mod curvature;
 mod details;
 mod domain;
@@ -45,6 +46,7 @@ mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use aligned::{AlignedRow, whole_lines};
+pub use courant::longest_step;
 pub use curvature::{curvature_share, oblique_shares};
 pub use domain::{Domain, Mesh, MeshError, Misfit};
 pub use field::Field;

@@ -68,12 +68,14 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
                 patch.fill(mesh, field, slot, rule);
                 let [along_z, along_r] = counting_cells(mesh, tree.leaves()[slot], rule);
                 let own = |component, j| &field.component(slot, component)[j * N..];
-                patch.details(own, rule, threshold, |i, j, size| {
-                    if along_z.contains(&i) && along_r.contains(&j) {
+                patch.details(own, rule, threshold, |i, j, [size, everywhere]| {
+                    let counts = along_z.contains(&i) && along_r.contains(&j);
+                    let size = if counts { size } else { everywhere };
+                    if size > threshold {
                         keep.add(i, j);
-                        if size > REFINE * threshold {
-                            refine.add(i, j);
-                        }
+                    }
+                    if size > REFINE * threshold {
+                        refine.add(i, j);
                     }
                 });
             });
@@ -129,8 +131,8 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
     wanted
 }
 
-/// Details nearer to an open side than this share of the domain's extent do not count: the boundary is not exact,
-/// and at its corners with other sides singular, which no refinement cures.
+/// Details nearer to an open side than this share of the domain's extent do not count, but for what does everywhere: the
+/// boundary is not exact, and at its corners with other sides singular, which no refinement cures.
 const OPEN_SHARE: f64 = 1.0 / 32.0;
 
 /// The cells of a block, by number along z and along r, that are near no open side.
@@ -188,8 +190,8 @@ fn refined_again<const N: usize, R: Multiresolution>(
         let parent = BlockId { level: id.level - 1, i: id.i / 2, j: id.j / 2 };
         let [along_z, along_r] = counting_cells(mesh, parent, rule);
         let own = |component, j| &around.component(component)[Padded::<N>::index(0, j as isize)..];
-        patch.details(own, rule, least, |i, j, _| {
-            if along_z.contains(&i) && along_r.contains(&j) {
+        patch.details(own, rule, least, |i, j, [_, everywhere]| {
+            if everywhere > least || along_z.contains(&i) && along_r.contains(&j) {
                 let (a, b) = (i / (N / 2), j / (N / 2));
                 let (i, j) = (2 * (i % (N / 2)), 2 * (j % (N / 2)));
                 kept[a + 2 * b].add(i, j);

@@ -30,6 +30,12 @@ pub trait Multiresolution: Sync {
     ///
     /// - `cell`, `detail`: [`MOST_COMPONENTS`] numbers, zeros after the field's own components.
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64;
+
+    /// The size of that part of a detail that counts everywhere, also beside sides whose details do not, see
+    /// [`Multiresolution::counts_beside`]. Asked for few cells.
+    fn significance_everywhere(&self, _cell: &[f64], _detail: &[f64]) -> f64 {
+        0.0
+    }
 }
 
 /// A field without a meaning: everything is admissible, details count as they are.

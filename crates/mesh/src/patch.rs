@@ -79,7 +79,8 @@ impl<const N: usize> Patch<N> {
         self.rows[row].weights[usize::from(self.odd[component])]
     }
 
-    /// Calls `visit(i, j, significance)` for the cells of the block whose details are larger than `least`.
+    /// Calls `visit(i, j, [size, size everywhere])` for the cells of the block whose details are larger than `least`, see
+    /// [`Multiresolution::significance`].
     ///
     /// - `own`: the block's own row of cells of a component and a number; the patch must have been filled from it.
     pub(crate) fn details<'a, R: Multiresolution>(
@@ -87,7 +88,7 @@ impl<const N: usize> Patch<N> {
         own: impl Fn(usize, usize) -> &'a [f64],
         rule: &R,
         least: f64,
-        mut visit: impl FnMut(usize, usize, f64),
+        mut visit: impl FnMut(usize, usize, [f64; 2]),
     ) {
         let mut rows = DetailRows::<N>::ZERO;
         for j in 0..Self::HALF {
@@ -105,7 +106,10 @@ impl<const N: usize> Patch<N> {
                 // Most rows hold nothing significant.
                 if sizes.iter().fold(false, |any, size| any | (*size > least)) {
                     let cells = (0..N).filter(|i| sizes[*i] > least);
-                    cells.for_each(|i| visit(i, 2 * j + b, sizes[i]));
+                    cells.for_each(|i| {
+                        let [cell, detail] = rows.cell(b, i);
+                        visit(i, 2 * j + b, [sizes[i], rule.significance_everywhere(&cell, &detail)]);
+                    });
                 }
             }
         }

@@ -11,10 +11,9 @@ use crate::state::component::COUNT;
 use crate::{SolidError, SolidSolver};
 
 impl<const N: usize> SolidSolver<N> {
-    /// The longest step of a level, s: cfl · min(h)/c₁.
+    /// The longest step of a level, s, with c₁ in both directions.
     fn limit_of(&self, level: u8, cfl: f64) -> f64 {
-        let [h_z, h_r] = self.mesh.widths(level);
-        cfl * h_z.min(h_r) / self.setup.speeds.c1
+        mesh::longest_step(cfl, self.mesh.widths(level), [self.setup.speeds.c1; 2])
     }
 
     /// The finest level there is.
@@ -22,7 +21,7 @@ impl<const N: usize> SolidSolver<N> {
         self.mesh.levels_present()[1]
     }
 
-    /// The largest step that the Courant number allows all cells, s: cfl · min(h)/c₁.
+    /// The largest step that the Courant number allows all cells, s, see [`mesh::longest_step`].
     pub fn time_step_limit(&self, cfl: f64) -> f64 {
         self.limit_of(self.finest(), cfl)
     }

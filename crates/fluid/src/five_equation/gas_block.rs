@@ -49,11 +49,6 @@ impl GasScratch {
         super::marks::padded_marks(mesh, slot, marks, &mut self.is_marked);
         self.is_marked.iter().enumerate().filter(|(_, is_marked)| **is_marked).map(|(k, _)| k)
     }
-
-    /// The cells of the last block that should be done again at first order.
-    pub fn marked(&self) -> &[usize] {
-        &self.marked
-    }
 }
 
 /// Whether there may be gas in a block's padded cells. Where there is gas the paper's mixture does not know: its traces
@@ -136,7 +131,9 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         }
         match self.ctx.boundaries.kind(side) {
             Boundary::Axis | Boundary::Wall => Outer::Mirror,
-            Boundary::NonReflecting | Boundary::Inflow | Boundary::Interface => Outer::Given,
+            Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow | Boundary::Interface => {
+                Outer::Given
+            }
             Boundary::Periodic => Outer::Block,
         }
     }
@@ -205,7 +202,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             speeds,
             &mut gas.marked,
         );
-        report.marked = gas.marked.len() as u32;
+        gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
         report.has_gas = settle_gas(rows[PHI], new_gas);
     }
 }
@@ -232,6 +229,7 @@ mod tests {
             limiter: Limiter::Minmod,
             boundaries: [Boundary::Wall, Boundary::NonReflecting, Boundary::Axis, Boundary::NonReflecting],
             inflow: None,
+            far_field: None,
             adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![] }),
             scales: Scales { pressure: 5e7, density: 1e3 },
         };

@@ -32,7 +32,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
 
     to_primitive(cells.split_mut(), with_gas, &mixture);
     let [mut s_z, mut s_r, mut half] = std::array::from_fn(|_| Padded::<N>::zeros(5));
-    let (mut keep, inverse_r) = (vec![0.0; LEN], vec![40.0; LEN]);
+    let (mut keep, mut sound, inverse_r) = (vec![0.0; LEN], vec![0.0; LEN], vec![40.0; LEN]);
     let inverse_h = [3e4, 5e4];
     let predictor = Predictor {
         limiter,
@@ -52,6 +52,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
         s_r.split_mut(),
         half.split_mut(),
         &mut keep,
+        &mut sound,
     );
     let mut faces = [FaceRows::zeros(LEN, STRIDE), FaceRows::zeros(LEN, STRIDE)];
     let [rho, v_z, v_r, p, phi] = half.split::<5>();
@@ -68,8 +69,9 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
             half: states,
             differences,
             keep: &keep,
+            sound: &sound,
             with_gas,
-            curvature: Curvature { share: 0.05, oblique: [0.02, 0.03], liquid_pi: 3e8 },
+            curvature: Curvature { per_speed: 1e-4, aspect: 0.6, liquid_pi: 3e8 },
             along_faces: AlongFaces::new([1 + axis, 3].map(|c| across.component(c)), along),
         };
         let first = Padded::<N>::index(0, 0) - step;

@@ -182,3 +182,42 @@ fn a_wave_is_not_reflected_at_level_jumps() {
         }
     }
 }
+
+/// Details beside an open side do not count, but those of the gas fraction do: a bubble that leaves through one was on the
+/// coarsest level there after the first adaptation.
+#[test]
+fn the_interface_is_on_the_finest_level_beside_an_open_side_too() {
+    let open = Boundary::NonReflecting;
+    let setup = FluidSetup {
+        domain: Domain { geometry: AXIAL, z: [0.0, 2.0], r: [0.0, 1.0] },
+        levels: 3,
+        adaptation: adaptation(1e-2, vec![]),
+        scales: Scales { pressure: 1e5, density: 1e3 },
+        ..setup(AXIAL, [32, 16], [open, open, Boundary::Axis, open])
+    };
+    let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [200.0, 0.0] };
+    let initial = InitialCondition {
+        ambient: state(Phase::Liquid, 1000.0),
+        pressure: fluid::InitialPressure::Uniform,
+        regions: vec![Region {
+            shape: Shape::Sphere { centre: [1.72, 0.0], radius: 0.25 },
+            state: state(Phase::Gas, 1.2),
+        }],
+        pulses: vec![],
+    };
+    let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
+    let mut beside = 0;
+    for _ in 0..30 {
+        run_adaptively(&mut fluid, 4);
+        let mesh = fluid.mesh();
+        for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+            for (j, i) in (0..8).flat_map(|j| (0..8).map(move |i| (j, i))) {
+                if (0.1..0.9).contains(&fluid.cell(slot, i, j).phi) {
+                    assert_eq!(id.level, 3, "{:?} at {:e} s", mesh.centre(*id, i, j), fluid.time());
+                    beside += usize::from(mesh.centre(*id, i, j)[0] > 2.0 - 2.0 / 32.0);
+                }
+            }
+        }
+    }
+    assert!(beside > 100, "the interface comes by: {beside}");
+}

@@ -31,6 +31,7 @@ pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -
         limiter: Limiter::Mc,
         boundaries,
         inflow: None,
+        far_field: None,
         adaptation: None,
         scales: fluid::Scales { pressure: 1e6, density: 1e3 },
     }

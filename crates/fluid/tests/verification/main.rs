@@ -4,9 +4,11 @@
 
 mod adaptation;
 mod adaptive_error;
+mod beside_fast_gas;
 mod boundaries;
 mod bubble;
 mod contact;
+mod far_field;
 mod five_equation;
 mod helpers;
 mod ledgers;
