@@ -8,6 +8,7 @@
     python3 scripts/reference_tables.py pulse [--cells 10 20 40]       a spherical pulse above steel, near receivers
     python3 scripts/reference_tables.py pulse --far [--cells 10 20]    the same, all receivers
     python3 scripts/reference_tables.py arrivals [--cells 20]          head waves of the pulse
+    python3 scripts/reference_tables.py bubble [--cells 20]            the pulse and its head waves beside a bubble
     python3 scripts/reference_tables.py grids [--cells 20]             adaptation, cells that do not match, limiters
     python3 scripts/reference_tables.py solid [--cells 10 20 40]       the solid alone: spherical wave, Lamb's problem
     python3 scripts/reference_tables.py pictures [--cells 20]          the pulse's fields against the exact ones
@@ -28,6 +29,7 @@ TABLES = {
     "rest": plane.rest,
     "pulse": pulse.refinement,
     "arrivals": pulse.arrivals,
+    "bubble": pulse.beside_bubble,
     "grids": pulse.grids,
     "solid": lamb.table,
     "pictures": pictures.draw,

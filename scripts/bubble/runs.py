@@ -41,7 +41,7 @@ class Run:
 
 
 def case_text(*, pressure, gas, radius, centre, side, cells, end, model="five-equation", interface=None,
-              limiter="mc", epsilon=1e-3, wall="rigid", start="uniform", box=None, second=None):
+              limiter="mc", epsilon=1e-3, wall="rigid", start="uniform", box=None, second=None, snapshots=()):
     """A case: a gas bubble (density, pressure) about (centre, 0) in liquid of a pressure, in a box of a side that is
     2^n times the radius times 32 over the cells per radius; or in a box (z from, z to, r to) of whole radii, with 2^n cells
     per radius. `second`: centre and radius of another bubble."""
@@ -81,6 +81,7 @@ pressure = {gas[1]}
 [time]
 end = {end}
 cfl = 0.45
+snapshots = {list(snapshots)}
 
 [fluid]
 z = [{z[0]}, {z[1]}]

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use coupler::Scheme;
 use fluid::{Boundary, Phase, PhaseState, PulseShape, RayleighField, Shape};
-use mesh::{BLOCK, Geometry, Side};
+use mesh::{Adaptation, BLOCK, Geometry, Side};
 use solid::Material;
 
 use super::format::{duration, hex, mebibytes, plain, si};
@@ -40,14 +40,19 @@ pub fn report(case: &Case) -> String {
     line(&mut text, "hash", &hex(&case.hash()));
     if let Some(fluid) = &case.fluid {
         side(&mut text, "fluid", &fluid.grid, FLUID_NUMBERS);
-        let [pressure, density] = [(fluid.scale_pressure, "Pa"), (fluid.scale_density, "kg/m3")];
-        adaptation(&mut text, &fluid.grid, &[pressure, density]);
+        if let Some(adaptive) = &fluid.grid.adaptation {
+            let pressure = (fluid.wave_epsilon, fluid.scale_pressure, "Pa");
+            let density = (adaptive.epsilon, fluid.scale_density, "kg/m3");
+            adaptation(&mut text, adaptive, &[pressure, density]);
+        }
         regions(&mut text, case, fluid);
         sides(&mut text, fluid);
     }
     if let Some(solid) = &case.solid {
         side(&mut text, "solid", &solid.grid, SOLID_NUMBERS);
-        adaptation(&mut text, &solid.grid, &[(solid.scale_stress, "Pa")]);
+        if let Some(adaptive) = &solid.grid.adaptation {
+            adaptation(&mut text, adaptive, &[(adaptive.epsilon, solid.scale_stress, "Pa")]);
+        }
         material(&mut text, &solid.material);
     }
     if let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) {
@@ -135,11 +140,11 @@ fn side(text: &mut String, name: &str, grid: &GridCase, numbers: f64) {
 }
 
 /// The thresholds of an adaptive grid: ε times each reference value.
-fn adaptation(text: &mut String, grid: &GridCase, scales: &[(f64, &str)]) {
-    let Some(adaptation) = &grid.adaptation else { return };
-    let epsilon = adaptation.epsilon;
+///
+/// - `scales`: ε, reference value, its unit.
+fn adaptation(text: &mut String, adaptation: &Adaptation, scales: &[(f64, f64, &str)]) {
     let thresholds: Vec<String> = (scales.iter())
-        .map(|(scale, unit)| {
+        .map(|(epsilon, scale, unit)| {
             let [scaled, whole] = [epsilon * scale, *scale]
                 .map(|value| if *unit == "Pa" { si(value, unit) } else { plain(value, unit) });
             format!("{scaled} ({epsilon:?} of {whole})")

@@ -92,6 +92,9 @@ impl Case {
 fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     text.head("[fluid]");
     write_grid(text, &fluid.grid);
+    if fluid.grid.adaptation.is_some() {
+        text.number("epsilon_waves", fluid.wave_epsilon);
+    }
     text.name("riemann", &fluid::RiemannSolver::NAMES, fluid.riemann);
     text.name("model", &fluid::Model::NAMES, fluid.model);
     text.name("interface", &fluid::Sharpening::NAMES, fluid.sharpening);

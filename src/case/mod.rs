@@ -16,6 +16,7 @@ mod read_solid;
 mod reader;
 mod scales;
 mod set;
+mod thresholds;
 mod warnings;
 
 use std::path::{Path, PathBuf};
@@ -27,7 +28,8 @@ use solid::{InitialStress, Material, PotentialPulse};
 
 pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
-pub use read_adaptation::{DEFAULT_ADAPT_EVERY, EPSILON_IF_SMOOTH, EPSILON_WITH_JUMPS};
+pub use read_adaptation::DEFAULT_ADAPT_EVERY;
+pub use thresholds::DEFAULT_ERROR;
 
 /// Cell fields of the fluid that `output.fields` may name.
 pub const FLUID_FIELDS: [&str; 6] = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
@@ -175,6 +177,8 @@ pub struct FluidCase {
     pub scale_pressure: f64,
     /// The same of the density, kg/m³.
     pub scale_density: f64,
+    /// Threshold of pressure and velocity on an adaptive grid; that of density and gas fraction is the grid's own.
+    pub wave_epsilon: f64,
 }
 
 impl FluidCase {

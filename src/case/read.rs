@@ -4,15 +4,14 @@ use std::path::PathBuf;
 
 use coupler::Scheme;
 use mesh::{Geometry, Side};
-use toml::Spanned;
 use toml::de::DeTable;
 
 use super::error::{CaseError, suggest};
 use super::read_grid::MOST_CELLS;
-use super::reader::{Faults, Given, Table, array, as_number, pair};
+use super::reader::{Faults, Given, Table, array, pair};
 use super::{
     Case, FLUID_FIELDS, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index, read_coupling,
-    read_fluid, read_solid, scales,
+    read_fluid, read_solid, scales, thresholds,
 };
 
 /// More snapshots than this are a mistake.
@@ -24,31 +23,6 @@ pub(super) struct Context {
     pub geometry: Geometry,
     /// `None` where the name given is faulty.
     pub scheme: Option<Scheme>,
-    /// Whether the fluid begins with jumps: it has regions or an inflow.
-    pub has_jumps: bool,
-    /// Width of the narrowest pulse of either side, or radius of the load, m.
-    pub narrowest: Option<f64>,
-}
-
-/// The table of a side as the text has it, before it is read.
-fn raw_side<'a>(document: &'a Spanned<DeTable<'a>>, side: &str) -> Option<&'a DeTable<'a>> {
-    document.get_ref().get(side)?.get_ref().as_table()
-}
-
-/// Whether the text describes regions or an inflow of the fluid, faulty or not.
-fn has_jumps(document: &Spanned<DeTable<'_>>) -> bool {
-    raw_side(document, "fluid")
-        .is_some_and(|fluid| fluid.contains_key("region") || fluid.contains_key("inflow"))
-}
-
-/// The smallest width of the pulses that the text describes, m. What is no width is found faulty where the pulses are read.
-fn narrowest_pulse(document: &Spanned<DeTable<'_>>) -> Option<f64> {
-    let pulses = ["fluid", "solid"]
-        .into_iter()
-        .filter_map(|side| raw_side(document, side)?.get("pulse")?.get_ref().as_array())
-        .flatten();
-    let widths = pulses.filter_map(|pulse| as_number(pulse.get_ref().as_table()?.get("width")?.get_ref()));
-    widths.filter(|width| *width > 0.0).reduce(f64::min)
 }
 
 /// A probe and where its point stands.
@@ -71,21 +45,19 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         .map_or(Geometry::Axisymmetric, |given| given.value);
     let time = time(&mut root, &mut faults);
     let (coupling, scheme) = read_coupling::coupling(&mut root, &mut faults);
-    let context = Context {
-        geometry,
-        scheme: scheme.as_ref().map(|given| given.value),
-        has_jumps: has_jumps(&document),
-        narrowest: (coupling.load.as_ref().map(|load| load.radius).into_iter())
-            .chain(narrowest_pulse(&document))
-            .reduce(f64::min),
-    };
+    let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value) };
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
-    let fluid =
+    let mut fluid =
         root.table("fluid", &mut faults).and_then(|table| read_fluid::fluid(table, context, &mut faults));
     let fluid_pressure = fluid.as_ref().map(|(fluid, _)| fluid.scale_pressure);
     let acting = scales::Acting { fluid: fluid_pressure, load: coupling.load.as_ref() };
-    let solid = (root.table("solid", &mut faults))
+    let mut solid = (root.table("solid", &mut faults))
         .and_then(|table| read_solid::solid(table, context, acting, &mut faults));
+    thresholds::settle(
+        fluid.as_mut().map(|(fluid, place)| (fluid, &place.asked)),
+        solid.as_mut().map(|(solid, place)| (solid, &place.asked)),
+        coupling.load.as_ref(),
+    );
     let probes = probes(&mut root, &mut faults);
     let output = output(&mut root, &mut faults);
     root.finish(&mut faults);

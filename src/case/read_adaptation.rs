@@ -3,18 +3,8 @@
 use mesh::{Adaptation, LevelBound, Side, Zone};
 
 use super::reader::{Faults, Given, Table};
+use super::thresholds::DEFAULT_ERROR;
 
-/// Threshold of the details where a case does not say and its fluid begins with jumps (regions, an inflow history):
-/// there the scheme's own error is of first order.
-pub const EPSILON_WITH_JUMPS: f64 = 3e-4;
-/// Threshold of the details where a case does not say and all is smooth: the scheme's own error is then of second
-/// order and much smaller. It is that of waves of 20 cells per width. See docs/adaptation.md for what both
-/// cost and lose.
-pub const EPSILON_IF_SMOOTH: f64 = 1e-6;
-/// Cells per width of a wave for which [`EPSILON_IF_SMOOTH`] is meant.
-const CELLS_IF_SMOOTH: f64 = 20.0;
-/// Bounds of the threshold that follows the cells per width.
-const SMOOTH_EPSILONS: [f64; 2] = [1e-9, 1e-5];
 /// Steps between two adaptations where a case does not say.
 pub const DEFAULT_ADAPT_EVERY: usize = 8;
 /// More steps than this between two adaptations are a mistake.
@@ -38,51 +28,75 @@ pub(super) struct Levels {
     pub finest: usize,
 }
 
-/// The threshold of the details where a case does not say.
-///
-/// Of smooth waves it falls as the scheme's own error does, ε = 10⁻⁶ (20 h/a)² with the cells' width h and the waves' a, so that
-/// refinement keeps its order (Harten 1995; Cohen, Kaber, Müller & Postel 2003 choose ε likewise by the order and the finest
-/// level). Of two digits.
-///
-/// - `has_jumps`: whether the fluid begins with jumps; `cells`: the finest cells per width of the narrowest wave, where known.
-pub(super) fn default_epsilon(has_jumps: bool, cells: Option<f64>) -> f64 {
-    if has_jumps {
-        return EPSILON_WITH_JUMPS;
+/// What a side's table asks of the thresholds; what it does not, `thresholds` settles.
+#[derive(Default)]
+pub(super) struct Asked {
+    /// The error that adaptation may add.
+    pub error: Option<Given<f64>>,
+    /// The threshold of all details, or of those of interfaces.
+    pub epsilon: Option<Given<f64>>,
+    /// That of waves, where it differs.
+    pub epsilon_waves: Option<Given<f64>>,
+}
+
+impl Asked {
+    /// - `has_interfaces`: whether the side knows anything but waves.
+    fn read(table: &mut Table<'_>, has_interfaces: bool, faults: &mut Faults) -> Self {
+        let mut share = |key: &'static str, help: &str| {
+            let given = table.number(key, "1", faults)?;
+            if !(given.value > 0.0 && given.value < 1.0) {
+                faults.of(&given, format!("must lie in (0, 1), got {:?}", given.value), help);
+            }
+            Some(given)
+        };
+        let error =
+            share("error", "0.01 is the default where no wave is prescribed; a smaller one keeps more cells");
+        let epsilon = share(
+            "epsilon",
+            "by default it follows from `error`, 0.0003 for 0.01; a smaller one keeps more cells",
+        );
+        let epsilon_waves = if has_interfaces {
+            share(
+                "epsilon_waves",
+                "by default it follows from `error`, 0.0001 for 0.01; a smaller one keeps more cells",
+            )
+        } else {
+            None
+        };
+        if let Some(error) = &error
+            && (epsilon.is_some() || epsilon_waves.is_some())
+        {
+            let message = "`error` sets the thresholds, and thresholds are given, too";
+            faults.of(error, message.to_owned(), "give `error` alone, or `epsilon` and `epsilon_waves`");
+        }
+        Self { error, epsilon, epsilon_waves }
     }
-    let [least, most] = SMOOTH_EPSILONS;
-    let epsilon =
-        cells.map_or(EPSILON_IF_SMOOTH, |cells| EPSILON_IF_SMOOTH * (CELLS_IF_SMOOTH / cells).powi(2));
-    format!("{:.1e}", epsilon.clamp(least, most)).parse().unwrap_or(EPSILON_IF_SMOOTH)
 }
 
 /// How a grid adapts; `None` where all its cells are on the finest level.
 ///
-/// - `default`: the threshold where the case does not say; `interface`: the side that meets the other medium or the rigid wall.
+/// The thresholds are not settled yet: that takes both sides.
+///
+/// - `has_interfaces`: whether the side knows anything but waves; `interface`: the side that meets the other medium or the rigid wall.
 pub(super) fn adaptation(
     table: &mut Table<'_>,
     levels: Levels,
-    default: f64,
+    has_interfaces: bool,
     interface: Option<Side>,
     faults: &mut Faults,
-) -> Option<Adaptation> {
+) -> (Option<Adaptation>, Asked) {
     let adapt = table.boolean("adapt", faults).is_none_or(|given| given.value);
-    let epsilon = table.number("epsilon", "1", faults);
-    if let Some(epsilon) = &epsilon
-        && !(epsilon.value > 0.0 && epsilon.value < 1.0)
-    {
-        let message = format!("must lie in (0, 1), got {:?}", epsilon.value);
-        let help = format!("{default:?} is the default; a smaller one keeps more cells");
-        faults.of(epsilon, message, help);
-    }
+    let asked = Asked::read(table, has_interfaces, faults);
     let every = table.whole("adapt_every", 1..=MOST_STEPS, faults);
     let bounds: Vec<LevelBound> = (table.tables("refine", faults).into_iter())
         .flat_map(|table| bounds(table, levels, interface, faults))
         .collect();
-    (adapt && levels.roots < levels.finest).then(|| Adaptation {
-        epsilon: epsilon.map_or(default, |given| given.value),
+    let adaptation = (adapt && levels.roots < levels.finest).then(|| Adaptation {
+        epsilon: DEFAULT_ERROR,
         every: every.map_or(DEFAULT_ADAPT_EVERY, |given| given.value) as u32,
         bounds,
-    })
+    });
+    (adaptation, asked)
 }
 
 /// One element of `[[....refine]]`; none where it is faulty.
@@ -192,19 +206,5 @@ fn zone(
             interface.map(Zone::Along)
         }
         Kind::Outer => None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_threshold_of_smooth_waves_falls_with_the_square_of_the_cells_width() {
-        let of = |cells| default_epsilon(false, Some(cells));
-        assert_eq!([10.0, 20.0, 19.999_999_9, 40.0, 80.0].map(of), [4e-6, 1e-6, 1e-6, 2.5e-7, 6.2e-8]);
-        assert_eq!([1e-3, 1e9].map(of), [1e-5, 1e-9]);
-        assert_eq!(default_epsilon(false, None), EPSILON_IF_SMOOTH);
-        assert_eq!(default_epsilon(true, Some(40.0)), EPSILON_WITH_JUMPS);
     }
 }

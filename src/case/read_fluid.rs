@@ -109,6 +109,7 @@ pub(super) fn fluid(
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),
         scale_pressure,
         scale_density,
+        wave_epsilon: super::thresholds::DEFAULT_ERROR,
     };
     Some((case, place))
 }

@@ -5,7 +5,7 @@ use mesh::{BLOCK, Geometry, Side};
 
 use super::GridCase;
 use super::read::Context;
-use super::read_adaptation::{Levels, adaptation, default_epsilon};
+use super::read_adaptation::{Asked, Levels, adaptation};
 use super::reader::{Faults, Given, Table};
 
 /// More cells than this along one direction are a mistake.
@@ -17,6 +17,8 @@ const MOST_LEVELS: usize = 20;
 pub(super) struct GridPlace {
     pub z: Given<[f64; 2]>,
     pub r: Given<[f64; 2]>,
+    /// What it says of the thresholds of adaptation.
+    pub asked: Asked,
 }
 
 /// Domain and cells of a side.
@@ -64,11 +66,9 @@ pub(super) fn grid(
         levels,
         adaptation: None,
     });
-    let width = grid.as_ref().map(|grid| grid.cell_size().into_iter().fold(0.0, f64::max));
-    let epsilon =
-        default_epsilon(context.has_jumps, context.narrowest.zip(width).map(|(wave, cell)| wave / cell));
-    let adaptation = adaptation(table, levels, epsilon, interface, faults);
-    Some((GridCase { adaptation, ..grid? }, GridPlace { z: z?, r: r? }))
+    let has_interfaces = towards_wall == Side::ZMin;
+    let (adaptation, asked) = adaptation(table, levels, has_interfaces, interface, faults);
+    Some((GridCase { adaptation, ..grid? }, GridPlace { z: z?, r: r?, asked }))
 }
 
 /// The level of the coarsest blocks: the first whose cells fill whole blocks in both directions.

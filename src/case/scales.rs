@@ -48,11 +48,15 @@ pub(super) struct Acting<'a> {
     pub load: Option<&'a LoadCase>,
 }
 
+/// The stress at the centre of u = ∇(Φ exp(−R²/a²)), of which the strains are −2Φ/a² there, Pa.
+pub(super) fn pulse_stress(pulse: &PotentialPulse, material: &Material) -> f64 {
+    let modulus = material.lambda() + 2.0 * material.mu();
+    2.0 * modulus * pulse.amplitude / (pulse.width * pulse.width)
+}
+
 /// The largest stress in a solid, Pa: under a fluid the fluid's pressure scale, else that of its load and its pulses.
 pub(super) fn stress(acting: Acting<'_>, pulses: &[PotentialPulse], material: &Material) -> f64 {
-    // At the centre of u = ∇(Φ exp(−R²/a²)) the strains are −2Φ/a².
-    let modulus = material.lambda() + 2.0 * material.mu();
-    let of_pulse = |pulse: &PotentialPulse| 2.0 * modulus * pulse.amplitude / (pulse.width * pulse.width);
+    let of_pulse = |pulse: &PotentialPulse| pulse_stress(pulse, material);
     let of_load =
         acting.load.into_iter().flat_map(|load| load.history.iter().map(|row| load.amplitude * row[1]));
     acting.fluid.or_else(|| largest(pulses.iter().map(of_pulse).chain(of_load))).unwrap_or(QUIET_STRESS)

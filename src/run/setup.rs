@@ -46,8 +46,15 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         far_field: far_field(case, fluid, inflow.as_ref()),
         inflow,
         adaptation: fluid.grid.adaptation.clone(),
-        scales: fluid::Scales { pressure: fluid.scale_pressure, density: fluid.scale_density },
+        scales: scales(fluid),
     }
+}
+
+/// The fluid's reference values, with those of waves such that the threshold of interfaces, applied to them, is their own.
+fn scales(fluid: &FluidCase) -> fluid::Scales {
+    let epsilon = fluid.grid.adaptation.as_ref().map_or(fluid.wave_epsilon, |adaptation| adaptation.epsilon);
+    let pressure = fluid.scale_pressure * (fluid.wave_epsilon / epsilon);
+    fluid::Scales { pressure, density: fluid.scale_density }
 }
 
 /// A case's fluid, filled with its initial condition.
