@@ -124,7 +124,9 @@ const BAD: &[(Edit, &[&str])] = &[
     // Adaptation.
     (Replace("[fluid.liquid]", "adapt = \"no\"\n[fluid.liquid]"), &["fluid.adapt: must be true or false", "the string \"no\"", "without quotes"]),
     (Replace("[fluid.liquid]", "adapts = true\n[fluid.liquid]"), &["fluid.adapts: unknown key", "did you mean `adapt`?"]),
-    (Replace("[fluid.liquid]", "epsilon = 1.0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 1.0", "0.0003 is the default"]),
+    (Replace("[fluid.liquid]", "epsilon = 1.0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 1.0", "it follows from `error`"]),
+    (Replace("[fluid.liquid]", "error = 0\n[fluid.liquid]"), &["fluid.error: must lie in (0, 1), got 0.0", "0.01 is the default"]),
+    (Replace("[fluid.liquid]", "error = 1e-3\nepsilon = 1e-4\n[fluid.liquid]"), &["fluid.error: `error` sets the thresholds", "give `error` alone"]),
     (Replace("[fluid.liquid]", "epsilon = 0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 0.0"]),
     (Replace("[fluid.liquid]", "adapt_every = 0\n[fluid.liquid]"), &["fluid.adapt_every: must be from 1 to 1000, got 0"]),
     (Replace("[fluid.liquid]", "adapt_every = 1.5\n[fluid.liquid]"), &["fluid.adapt_every: must be a whole number", "1.5"]),
@@ -411,13 +413,34 @@ fn every_kind_of_value_survives_being_written_out() {
     round_trip(&planar);
 }
 
+/// What a wave loses to adaptation is the same whether there is a bubble beside it or not.
+#[test]
+fn a_bubble_does_not_coarsen_the_waves_beside_it() {
+    const PULSE: &str =
+        "fluid.pulse=[{ shape = \"sphere\", centre = [0.002, 0.0], width = 1e-3, amplitude = 1e4 }]";
+    // In pascals, on the finest level of the fluid and of the solid.
+    let thresholds = |sets: &[&str]| {
+        let case = with(sets);
+        let (fluid, solid) = (case.fluid.expect("a fluid"), case.solid.expect("a solid"));
+        let epsilon = solid.grid.adaptation.expect("adaptive").epsilon;
+        [fluid.wave_epsilon * fluid.scale_pressure, epsilon * solid.scale_stress]
+    };
+    let alone = thresholds(&[PULSE, "fluid.region=[]"]);
+    let beside = thresholds(&[PULSE]);
+    for (beside, alone) in beside.into_iter().zip(alone) {
+        assert!((beside / alone - 1.0).abs() < 0.06, "{beside} Pa, not {alone} Pa: ε has two digits");
+    }
+}
+
 #[test]
 fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
     use mesh::{LevelBound, Side, Zone};
     let fluid = good().fluid.expect("a fluid");
     let adaptation = fluid.grid.adaptation.as_ref().expect("adaptive");
     assert_eq!((fluid.grid.root_level(), fluid.grid.cells_on(2)), (2, [16, 16]));
-    assert_eq!(adaptation.epsilon, cav::case::EPSILON_WITH_JUMPS);
+    assert_eq!((adaptation.epsilon, fluid.wave_epsilon), (3e-4, 1e-4));
+    let solid = good().solid.expect("a solid");
+    assert_eq!(solid.grid.adaptation.map(|adaptation| adaptation.epsilon), Some(1e-4));
 
     assert_eq!((adaptation.every, adaptation.bounds.len()), (8, 0));
     // The bubble's differences to the liquid; the solid's scale is the fluid's.
@@ -442,6 +465,15 @@ fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
     let all = LevelBound { zone: Zone::Box { z: [-1.0, 0.0], r: [0.0, 1.0] }, at_least: 2, at_most: 3 };
     assert_eq!(case.solid.as_ref().and_then(|solid| bounds(&solid.grid)), Some(vec![surface, all]));
     round_trip(&case);
+
+    // A threshold of the fluid is both of its thresholds, unless waves have one of their own.
+    let thresholds = |sets: &[&str]| {
+        let fluid = with(sets).fluid.expect("a fluid");
+        (fluid.grid.adaptation.map(|adaptation| adaptation.epsilon), fluid.wave_epsilon)
+    };
+    assert_eq!(thresholds(&["fluid.epsilon=2e-3"]), (Some(2e-3), 2e-3));
+    assert_eq!(thresholds(&["fluid.epsilon=2e-3", "fluid.epsilon_waves=1e-5"]), (Some(2e-3), 1e-5));
+    assert_eq!(thresholds(&["fluid.error=1e-3"]), (Some(3e-5), 1e-5));
 
     let text = case.effective_toml();
     for part in
