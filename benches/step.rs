@@ -9,8 +9,8 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use fluid::{
-    FluidError, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Primitive, Region,
-    RiemannSolver, Shape, StiffenedGas,
+    FluidError, FluidSetup, FluidSolver, InitialCondition, Model, Phase, PhaseState, Primitive, Region,
+    RiemannSolver, Shape, Sharpening, StiffenedGas,
 };
 use mesh::{Domain, Geometry, Limiter};
 use solid::{ElasticState, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
@@ -36,27 +36,35 @@ fn main() -> Result<(), Failure> {
     println!("|---|---|---|---|---|---|");
     pool(1)?.install(all_solvers)?;
     println!("\n## Exact Riemann solver against HLLC, 512 x 512 cells, one thread\n");
-    println!("| flow | block | hllc, ns per cell and step | exact | exact : hllc |");
+    println!("| model, flow | block | hllc, ns per cell and step | exact | exact : hllc |");
     println!("|---|---|---|---|---|");
-    for flow in [Flow::Smooth, Flow::Bubble, Flow::Jumps] {
-        let name = format!("exact against hllc, {}, 512", flow.name());
+    for (model, flow) in MODELS
+        .into_iter()
+        .flat_map(|model| [Flow::Smooth, Flow::Bubble, Flow::Jumps].map(|flow| (model, flow)))
+    {
+        let name = format!("{}, {}", name_of(model), flow.name());
         for (block, measure) in [(8, measure::<8> as Measure), (16, measure::<16>), (32, measure::<32>)] {
-            if !wanted(&format!("{name} {block}")) {
+            if !wanted(&format!("exact against hllc, {name}, 512 {block}")) {
                 continue;
             }
-            let cost =
-                |riemann| pool(1)?.install(|| measure(Solver::Fluid(riemann, Limiter::Minmod, flow), 512));
+            let cost = |riemann| {
+                let scheme = Scheme { model, riemann, limiter: Limiter::Minmod };
+                pool(1)?.install(|| measure(Solver::Fluid(scheme, flow), 512))
+            };
             let (hllc, exact) = (cost(RiemannSolver::Hllc)?, cost(RiemannSolver::Exact)?);
             let (a, b, ratio) = (hllc.nanoseconds, exact.nanoseconds, exact.ratio / hllc.ratio);
-            println!("| {} | {block} | {a:.1} | {b:.1} | {ratio:.2} |", flow.name());
+            println!("| {name} | {block} | {a:.1} | {b:.1} | {ratio:.2} |");
         }
     }
     println!("\n## Two threads against one, 512 x 512 cells in blocks of 16\n");
     println!("| solver | one thread, ns per cell and step | two threads | speed-up |");
     println!("|---|---|---|---|");
-    for solver in
-        [fluid_with(RiemannSolver::Hllc), fluid_with(RiemannSolver::Exact), solid_with(Limiter::Minmod)]
-    {
+    for solver in [
+        fluid_with(Model::FiveEquation, RiemannSolver::Hllc, Limiter::Mc),
+        fluid_with(Model::SaurelAbgrall, RiemannSolver::Hllc, Limiter::Minmod),
+        fluid_with(Model::SaurelAbgrall, RiemannSolver::Exact, Limiter::Minmod),
+        solid_with(Limiter::Minmod),
+    ] {
         if !wanted(&format!("two threads {}", solver.name())) {
             continue;
         }
@@ -73,10 +81,26 @@ fn wanted(row: &str) -> bool {
     std::env::args().skip(1).filter(|word| !word.starts_with('-')).all(|word| row.contains(&word))
 }
 
+/// The default model, with its sharp interface, and the paper's mixture.
+const MODELS: [Model; 2] = [Model::FiveEquation, Model::SaurelAbgrall];
+
+/// The name of a model in case files.
+fn name_of(model: Model) -> &'static str {
+    Model::NAMES.into_iter().find(|(_, other)| *other == model).map_or("?", |(name, _)| name)
+}
+
+/// How the fluid is computed.
+#[derive(Clone, Copy)]
+struct Scheme {
+    model: Model,
+    riemann: RiemannSolver,
+    limiter: Limiter,
+}
+
 /// What is timed.
 #[derive(Clone, Copy)]
 enum Solver {
-    Fluid(RiemannSolver, Limiter, Flow),
+    Fluid(Scheme, Flow),
     Solid(Limiter),
 }
 
@@ -101,8 +125,8 @@ impl Flow {
     }
 }
 
-const fn fluid_with(riemann: RiemannSolver) -> Solver {
-    Solver::Fluid(riemann, Limiter::Minmod, Flow::Bubble)
+const fn fluid_with(model: Model, riemann: RiemannSolver, limiter: Limiter) -> Solver {
+    Solver::Fluid(Scheme { model, riemann, limiter }, Flow::Bubble)
 }
 
 const fn solid_with(limiter: Limiter) -> Solver {
@@ -118,8 +142,10 @@ impl Solver {
             Limiter::None => "none",
         };
         match self {
-            Self::Fluid(RiemannSolver::Hllc, l, _) => format!("fluid, hllc, {}", limiter(l)),
-            Self::Fluid(RiemannSolver::Exact, l, _) => format!("fluid, exact, {}", limiter(l)),
+            Self::Fluid(Scheme { model, riemann, limiter: l }, _) => {
+                let riemann = if riemann == RiemannSolver::Hllc { "hllc" } else { "exact" };
+                format!("fluid, {}, {riemann}, {}", name_of(model), limiter(l))
+            }
             Self::Solid(l) => format!("solid, {}", limiter(l)),
         }
     }
@@ -127,9 +153,12 @@ impl Solver {
 
 fn all_solvers() -> Result<(), Failure> {
     for solver in [
-        fluid_with(RiemannSolver::Hllc),
-        Solver::Fluid(RiemannSolver::Hllc, Limiter::Mc, Flow::Bubble),
-        fluid_with(RiemannSolver::Exact),
+        fluid_with(Model::FiveEquation, RiemannSolver::Hllc, Limiter::Mc),
+        fluid_with(Model::FiveEquation, RiemannSolver::Hllc, Limiter::Minmod),
+        fluid_with(Model::FiveEquation, RiemannSolver::Exact, Limiter::Mc),
+        fluid_with(Model::SaurelAbgrall, RiemannSolver::Hllc, Limiter::Minmod),
+        fluid_with(Model::SaurelAbgrall, RiemannSolver::Hllc, Limiter::Mc),
+        fluid_with(Model::SaurelAbgrall, RiemannSolver::Exact, Limiter::Minmod),
         solid_with(Limiter::Minmod),
         solid_with(Limiter::Mc),
     ] {
@@ -161,11 +190,11 @@ type Measure = fn(Solver, usize) -> Result<Cost, Failure>;
 
 fn measure<const N: usize>(solver: Solver, cells: usize) -> Result<Cost, Failure> {
     match solver {
-        Solver::Fluid(riemann, limiter, flow) => {
+        Solver::Fluid(scheme, flow) => {
             let make = || match flow {
-                Flow::Bubble => fluid_near_a_wall::<N>(cells, riemann, limiter),
-                Flow::Smooth => fluid_from::<N>(cells, riemann, limiter, sound),
-                Flow::Jumps => fluid_from::<N>(cells, riemann, limiter, move |at| patches(at, cells)),
+                Flow::Bubble => fluid_near_a_wall::<N>(cells, scheme),
+                Flow::Smooth => fluid_from::<N>(cells, scheme, sound),
+                Flow::Jumps => fluid_from::<N>(cells, scheme, move |at| patches(at, cells)),
             };
             let mut fluid = make()?;
             let restart = (flow == Flow::Jumps).then_some(make);
@@ -226,11 +255,7 @@ fn sample<S, E: std::error::Error + Send + Sync + 'static>(
 }
 
 /// A bubble of 10 mm, 20 mm above a rigid wall: the fluid of `cases/dickopp2012-coarse.toml`.
-fn fluid_near_a_wall<const N: usize>(
-    cells: usize,
-    riemann: RiemannSolver,
-    limiter: Limiter,
-) -> Result<FluidSolver<N>, FluidError> {
+fn fluid_near_a_wall<const N: usize>(cells: usize, scheme: Scheme) -> Result<FluidSolver<N>, FluidError> {
     use fluid::Boundary::{Axis, NonReflecting, Wall};
     let at_rest = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
     let initial = InitialCondition {
@@ -242,24 +267,21 @@ fn fluid_near_a_wall<const N: usize>(
         }],
         pulses: vec![],
     };
-    let setup = fluid_setup(cells, riemann, limiter, [Wall, NonReflecting, Axis, NonReflecting]);
+    let setup = fluid_setup(cells, scheme, [Wall, NonReflecting, Axis, NonReflecting]);
     FluidSolver::new(&setup, &initial)
 }
 
-fn fluid_setup(
-    cells: usize,
-    riemann: RiemannSolver,
-    limiter: Limiter,
-    boundaries: [fluid::Boundary; 4],
-) -> FluidSetup {
+fn fluid_setup(cells: usize, scheme: Scheme, boundaries: [fluid::Boundary; 4]) -> FluidSetup {
+    let Scheme { model, riemann, limiter } = scheme;
     FluidSetup {
         domain: Domain { geometry: Geometry::Axisymmetric, z: [0.01, 0.06], r: [0.0, 0.05] },
         coarsest: [cells, cells],
         levels: 0,
         liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
         gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
-        model: fluid::Model::SaurelAbgrall,
-        sharpening: fluid::Sharpening::None,
+        model,
+        // Without a say in the paper's mixture.
+        sharpening: Sharpening::Thinc,
         riemann,
         limiter,
         boundaries,
@@ -273,12 +295,11 @@ fn fluid_setup(
 /// The same fluids between walls in any state.
 fn fluid_from<const N: usize>(
     cells: usize,
-    riemann: RiemannSolver,
-    limiter: Limiter,
+    scheme: Scheme,
     state: impl Fn([f64; 2]) -> Primitive + Sync,
 ) -> Result<FluidSolver<N>, FluidError> {
     use fluid::Boundary::{Axis, Wall};
-    FluidSolver::from_fn(&fluid_setup(cells, riemann, limiter, [Wall, Wall, Axis, Wall]), state)
+    FluidSolver::from_fn(&fluid_setup(cells, scheme, [Wall, Wall, Axis, Wall]), state)
 }
 
 /// Standing sound of some ten wave lengths in the liquid.

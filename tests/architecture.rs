@@ -145,6 +145,55 @@ fn no_source_file_is_longer_than_a_reader_bears() {
     }
 }
 
+/// The names of the tests in a text that `cargo test` leaves out.
+fn ignored_tests(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut lines = text.lines().map(str::trim);
+    while let Some(line) = lines.next() {
+        if line.starts_with("#[ignore") {
+            let name = lines.find_map(|line| line.strip_prefix("fn ")?.split('(').next());
+            found.extend(name.map(str::to_owned));
+        }
+    }
+    found
+}
+
+/// What is left out of the test command is forgotten unless it stands somewhere, with its command.
+#[test]
+fn every_test_that_is_left_out_is_named_with_its_command() {
+    let text = fs::read_to_string(root().join("docs/verification.md")).unwrap();
+    let commands: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .filter(|line| line.starts_with("cargo test") && line.contains("--ignored"))
+        .collect();
+    let mut names = Vec::new();
+    for path in files(root()).into_iter().filter(|path| path.extension().is_some_and(|e| e == "rs")) {
+        names.extend(ignored_tests(&fs::read_to_string(&path).unwrap()));
+    }
+    for name in &names {
+        let named = commands.iter().any(|command| command.split([' ', ':']).any(|word| word == name));
+        assert!(named, "{name} is ignored and has no command in docs/verification.md");
+    }
+    for command in commands {
+        let known = names.iter().any(|name| command.split([' ', ':']).any(|word| word == name));
+        assert!(known, "no test is meant by {command}");
+    }
+}
+
+#[test]
+fn tests_that_are_left_out_are_found() {
+    let text = [
+        "#[ignore = \"minutes\"]",
+        "    fn long() {",
+        "fn helper() {",
+        "#[ignore]",
+        "#[test]",
+        "fn longer() {",
+    ];
+    assert_eq!(ignored_tests(&text.join("\n")), ["long", "longer"]);
+}
+
 #[test]
 fn no_file_names_a_place_on_somebodys_machine() {
     // Put together here, so that this file is not the first to break the rule.

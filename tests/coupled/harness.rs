@@ -7,7 +7,8 @@ use cav::run::medium::{self, Medium, StepRule};
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;
 use coupler::{
-    DirectLink, Meeting, Participant, RegisterRow, ShortStep, StarSolver, TraceRow, WallRegister, direct_pair,
+    DirectLink, Link as _, LinkCounters, Meeting, Participant, RegisterRow, ShortStep, StarSolver, TraceRow,
+    WallRegister, direct_pair,
 };
 use fluid::{
     Boundary as FluidBoundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, StiffenedGas,
@@ -68,6 +69,11 @@ impl Sides {
         let turn = self.fluid.begin(&mut self.to_solid, &self.stop).expect("the fluid's turn");
         self.solid.turn(&mut self.to_fluid, &self.stop).expect("the solid's turn");
         turn == Turn::Continues
+    }
+
+    /// What the fluid's end of the link has done so far.
+    pub fn exchanged(&self) -> LinkCounters {
+        self.to_solid.counters()
     }
 
     /// To the end of the case.

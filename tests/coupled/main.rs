@@ -2,6 +2,7 @@
 
 mod adaptive_pulse;
 mod collapse;
+mod exchange;
 mod hammer;
 mod harness;
 mod ledgers;
@@ -11,5 +12,6 @@ mod paper_schemes;
 mod participants;
 mod pulse;
 mod rest;
+mod spherical_pulse;
 mod start;
 mod steps;

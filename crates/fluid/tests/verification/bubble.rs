@@ -8,13 +8,13 @@ use mesh::{Domain, Limiter};
 use crate::helpers::*;
 
 /// Half a bubble of radius 1 (20 cells) in front of a wall, which is the plane of symmetry through its centre.
-fn half_bubble(limiter: Limiter) -> FluidSolver<16> {
+fn half_bubble(kind: Kind, limiter: Limiter) -> FluidSolver<16> {
     let side = 6.4;
     let boundaries = [Boundary::Wall, Boundary::NonReflecting, Boundary::Axis, Boundary::NonReflecting];
     let setup = FluidSetup {
         domain: Domain { geometry: AXIAL, z: [0.0, side], r: [0.0, side] },
         limiter,
-        ..setup(AXIAL, [128, 128], boundaries)
+        ..setup_of(kind, AXIAL, [128, 128], boundaries)
     };
     let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
     let initial = InitialCondition {
@@ -31,8 +31,14 @@ fn half_bubble(limiter: Limiter) -> FluidSolver<16> {
 
 #[test]
 fn a_free_bubble_stays_round() {
-    for limiter in [Limiter::Mc, Limiter::Minmod] {
-        let mut fluid = half_bubble(limiter);
+    // Seen are 0.0006 and 0.0017, and 0.014 and 0.019.
+    for (kind, limiter, wanted) in [
+        (SHARP, Limiter::Mc, 0.003),
+        (SHARP, Limiter::Minmod, 0.005),
+        (MIXTURE, Limiter::Mc, 0.03),
+        (MIXTURE, Limiter::Minmod, 0.03),
+    ] {
+        let mut fluid = half_bubble(kind, limiter);
         // Rayleigh's collapse time is 0.915 R √(ρ/Δp) = 4.1 ms.
         let start = fluid.bubble().equivalent_radius;
         while fluid.bubble().equivalent_radius > 0.6 * start {
@@ -62,14 +68,13 @@ fn a_free_bubble_stays_round() {
             }
         }
         eprintln!(
-            "{limiter:?}: t {:.3e} aspect {aspect:.4} axis against wall {skewed:.2e} kink at the axis {kink:.1e} \
+            "{kind:?} {limiter:?}: t {:.3e} aspect {aspect:.4} axis against wall {skewed:.2e} kink at the axis {kink:.1e} \
              v_r there {:.1e} of the largest, {:?}",
             fluid.time(),
             speed_at_axis / fastest,
             fluid.fixups()
         );
-        // A few per cent is what 12 cells per radius can tell.
-        assert!((aspect - 1.0).abs() < 0.03, "{aspect}");
+        assert!((aspect - 1.0).abs() < wanted, "{kind:?}: {aspect}");
         assert!(skewed < 0.1 && kink < 0.02 && speed_at_axis < 0.15 * fastest);
     }
 }

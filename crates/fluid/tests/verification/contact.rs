@@ -15,6 +15,7 @@ struct Worst {
 
 /// A bubble of radius 0.3 carried along z at 200 m/s through a periodic domain of 2 × 1.
 fn carried(
+    kind: Kind,
     geometry: Geometry,
     centre_r: f64,
     density: f64,
@@ -27,7 +28,7 @@ fn carried(
         domain: Domain { geometry, z: [0.0, 2.0], r: [0.0, 1.0] },
         limiter,
         riemann,
-        ..setup(geometry, [32, 16], [Boundary::Periodic, Boundary::Periodic, axis, Boundary::Wall])
+        ..setup_of(kind, geometry, [32, 16], [Boundary::Periodic, Boundary::Periodic, axis, Boundary::Wall])
     };
     let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [200.0, 0.0] };
     let initial = InitialCondition {
@@ -53,7 +54,7 @@ fn carried(
         worst.velocity = worst.velocity.max((w.v_z - 200.0).hypot(w.v_r) / 200.0);
     });
     eprintln!(
-        "{geometry:?} centre r {centre_r} gas {density} {limiter:?} {riemann:?} {steps} steps: dp/p {:.1e} du/u {:.1e} \
+        "{kind:?} {geometry:?} centre r {centre_r} gas {density} {limiter:?} {riemann:?} {steps} steps: dp/p {:.1e} du/u {:.1e} \
          phi below 0 by {:.1e}, above 1 by {:.1e}",
         worst.pressure,
         worst.velocity,
@@ -65,12 +66,16 @@ fn carried(
 }
 
 fn check(geometry: Geometry, centre_r: f64, riemann: RiemannSolver, steps: usize) {
-    for density in [1.2, 0.0266] {
-        for limiter in [Limiter::Mc, Limiter::Minmod] {
-            let worst = carried(geometry, centre_r, density, limiter, riemann, steps);
-            // What is asked; reached are 1e-11, the round-off of an energy of 3.5e8 J/m³ in a pressure of
-            // 1e5 Pa. Face states of gas in stiff mixed cells let round-off grow tenfold in each step.
-            assert!(worst.pressure < 1e-9 && worst.velocity < 1e-9);
+    for kind in KINDS {
+        for density in [1.2, 0.0266] {
+            for limiter in [Limiter::Mc, Limiter::Minmod] {
+                // What grows in the default model is seen by 2000 steps; one of its tests goes on for longer.
+                let steps = if kind == SHARP { steps.min(2000) } else { steps };
+                let worst = carried(kind, geometry, centre_r, density, limiter, riemann, steps);
+                // What is asked; reached are 1e-11, the round-off of an energy of 3.5e8 J/m³ in a pressure of
+                // 1e5 Pa. Face states of gas in stiff mixed cells let round-off grow tenfold in each step.
+                assert!(worst.pressure < 1e-9 && worst.velocity < 1e-9);
+            }
         }
     }
 }

@@ -8,9 +8,8 @@ use mesh::{Adaptation, Domain, Geometry, LevelBound, Limiter, Zone};
 
 use crate::helpers::*;
 
-const CLOSED: (Model, Sharpening) = (Model::FiveEquation, Sharpening::Thinc);
-const KINDS: [(Model, Sharpening); 4] = [
-    CLOSED,
+const VARIANTS: [Kind; 4] = [
+    SHARP,
     (Model::FiveEquation, Sharpening::None),
     (Model::Allaire, Sharpening::Thinc),
     (Model::Allaire, Sharpening::None),
@@ -40,7 +39,7 @@ fn advance<const N: usize>(fluid: &mut FluidSolver<N>) {
 /// dp/p, du/u.
 fn carried(
     geometry: Geometry,
-    (model, sharpening): (Model, Sharpening),
+    (model, sharpening): Kind,
     riemann: RiemannSolver,
     density: f64,
     is_adaptive: bool,
@@ -88,20 +87,20 @@ fn carried(
 
 #[test]
 fn uniform_pressure_and_velocity_stay_so() {
-    for kind in KINDS {
+    for kind in VARIANTS {
         for (density, is_adaptive) in [(1.2, false), (0.0266, true)] {
             let worst = carried(AXIAL, kind, RiemannSolver::Hllc, density, is_adaptive, 1500);
             assert!(worst[0] < 1e-9 && worst[1] < 1e-9, "{kind:?}: {worst:?}");
         }
     }
-    let worst = carried(PLANAR, CLOSED, RiemannSolver::Exact, 1.2, true, 1000);
+    let worst = carried(PLANAR, SHARP, RiemannSolver::Exact, 1.2, true, 1000);
     assert!(worst[0] < 1e-9 && worst[1] < 1e-9, "{worst:?}");
 }
 
 #[test]
 fn uniform_flow_has_no_slow_instability() {
     // An inconsistent star fraction blows up between 400 and 1700 steps.
-    let worst = carried(AXIAL, CLOSED, RiemannSolver::Hllc, 0.0266, true, 7000);
+    let worst = carried(AXIAL, SHARP, RiemannSolver::Hllc, 0.0266, true, 7000);
     assert!(worst[0] < 1e-9 && worst[1] < 1e-9, "{worst:?}");
 }
 
@@ -129,8 +128,10 @@ fn an_interface_finds_its_star_state_without_overshoot() {
         .unwrap();
         run_to(&mut fluid, 4e-7);
         let row = &global(&fluid)[0];
-        let row: Vec<Primitive> =
-            row.iter().map(|u| Primitive::from_conserved(*u, fluid.mixture())).collect();
+        let row: Vec<Primitive> = row
+            .iter()
+            .map(|u| Primitive::from_conserved(std::array::from_fn(|c| u[c]), fluid.mixture()))
+            .collect();
         let mixed = row.iter().filter(|w| w.phi > 1e-6 && w.phi < 1.0 - 1e-6);
         for w in mixed.clone() {
             let ratios = [w.pressure / EXACT[0], w.v_z / EXACT[1]];
@@ -145,67 +146,61 @@ fn an_interface_finds_its_star_state_without_overshoot() {
 }
 
 /// A collapse in a closed box off its middle, with waves and an interface that crosses blocks.
-fn collapsed<const N: usize>(
-    geometry: Geometry,
-    centre: [f64; 2],
-    riemann: RiemannSolver,
-) -> Vec<Vec<[f64; 5]>> {
-    let (model, sharpening) = CLOSED;
-    let boundaries = if geometry == AXIAL { CYLINDER } else { WALLS };
-    let setup = FluidSetup { model, sharpening, riemann, ..setup(geometry, [64, 64], boundaries) };
+fn collapsed(centre: [f64; 2], riemann: RiemannSolver) -> Vec<Vec<[f64; 6]>> {
+    let setup = FluidSetup { riemann, ..setup_of(SHARP, PLANAR, [64, 64], WALLS) };
     let initial =
         bubble_in(state(Phase::Liquid, 1000.0, 5e7, 0.0), state(Phase::Gas, 1.25, 1e5, 0.0), centre, 0.2);
-    let mut fluid = FluidSolver::<N>::new(&setup, &initial).unwrap();
+    let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
     let gas = fluid.bubble().gas_mass;
     for _ in 0..300 {
         fluid.step(2e-6).unwrap();
     }
     let lost = fluid.bubble().gas_mass / gas - 1.0;
-    eprintln!("{geometry:?} {centre:?}: gas mass {lost:.1e}, radius {:.3}", fluid.bubble().equivalent_radius);
+    eprintln!("{centre:?}: gas mass {lost:.1e}, radius {:.3}", fluid.bubble().equivalent_radius);
     assert!(lost.abs() < 1e-12);
     global(&fluid)
-}
-
-#[test]
-fn blocks_of_any_size_give_the_same_bitwise() {
-    for (geometry, centre) in [(AXIAL, [0.35, 0.0]), (PLANAR, [0.35, 0.45])] {
-        let of_8 = collapsed::<8>(geometry, centre, RiemannSolver::Hllc);
-        assert!(of_8 == collapsed::<16>(geometry, centre, RiemannSolver::Hllc), "16: {geometry:?}");
-        assert!(of_8 == collapsed::<32>(geometry, centre, RiemannSolver::Hllc), "32: {geometry:?}");
-    }
-}
-
-#[test]
-fn any_number_of_threads_gives_the_same_bitwise() {
-    let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| collapsed::<8>(AXIAL, [0.35, 0.0], RiemannSolver::Hllc))
-    };
-    let one = with(1);
-    assert!(one == with(2) && one == with(3));
 }
 
 #[test]
 fn mirrored_and_transposed_starts_give_mirrored_and_transposed_results_bitwise() {
     for riemann in [RiemannSolver::Hllc, RiemannSolver::Exact] {
         // Dyadic centres and densities: the initial means are then mirror images to the last bit.
-        let plain = collapsed::<8>(PLANAR, [0.375, 0.4375], riemann);
-        let mirrored = collapsed::<8>(PLANAR, [0.625, 0.4375], riemann);
-        let turned = collapsed::<8>(PLANAR, [0.4375, 0.375], riemann);
+        let plain = collapsed([0.375, 0.4375], riemann);
+        let mirrored = collapsed([0.625, 0.4375], riemann);
+        let turned = collapsed([0.4375, 0.375], riemann);
         for j in 0..64 {
             for i in 0..64 {
-                let [rho, mz, mr, energy, phi] = mirrored[j][63 - i];
-                assert_eq!(plain[j][i], [rho, -mz, mr, energy, phi], "mirrored {i} {j}");
-                let [rho, mz, mr, energy, phi] = turned[i][j];
-                assert_eq!(plain[j][i], [rho, mr, mz, energy, phi], "turned {i} {j}");
+                let [rho, mz, mr, energy, phi, gas] = mirrored[j][63 - i];
+                assert_eq!(plain[j][i], [rho, -mz, mr, energy, phi, gas], "mirrored {i} {j}");
+                let [rho, mz, mr, energy, phi, gas] = turned[i][j];
+                assert_eq!(plain[j][i], [rho, mr, mz, energy, phi, gas], "turned {i} {j}");
             }
         }
     }
 }
 
-/// Half a free bubble of radius 1 mm; collapse time (s), smallest radius over R0, lost share of the gas's mass.
-fn collapse(pressure: f64, gas: [f64; 2], cells_per_radius: usize, shift: f64) -> [f64; 3] {
-    let (model, sharpening) = CLOSED;
+/// Radius over time of a free bubble of 1 mm: a tracked interface, extrapolated.
+const EXACT_MILD: &str = include_str!("../../../../scripts/bubble/free_bubble_1e6_1e5.csv");
+const EXACT_STRONG: &str = include_str!("../../../../scripts/bubble/free_bubble_5e6_2118.csv");
+
+/// The largest |R − R_exact|/R₀ until `end`; ours as (time, R/R₀).
+fn off_track(ours: &[[f64; 2]], exact: &str, end: f64) -> f64 {
+    let rows = exact.lines().filter(|line| !line.starts_with('#')).skip(1);
+    let exact = rows.map(|row| {
+        let (time, radius) = row.split_once(',').unwrap();
+        [time.parse::<f64>().unwrap(), radius.parse::<f64>().unwrap() / 1e-3]
+    });
+    exact.filter(|[time, _]| *time < end).fold(0.0, |worst, [time, radius]| {
+        let k = ours.partition_point(|sample| sample[0] < time).clamp(1, ours.len() - 1);
+        let [[t0, r0], [t1, r1]] = [ours[k - 1], ours[k]];
+        worst.max((r0 + (r1 - r0) * (time - t0) / (t1 - t0) - radius).abs())
+    })
+}
+
+/// Half a free bubble of radius 1 mm; collapse time (s), smallest radius over R0, lost share of the gas's mass, and how far the
+/// radius is from the exact one on the way.
+fn collapse(pressure: f64, gas: [f64; 2], cells_per_radius: usize, shift: f64) -> [f64; 4] {
+    let (model, sharpening) = SHARP;
     let side = 12.8e-3 * if pressure < 2e6 { 2.0 } else { 1.0 };
     let levels = (side / 1e-3 * cells_per_radius as f64 / 32.0).log2().round() as u8;
     let radius = 1e-3 * (1.0 + shift / cells_per_radius as f64);
@@ -251,7 +246,10 @@ fn collapse(pressure: f64, gas: [f64; 2], cells_per_radius: usize, shift: f64) -
     let time = 0.5 * (a[0] + b[0]) - left * 0.5 * (c[0] - a[0]) / (right - left);
     let lost = (fluid.bubble().gas_mass / mass - 1.0).abs();
     // Times and radii scale with the radius, and the reference is for 1 mm.
-    let result = [time / scale, (b[1] / start).cbrt(), lost];
+    let track: Vec<[f64; 2]> =
+        samples.iter().map(|[t, volume]| [t / scale, (volume / start).cbrt()]).collect();
+    let exact = if pressure < 2e6 { EXACT_MILD } else { EXACT_STRONG };
+    let result = [time / scale, (b[1] / start).cbrt(), lost, off_track(&track, exact, time / scale)];
     eprintln!("{pressure:e} {cells_per_radius} cells, shift {shift}: {result:.5?}, {:?}", fluid.fixups());
     result
 }
@@ -262,9 +260,10 @@ fn a_free_bubble_collapses_as_the_equations_have_it() {
     for shift in [0.0, 0.37] {
         let mild = collapse(1e6, [1.2, 1e5], 20, shift);
         assert!((mild[0] / 3.22318e-5 - 1.0).abs() < 0.01 && (mild[1] / 0.28856 - 1.0).abs() < 0.08);
-        assert!(mild[2] < 1e-11);
+        assert!(mild[2] < 1e-11 && mild[3] < 0.007);
     }
     let strong = collapse(5e6, [0.0266, 2118.0], 40, 0.0);
     assert!((strong[0] / 1.267775e-5 - 1.0).abs() < 0.005 && strong[1] < 0.06);
-    assert!(strong[2] < 1e-11);
+    // At the end it is the smallest radius that misses.
+    assert!(strong[2] < 1e-11 && strong[3] < 0.025);
 }

@@ -1,10 +1,18 @@
 //! What the tests share: media, grids, norms, orders of convergence, Bessel functions.
 
-use fluid::{Boundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, StiffenedGas};
+use fluid::{Boundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, Sharpening, StiffenedGas};
 use mesh::{Domain, Geometry, Limiter};
 
 pub const LIQUID: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 pub const GAS: StiffenedGas = StiffenedGas { gamma: 1.4, pi: 0.0 };
+
+/// A two-phase model, and what keeps its interfaces sharp.
+pub type Kind = (Model, Sharpening);
+
+/// The default, and the paper's mixture.
+pub const KINDS: [Kind; 2] = [SHARP, MIXTURE];
+pub const SHARP: Kind = (Model::FiveEquation, Sharpening::Thinc);
+pub const MIXTURE: Kind = (Model::SaurelAbgrall, Sharpening::None);
 
 /// Courant number of the runs, that of the cases.
 pub const CFL: f64 = 0.45;
@@ -17,16 +25,26 @@ pub const CYLINDER: [Boundary; 4] = [Boundary::Wall, Boundary::Wall, Boundary::A
 pub const PLANAR: Geometry = Geometry::Planar;
 pub const AXIAL: Geometry = Geometry::Axisymmetric;
 
-/// Water and gas, HLLC and the MC limiter, on `cells` over [0, 1] × [0, 1] m.
+/// [`setup_of`] the paper's mixture.
 pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -> FluidSetup {
+    setup_of(MIXTURE, geometry, cells, boundaries)
+}
+
+/// Water and gas, HLLC and the MC limiter, on `cells` over [0, 1] × [0, 1] m.
+pub fn setup_of(
+    (model, sharpening): Kind,
+    geometry: Geometry,
+    cells: [usize; 2],
+    boundaries: [Boundary; 4],
+) -> FluidSetup {
     FluidSetup {
         domain: Domain { geometry, z: [0.0, 1.0], r: [0.0, 1.0] },
         coarsest: cells,
         levels: 0,
         liquid: LIQUID,
         gas: GAS,
-        model: Model::SaurelAbgrall,
-        sharpening: fluid::Sharpening::None,
+        model,
+        sharpening,
         riemann: RiemannSolver::Hllc,
         limiter: Limiter::Mc,
         boundaries,
@@ -53,6 +71,13 @@ pub fn run_steps<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) {
     for _ in 0..steps {
         fluid.step(fluid.time_step_limit(CFL)).unwrap();
     }
+}
+
+/// A step of all levels; its length, and that it is one.
+pub fn step_together<const N: usize>(fluid: &mut FluidSolver<N>) -> (f64, u32) {
+    let dt = fluid.time_step_limit(CFL);
+    fluid.step(dt).unwrap();
+    (dt, 1)
 }
 
 /// A step in which levels make steps of their own; its length, and how many of the finest level it holds.
@@ -82,17 +107,19 @@ pub fn each_cell<const N: usize>(
     }
 }
 
-/// All conserved variables by global cell, `[j][i]`, whatever the blocks are.
-pub fn global<const N: usize>(fluid: &FluidSolver<N>) -> Vec<Vec<[f64; 5]>> {
+/// All conserved variables by global cell, `[j][i]`, whatever the blocks are; the gas's mass is 0 in the paper's mixture.
+pub fn global<const N: usize>(fluid: &FluidSolver<N>) -> Vec<Vec<[f64; 6]>> {
     let [h_z, h_r] = fluid.mesh().widths(fluid.mesh().tree().leaves()[0].level);
     let Domain { z, r, .. } = *fluid.mesh().domain();
     let count = |range: [f64; 2], h: f64| ((range[1] - range[0]) / h).round() as usize;
-    let mut cells = vec![vec![[0.0; 5]; count(z, h_z)]; count(r, h_r)];
+    let components = fluid.state().components();
+    let mut cells = vec![vec![[0.0; 6]; count(z, h_z)]; count(r, h_r)];
     for (slot, id) in fluid.mesh().tree().leaves().iter().enumerate() {
         for j in 0..N {
             for i in 0..N {
-                cells[id.j as usize * N + j][id.i as usize * N + i] =
-                    std::array::from_fn(|c| fluid.state().component(slot, c)[j * N + i]);
+                cells[id.j as usize * N + j][id.i as usize * N + i] = std::array::from_fn(|c| {
+                    if c < components { fluid.state().component(slot, c)[j * N + i] } else { 0.0 }
+                });
             }
         }
     }
