@@ -3,13 +3,14 @@
 use std::fmt::Write as _;
 
 use coupler::Scheme;
-use fluid::{Boundary, Phase, PhaseState, PulseShape, RayleighField, Shape};
+use fluid::{Boundary, Phase, PhaseState, RayleighField, Shape};
 use mesh::{BLOCK, Geometry, Side};
 use solid::Material;
 
 use super::format::{duration, hex, mebibytes, plain, si};
 use super::scales::sound_speed;
 use super::warnings::SAFE_CFL;
+use super::steps::first_steps;
 use super::{Case, FluidCase, GridCase, SolidCase, index};
 
 /// Wall time per cell and step of the fluid on one core, ns: an estimate for the release build.
@@ -234,42 +235,8 @@ fn impedances(text: &mut String, fluid: &FluidCase, solid: &SolidCase) {
     line(text, "impedance", &numbers);
 }
 
-/// The fluid's step at t = 0, s: the shortest of its cells', see [`mesh::longest_step`].
-fn fluid_step(fluid: &FluidCase, cfl: f64) -> f64 {
-    let limit = |state: &PhaseState| {
-        let c = sound_speed(fluid.eos(state), state.density, state.pressure);
-        mesh::longest_step(cfl, fluid.grid.cell_size(), state.velocity.map(|v| v.abs() + c))
-    };
-    let initial = &fluid.initial;
-    let mut step = limit(&initial.ambient);
-    for region in &initial.regions {
-        step = step.min(limit(&region.state));
-    }
-    // At a pulse's crest the liquid is compressed along its isentrope, (p + π)/ρ^γ = const.
-    for pulse in initial.pulses.iter().filter(|pulse| pulse.amplitude > 0.0) {
-        let eos = fluid.eos(&initial.ambient);
-        let (density, pressure) = (initial.ambient.density, initial.ambient.pressure);
-        let crest = pressure + pulse.amplitude;
-        let compressed = density * ((crest + eos.pi) / (pressure + eos.pi)).powf(1.0 / eos.gamma);
-        let mut state = PhaseState { density: compressed, pressure: crest, ..initial.ambient };
-        if let PulseShape::Plane { direction: Some([z, r]) } = pulse.shape {
-            let v = pulse.amplitude / (density * sound_speed(eos, density, pressure));
-            state.velocity[0] += v * z;
-            state.velocity[1] += v * r;
-        }
-        step = step.min(limit(&state));
-    }
-    step
-}
-
-/// The solid's step, s.
-fn solid_step(solid: &SolidCase, cfl: f64) -> f64 {
-    mesh::longest_step(cfl, solid.grid.cell_size(), [solid.material.c1(); 2])
-}
-
 fn steps(text: &mut String, case: &Case) {
-    let fluid = case.fluid.as_ref().map(|fluid| fluid_step(fluid, case.time.cfl));
-    let solid = case.solid.as_ref().map(|solid| solid_step(solid, case.time.cfl));
+    let [fluid, solid] = first_steps(case).map(|side| side.map(|first| first.length));
     // Each side keeps its own step, as far as the other can follow.
     let ratio = f64::from(case.coupling.step_ratio);
     let beside = |own: Option<f64>, other: Option<f64>| {

@@ -17,6 +17,7 @@ mod reader;
 mod scales;
 mod set;
 mod warnings;
+mod steps;
 
 use std::path::{Path, PathBuf};
 
@@ -30,6 +31,7 @@ pub use error::{CaseError, CaseErrors};
 pub use read_adaptation::{DEFAULT_ADAPT_EVERY, EPSILON_IF_SMOOTH, EPSILON_WITH_JUMPS};
 
 /// Cell fields of the fluid that `output.fields` may name.
+pub use steps::SMALLEST_STEP;
 pub const FLUID_FIELDS: [&str; 6] = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
 
 /// Cell fields of the solid that `output.fields` may name.

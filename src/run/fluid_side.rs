@@ -70,7 +70,6 @@ pub struct FluidSide {
     /// The solid's last word: how long a step it allows, how many cells it has, what it was asked to do.
     answer: FrameHeader,
     limited_by: &'static str,
-    smallest_step: f64,
     last_dt: f64,
     clock: Clock,
     keeper: Option<Keeper>,
@@ -80,9 +79,6 @@ pub struct FluidSide {
     is_resumed: bool,
     past: Past,
 }
-
-/// A step shorter than this share of the run means that the solution has gone bad.
-const SMALLEST_SHARE: f64 = 1e-9;
 
 impl FluidSide {
     /// The fluid of a case; with a directory it writes what happens.
@@ -110,7 +106,6 @@ impl FluidSide {
             pending: None,
             answer: FrameHeader::new(FrameKind::Register),
             limited_by: "fluid",
-            smallest_step: SMALLEST_SHARE * case.time.end,
             last_dt: 0.0,
             clock: Clock::default(),
             keeper: None,
@@ -345,7 +340,7 @@ impl FluidSide {
     fn plan(&mut self, own: f64, others_limit: f64) -> Result<Option<Plan>, RunError> {
         self.limited_by = if own <= others_limit { "fluid" } else { "solid" };
         let limit = own.min(others_limit);
-        if !(limit > self.smallest_step) {
+        if !(limit > self.rule.smallest) {
             return Err(RunError::TimeStepCollapsed {
                 dt: limit,
                 time: self.solver.time(),

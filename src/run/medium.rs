@@ -9,7 +9,7 @@ use mesh::{BLOCK, Geometry, GroupStep, LevelClock, Mesh, Part};
 use solid::SolidSolver;
 
 use super::RunError;
-use crate::case::Case;
+use crate::case::{Case, SMALLEST_STEP};
 
 /// An exchange may take no more steps of the finest level than waves stay within the blocks that adaptation made for them.
 const LONGEST_EXCHANGE: f64 = 24.0;
@@ -23,6 +23,8 @@ pub struct StepRule {
     pub local: bool,
     /// The most steps that one side makes within one of the other.
     pub ratio: u32,
+    /// A limit that is no longer than this, s, means that the solution has gone bad.
+    pub smallest: f64,
 }
 
 /// A solver, whichever medium it is for.
@@ -34,6 +36,8 @@ pub trait Medium {
     fn grid(&self) -> &Mesh<BLOCK>;
     /// The time that the finest level has reached, s.
     fn reached(&self) -> f64;
+    /// Steps made, of the finest level.
+    fn made(&self) -> u64;
     /// Which levels step when.
     fn clock(&self) -> &LevelClock;
     /// The longest step of all cells alike, s.
@@ -78,6 +82,9 @@ macro_rules! medium {
             }
             fn reached(&self) -> f64 {
                 self.time()
+            }
+            fn made(&self) -> u64 {
+                self.steps()
             }
             fn clock(&self) -> &LevelClock {
                 $solver::clock(self)
@@ -144,7 +151,25 @@ impl StepRule {
     /// A case's rule. The paper's schemes are made for one step of both sides.
     pub fn of(case: &Case) -> Self {
         let common = case.coupling.scheme.exchanges_cells();
-        Self { cfl: case.time.cfl, local: case.time.local_steps && !common, ratio: case.coupling.step_ratio }
+        Self {
+            cfl: case.time.cfl,
+            local: case.time.local_steps && !common,
+            ratio: case.coupling.step_ratio,
+            smallest: SMALLEST_STEP * case.time.end,
+        }
+    }
+
+    /// Passes a limit of a medium's step on unless it has collapsed: steps of no length would go on for ever.
+    pub fn unless_collapsed<M: Medium>(&self, limit: f64, medium: &M) -> Result<f64, RunError> {
+        if limit > self.smallest {
+            return Ok(limit);
+        }
+        Err(RunError::TimeStepCollapsed {
+            dt: limit,
+            time: medium.reached(),
+            step: medium.made() + 1,
+            limited_by: M::OWN.name(),
+        })
     }
 
     /// About how many steps of the finest level a step of length `dt` holds.
@@ -225,7 +250,8 @@ fn step_to_end<M: Medium>(
 ) -> Result<(), RunError> {
     loop {
         while medium.clock().due().is_some() {
-            let step = medium.start(medium.due_limit(rule.cfl));
+            let limit = rule.unless_collapsed(medium.due_limit(rule.cfl), medium)?;
+            let step = medium.start(limit);
             before(medium, step);
             medium.run(step, Part::All)?;
         }
@@ -273,7 +299,7 @@ pub fn short_steps<M: Medium>(
         while let Some(group) = medium.clock().due() {
             // The whole is the other side's: how many steps of the coarsest level it holds follows from that level's limit.
             let limit = if group == 0 { rule.alone(medium).limit } else { medium.due_limit(rule.cfl) };
-            let step = medium.start(limit);
+            let step = medium.start(rule.unless_collapsed(limit, medium)?);
             let (rows, faces) = meeting.own_trace();
             medium.write_group_trace(step, |row, face, value| rows[row as usize * faces + face] = value);
             let is_due = |face: usize| medium.group_of_face(face) == group;

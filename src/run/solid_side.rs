@@ -172,7 +172,7 @@ impl SolidSide {
 
     /// Begins a long step: shows the trace and does what does not depend on the fluid.
     fn begin_long(&mut self, link: &mut impl Link, asked: Plan, stop: &Stop) -> Result<(), RunError> {
-        let limit = self.rule.long(&self.solver).limit;
+        let limit = self.rule.unless_collapsed(self.rule.long(&self.solver).limit, &self.solver)?;
         let plan =
             if asked.dt <= limit * (1.0 + 1e-10) { asked } else { Plan { dt: limit, snapshot: false } };
         self.last_dt = plan.dt;
@@ -293,7 +293,7 @@ impl Side for SolidSide {
     const SUMMARY: &'static str = SOLID_SUMMARY;
 
     fn step_alone(&mut self) -> Result<bool, RunError> {
-        let limit = self.rule.alone(&self.solver).limit;
+        let limit = self.rule.unless_collapsed(self.rule.alone(&self.solver).limit, &self.solver)?;
         let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(false) };
         self.last_dt = plan.dt;
         let adapts = self.adapts(plan.dt);

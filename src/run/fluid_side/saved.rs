@@ -52,7 +52,6 @@ impl FluidSide {
             pending: _,
             answer,
             limited_by: _,
-            smallest_step: _,
             last_dt,
             clock,
             keeper: _,
