@@ -8,9 +8,10 @@ use mesh::{BLOCK, Geometry, Side};
 use solid::Material;
 
 use super::format::{duration, hex, mebibytes, plain, si};
+use super::memory::{Memory, available_memory};
 use super::scales::sound_speed;
-use super::warnings::SAFE_CFL;
 use super::steps::first_steps;
+use super::warnings::SAFE_CFL;
 use super::{Case, FluidCase, GridCase, SolidCase, index};
 
 /// Wall time per cell and step of the fluid on one core, ns: an estimate for the release build.
@@ -21,12 +22,6 @@ const SOLID_NS: f64 = 30.0;
 const GUESSED_SHARE: f64 = 0.1;
 /// Threads the estimate of the run time assumes.
 const THREADS: f64 = 2.0;
-/// Numbers kept per cell: 5 fields, two copies of each, their slopes in two directions and rates.
-const FLUID_NUMBERS: f64 = 30.0;
-/// The same with the solid's 6 fields.
-const SOLID_NUMBERS: f64 = 36.0;
-/// Layers of ghost cells about a block.
-const GHOSTS: f64 = 2.0;
 /// Rayleigh's collapse time over R √(ρ/Δp): 0.91468… (Rayleigh 1917).
 const RAYLEIGH: f64 = 0.915;
 
@@ -39,15 +34,15 @@ pub fn report(case: &Case) -> String {
     };
     line(&mut text, "case", &format!("{}, {geometry}, to {}", case.name, si(case.time.end, "s")));
     line(&mut text, "hash", &hex(&case.hash()));
-    if let Some(fluid) = &case.fluid {
-        side(&mut text, "fluid", &fluid.grid, FLUID_NUMBERS);
+    if let (Some(fluid), Some(memory)) = (&case.fluid, case.fluid_memory()) {
+        side(&mut text, "fluid", &fluid.grid, memory);
         let [pressure, density] = [(fluid.scale_pressure, "Pa"), (fluid.scale_density, "kg/m3")];
         adaptation(&mut text, &fluid.grid, &[pressure, density]);
         regions(&mut text, case, fluid);
         sides(&mut text, fluid);
     }
-    if let Some(solid) = &case.solid {
-        side(&mut text, "solid", &solid.grid, SOLID_NUMBERS);
+    if let (Some(solid), Some(memory)) = (&case.solid, case.solid_memory()) {
+        side(&mut text, "solid", &solid.grid, memory);
         adaptation(&mut text, &solid.grid, &[(solid.scale_stress, "Pa")]);
         material(&mut text, &solid.material);
     }
@@ -106,16 +101,15 @@ fn line(text: &mut String, label: &str, value: &str) {
 }
 
 /// The cells of a side and their memory.
-fn side(text: &mut String, name: &str, grid: &GridCase, numbers: f64) {
+fn side(text: &mut String, name: &str, grid: &GridCase, memory: Memory) {
     let ([cells_z, cells_r], [blocks_z, blocks_r], [h_z, h_r]) =
         (grid.finest(), grid.blocks(), grid.cell_size());
     let (count, size) = (grid.cell_count(), format!("{} x {}", si(h_z, "m"), si(h_r, "m")));
-    let bytes = memory(grid.cell_count() as f64, numbers);
     if grid.adaptation.is_none() {
         let cells = format!(
             "{cells_z} x {cells_r} = {count} cells of {size}, {} blocks of {BLOCK} x {BLOCK}, about {}",
             blocks_z * blocks_r,
-            mebibytes(bytes)
+            mebibytes(memory.most)
         );
         return line(text, name, &cells);
     }
@@ -128,9 +122,9 @@ fn side(text: &mut String, name: &str, grid: &GridCase, numbers: f64) {
     );
     line(text, name, &cells);
     let bounds = format!(
-        "{count} cells and {} if all cells were on the finest level; a tenth of it is a guess: {}",
-        mebibytes(bytes),
-        mebibytes(GUESSED_SHARE * bytes)
+        "{count} cells and {} if all cells were on the finest level; a tenth of them is a guess: {}",
+        mebibytes(memory.most),
+        mebibytes(guessed_memory(memory, grid))
     );
     line(text, "  at most", &bounds);
 }
@@ -297,31 +291,26 @@ fn guessed_cells(grid: &GridCase) -> f64 {
     share * grid.cell_count() as f64
 }
 
-/// Bytes for the fields of so many cells.
-fn memory(cells: f64, numbers: f64) -> f64 {
-    let block = BLOCK as f64;
-    let with_ghosts = ((block + 2.0 * GHOSTS) / block).powi(2);
-    cells * with_ghosts * numbers * 8.0
+/// The memory that a side is expected to take: of a uniform grid all, of an adaptive one a guess.
+fn guessed_memory(memory: Memory, grid: &GridCase) -> f64 {
+    let share = if grid.adaptation.is_some() { GUESSED_SHARE } else { 1.0 };
+    memory.at_start.max(share * memory.most)
 }
 
 fn memory_warning(case: &Case) -> Option<String> {
-    let needed = case.fluid.as_ref().map_or(0.0, |side| memory(guessed_cells(&side.grid), FLUID_NUMBERS))
-        + case.solid.as_ref().map_or(0.0, |side| memory(guessed_cells(&side.grid), SOLID_NUMBERS));
+    let sides = [
+        case.fluid_memory().zip(case.fluid.as_ref().map(|side| &side.grid)),
+        case.solid_memory().zip(case.solid.as_ref().map(|side| &side.grid)),
+    ];
+    let needed: f64 = sides.into_iter().flatten().map(|(memory, grid)| guessed_memory(memory, grid)).sum();
     let available = available_memory()?;
     (needed > available).then(|| {
         format!(
-            "the fields need about {}, but {} of memory are available; lower `levels`",
+            "the run needs about {}, but {} of memory are available; lower `levels`",
             mebibytes(needed),
             mebibytes(available)
         )
     })
-}
-
-/// What the kernel says is available, bytes; unknown on systems that do not say.
-fn available_memory() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let row = text.lines().find_map(|row| row.strip_prefix("MemAvailable:"))?;
-    row.trim().strip_suffix("kB")?.trim().parse::<f64>().ok().map(|kib| kib * 1024.0)
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod error;
 mod far_field;
 mod format;
 mod initial_pressure;
+mod memory;
 mod read;
 mod read_adaptation;
 mod read_coupling;
@@ -16,8 +17,8 @@ mod read_solid;
 mod reader;
 mod scales;
 mod set;
-mod warnings;
 mod steps;
+mod warnings;
 
 use std::path::{Path, PathBuf};
 
@@ -28,10 +29,11 @@ use solid::{InitialStress, Material, PotentialPulse};
 
 pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
+pub use memory::{Memory, available_memory};
 pub use read_adaptation::{DEFAULT_ADAPT_EVERY, EPSILON_IF_SMOOTH, EPSILON_WITH_JUMPS};
+pub use steps::SMALLEST_STEP;
 
 /// Cell fields of the fluid that `output.fields` may name.
-pub use steps::SMALLEST_STEP;
 pub const FLUID_FIELDS: [&str; 6] = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
 
 /// Cell fields of the solid that `output.fields` may name.

@@ -20,6 +20,7 @@ use super::cell_exchange::CellExchange;
 use super::checkpoints::Keeper;
 use super::fluid_record::FluidRecord;
 use super::medium::{self, StepRule};
+use super::memory::MemoryWatch;
 use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
 use super::setup::fluid_solver;
@@ -72,6 +73,7 @@ pub struct FluidSide {
     limited_by: &'static str,
     last_dt: f64,
     clock: Clock,
+    memory: MemoryWatch,
     keeper: Option<Keeper>,
     /// Whether the frame that this turn ends with asks the solid for its part of a checkpoint.
     tells_of_checkpoint: bool,
@@ -106,6 +108,7 @@ impl FluidSide {
             pending: None,
             answer: FrameHeader::new(FrameKind::Register),
             limited_by: "fluid",
+            memory: MemoryWatch::of(case.fluid_memory()),
             last_dt: 0.0,
             clock: Clock::default(),
             keeper: None,
@@ -201,7 +204,7 @@ impl FluidSide {
             return Ok(Turn::Over(stopped));
         }
         if self.solver.steps() > 0 {
-            self.adapt_if_due();
+            self.adapt_if_due()?;
         }
         let (own, others) = (self.rule.long(&self.solver).limit, self.answer.dt_max);
         let is_long = own >= others || self.rule.ratio == 1 || self.answer.has(FrameHeader::FOLLOWS);
@@ -316,7 +319,7 @@ impl FluidSide {
     }
 
     /// Adapts the grid if it is time to, with all that is kept per face of the wall.
-    fn adapt_if_due(&mut self) {
+    fn adapt_if_due(&mut self) -> Result<(), RunError> {
         let start = Instant::now();
         if self.solver.adapt_if_due(self.last_dt, self.rule.steps_in(self.last_dt, &self.solver)) {
             let edges = self.solver.wall_edges();
@@ -334,6 +337,7 @@ impl FluidSide {
         let elapsed = start.elapsed();
         self.clock.computing += elapsed;
         self.clock.adapting += elapsed;
+        self.memory.look(self.solver.mesh().cells(), self.solver.time(), "fluid")
     }
 
     /// The next step: no longer than either side's limit.

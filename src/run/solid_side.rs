@@ -18,6 +18,7 @@ use super::drive::Side;
 use super::fluid_side::Turn;
 use super::load::Load;
 use super::medium::{self, Medium, StepRule};
+use super::memory::MemoryWatch;
 use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
 use super::setup::solid_solver;
@@ -57,6 +58,7 @@ pub struct SolidSide {
     end: f64,
     last_dt: f64,
     clock: Clock,
+    memory: MemoryWatch,
     keeper: Option<Keeper>,
     past: Past,
 }
@@ -94,6 +96,7 @@ impl SolidSide {
             end: case.time.end * (1.0 - 1e-12),
             last_dt: 0.0,
             clock: Clock::default(),
+            memory: MemoryWatch::of(case.solid_memory()),
             keeper: None,
             past: Past::after(Done::default()),
         }
@@ -166,8 +169,7 @@ impl SolidSide {
         let adapts = self.adapts(plan.dt);
         let timed = Timed::new(&mut self.clock);
         medium::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))?;
-        self.adapt_if(adapts, plan.dt);
-        Ok(())
+        self.adapt_if(adapts, plan.dt)
     }
 
     /// Begins a long step: shows the trace and does what does not depend on the fluid.
@@ -218,7 +220,7 @@ impl SolidSide {
             |_, meeting| if early { send(meeting, header) } else { Ok(()) },
             timed.recorded(&mut self.record, plan),
         )?;
-        self.adapt_if(adapts, plan.dt);
+        self.adapt_if(adapts, plan.dt)?;
         if !early {
             let dt_max = self.rule.counted(&self.solver);
             let cells = self.solver.mesh().cells() as u64;
@@ -265,9 +267,9 @@ impl SolidSide {
         self.rule.steps_in(dt, &self.solver).max(fluids)
     }
 
-    fn adapt_if(&mut self, adapts: bool, dt: f64) {
+    fn adapt_if(&mut self, adapts: bool, dt: f64) -> Result<(), RunError> {
         if !adapts {
-            return;
+            return Ok(());
         }
         let start = Instant::now();
         if self.solver.adapt(dt, self.steps_in(dt)) {
@@ -276,6 +278,7 @@ impl SolidSide {
         let elapsed = start.elapsed();
         self.clock.computing += elapsed;
         self.clock.adapting += elapsed;
+        self.memory.look(self.solver.mesh().cells(), self.solver.time(), "solid")
     }
 
     fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
@@ -306,7 +309,7 @@ impl Side for SolidSide {
         };
         let after = timed.recorded(&mut self.record, plan);
         medium::step_alone(&mut self.solver, plan.dt, &self.rule, press, after)?;
-        self.adapt_if(adapts, plan.dt);
+        self.adapt_if(adapts, plan.dt)?;
         Ok(true)
     }
 

@@ -54,6 +54,7 @@ impl FluidSide {
             limited_by: _,
             last_dt,
             clock,
+            memory: _,
             keeper: _,
             tells_of_checkpoint: _,
             is_resumed: _,
