@@ -107,6 +107,15 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("end = 1e-6", "end = 1e-6\nsnapshot_every = 0.0"), &["time.snapshot_every: must be positive"]),
     (Replace("end = 1e-6", "end = 1e-6\nsnapshot_every = 1e-15"), &["time.snapshot_every", "longer interval"]),
     (Replace("end = 1e-6", "end = 1e-6\nsnapshots = [\"x\"]"), &["time.snapshots.0: must be a number"]),
+    // Steps that never get to the end, by the side that has them.
+    (Replace("end = 1e-6", "end = 1e3"), &["time.end: 1000.0 s are", "steps of", "more than 1e9: the fluid has cells of", "fluid.ambient", "time.cfl = 0.45", "end earlier"]),
+    (Replace("density = 1.2", "density = 1e-40"), &["time.end", "m/s in fluid.region.0", "density, pressure, velocity", "wider cells (fluid.z"]),
+    (Replace("material = \"structural-steel\"", "material = { density = 1e-30, young = 1e11, poisson = 0.3 }"), &["time.end", "the solid has cells of", "solid.material", "c1, or the moduli and density"]),
+    // Magnitudes of which products cannot be held.
+    (Replace("end = 1e-6", "end = 1e-61"), &["time.end: must be 1e-60 at least, got 1e-61", "in s"]),
+    (Replace("pressure = 1e6", "pressure = 1e61"), &["fluid.ambient.pressure: must not exceed 1e60 in magnitude, got 1e61", "in Pa"]),
+    (Replace("r = [0.0, 0.01]", "r = [0.0, 1e-61]"), &["fluid.r: must be 1e-60 m wide at least", "further apart"]),
+    (Replace("\"structural-steel\"", "{ density = 1e-61, c1 = 5990, c2 = 3458 }"), &["solid.material: density 1e-61 kg/m3", "1e-60 to 1e60", "belong together"]),
     // Grids.
     (Replace("cells = [4, 4]", "cells = [0, 4]"), &["fluid.cells.0: must be from 1 to", "got 0"]),
     (Replace("cells = [4, 4]", "cells = [-4, 4]"), &["fluid.cells.0", "got -4", "whole number from 1"]),
@@ -214,6 +223,7 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("scheme = \"riemann\"", "scheme = \"strong\"\ntolerance = 1.0\nmax_iterations = 0"), &["coupling.tolerance: must be above 0 and below 1, got 1.0", "coupling.max_iterations", "1 to 10000"]),
     (Replace("scheme = \"riemann\"", "scheme = \"explicit\"\ntolerance = 1e-3\nmax_iterations = 3"), &["coupling.tolerance: only scheme = \"strong\"", "coupling.max_iterations: only scheme = \"strong\""]),
     (Replace("scheme = \"riemann\"", "patience = -1"), &["coupling.patience: must be positive"]),
+    (Replace("scheme = \"riemann\"", "patience = 1e10\nconnect_timeout = 1e-4"), &["coupling.patience: must be from 0.001 to 1e9 s, got 10000000000.0", "coupling.connect_timeout: must be from", "give seconds from 0.001 to 1e9"]),
     (Replace("scheme = \"riemann\"", "scheme = \"load\""), &["coupling.scheme", "for a solid alone", "remove [fluid]", "needs a load", "[coupling.load]"]),
     (Append("[coupling.load]\namplitude = 1e6\nradius = 1e-3\nhistory = [[0.0, 1.0]]"), &["coupling.load: only scheme = \"load\" has a load", "remove it"]),
     (Sets(&["coupling.scheme=load", "coupling.load={ amplitude = \"x\", radius = -1, histroy = [] }"]), &["coupling.load.amplitude: must be a number", "in Pa", "coupling.load.radius: must be positive, got -1.0", "in m", "unknown key `histroy`", "did you mean `history`?", "`history = [[t, value], ...]` in s and 1"]),
@@ -230,6 +240,7 @@ const BAD: &[(Edit, &[&str])] = &[
     (Replace("medium = \"fluid\"", "medium = \"water\""), &["probe.0.medium", "`fluid`, `solid`"]),
     (Append("[output]\nfields = [\"preasure\"]"), &["output.fields.0: unknown field `preasure`", "did you mean `pressure`?"]),
     (Append("[output]\ncompression = 10"), &["output.compression: must be from 0 to 9, got 10"]),
+    (Append("[output]\ninterface_every = 1e-13"), &["output.interface_every: 1e-13 s means more than 1e6 rows until time.end = 1e-6 s", "s or more"]),
     (Append("[output]\ninterface_every = 0"), &["output.interface_every: must be positive"]),
     (Append("[output]\ndirectory = \"\""), &["output.directory: is empty"]),
     // Changes from the command line.
@@ -503,9 +514,9 @@ fn a_load_on_a_solid_alone_survives_being_written_out() {
 
 #[test]
 fn sides_that_are_not_named_have_what_the_scheme_means() {
-    use fluid::Boundary::{Axis, Interface, NonReflecting, Wall};
+    use fluid::Boundary::{Axis, FarField, Interface, Wall};
     let fluid_sides = |case: &Case| case.fluid.as_ref().map(|fluid| fluid.boundary);
-    assert_eq!(fluid_sides(&good()), Some([Interface, NonReflecting, Axis, NonReflecting]));
+    assert_eq!(fluid_sides(&good()), Some([Interface, FarField, Axis, FarField]));
     assert_eq!(
         good().solid.map(|solid| solid.boundary),
         Some([
@@ -516,7 +527,7 @@ fn sides_that_are_not_named_have_what_the_scheme_means() {
         ])
     );
     let rigid = with(&["coupling.scheme=rigid", "probe.0.medium=solid"]);
-    assert_eq!(fluid_sides(&rigid), Some([Wall, NonReflecting, Axis, NonReflecting]));
+    assert_eq!(fluid_sides(&rigid), Some([Wall, FarField, Axis, FarField]));
     assert!(rigid.solid.is_none() && rigid.probes.is_empty());
     let named = with(&["fluid.boundary={ z_min = \"interface\", r_min = \"axis\" }"]);
     assert_eq!(named, good());

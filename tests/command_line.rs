@@ -111,6 +111,10 @@ enum Edit {
 }
 use Edit::{Append, Instead, Replace, With};
 
+/// More cells than any machine holds.
+const LARGE: &[&str] =
+    &["--set", "fluid.levels=0", "--set", "fluid.cells=[1048576, 1048576]", "--set", "fluid.adapt=false"];
+
 /// Edit, then what standard error must have in it: the key or the path, and the remedy.
 #[rustfmt::skip]
 const BAD: &[(Edit, &[&str])] = &[
@@ -121,6 +125,15 @@ const BAD: &[(Edit, &[&str])] = &[
     (Instead(&["check", "absent.toml"]), &["absent.toml", "check the path"]),
     (Instead(&["fluid", "absent.toml", "--run", "a"]), &["absent.toml", "check the path"]),
     (Replace("[time]", "[time"), &["not TOML", "https://toml.io"]),
+    // What would never end, and what no machine holds; refused before anything is made, by each of the sides, too.
+    (With(&["--set", "output.interface_every=1e-30"]), &["output.interface_every", "1e6 rows", "s or more"]),
+    (With(&["--set", "coupling.connect_timeout=1e20", "--set", "coupling.patience=1e-9"]), &["coupling.connect_timeout", "coupling.patience", "from 0.001 to 1e9"]),
+    (With(&["--set", "time.end=1e30"]), &["time.end", "more than 1e9", "end earlier"]),
+    (With(&["--set", "time.cfl=1e-30"]), &["time.end", "time.cfl", "more than 1e9", "larger time.cfl"]),
+    (With(&["--set", "fluid.liquid.pi=1e60"]), &["time.end", "more than 1e9", "fluid.ambient", "look at"]),
+    (With(LARGE), &["fluid.levels", "1048576 x 1048576 cells", "are available", "fluid.adapt", "cav check"]),
+    (Instead(&["fluid", "case.toml", "--run", "a", "--set", LARGE[1], "--set", LARGE[3], "--set", LARGE[5]]), &["fluid.levels", "are available", "cav check"]),
+    (With(&["--in-process", "--set", "solid.levels=0", "--set", "solid.cells=[1048576, 1048576]"]), &["solid.levels", "are available", "lower solid.levels"]),
     // Keys and types.
     (Replace("levels = 2", "level = 2"), &["fluid.level", "unknown key", "did you mean `levels`?"]),
     (Append("[outputs]\n"), &["unknown key `outputs`", "did you mean `output`?"]),

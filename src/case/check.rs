@@ -3,12 +3,14 @@
 use std::fmt::Write as _;
 
 use coupler::Scheme;
-use fluid::{Boundary, Phase, PhaseState, PulseShape, RayleighField, Shape};
+use fluid::{Boundary, Phase, PhaseState, RayleighField, Shape};
 use mesh::{Adaptation, BLOCK, Geometry, Side};
 use solid::Material;
 
 use super::format::{duration, hex, mebibytes, plain, si};
+use super::memory::{Memory, available_memory};
 use super::scales::sound_speed;
+use super::steps::first_steps;
 use super::warnings::SAFE_CFL;
 use super::{Case, FluidCase, GridCase, SolidCase, index};
 
@@ -20,12 +22,6 @@ const SOLID_NS: f64 = 30.0;
 const GUESSED_SHARE: f64 = 0.1;
 /// Threads the estimate of the run time assumes.
 const THREADS: f64 = 2.0;
-/// Numbers kept per cell: 5 fields, two copies of each, their slopes in two directions and rates.
-const FLUID_NUMBERS: f64 = 30.0;
-/// The same with the solid's 6 fields.
-const SOLID_NUMBERS: f64 = 36.0;
-/// Layers of ghost cells about a block.
-const GHOSTS: f64 = 2.0;
 /// Rayleigh's collapse time over R √(ρ/Δp): 0.91468… (Rayleigh 1917).
 const RAYLEIGH: f64 = 0.915;
 
@@ -38,8 +34,8 @@ pub fn report(case: &Case) -> String {
     };
     line(&mut text, "case", &format!("{}, {geometry}, to {}", case.name, si(case.time.end, "s")));
     line(&mut text, "hash", &hex(&case.hash()));
-    if let Some(fluid) = &case.fluid {
-        side(&mut text, "fluid", &fluid.grid, FLUID_NUMBERS);
+    if let (Some(fluid), Some(memory)) = (&case.fluid, case.fluid_memory()) {
+        side(&mut text, "fluid", &fluid.grid, memory);
         if let Some(adaptive) = &fluid.grid.adaptation {
             let pressure = (fluid.wave_epsilon, fluid.scale_pressure, "Pa");
             let density = (adaptive.epsilon, fluid.scale_density, "kg/m3");
@@ -48,8 +44,8 @@ pub fn report(case: &Case) -> String {
         regions(&mut text, case, fluid);
         sides(&mut text, fluid);
     }
-    if let Some(solid) = &case.solid {
-        side(&mut text, "solid", &solid.grid, SOLID_NUMBERS);
+    if let (Some(solid), Some(memory)) = (&case.solid, case.solid_memory()) {
+        side(&mut text, "solid", &solid.grid, memory);
         if let Some(adaptive) = &solid.grid.adaptation {
             adaptation(&mut text, adaptive, &[(adaptive.epsilon, solid.scale_stress, "Pa")]);
         }
@@ -110,16 +106,15 @@ fn line(text: &mut String, label: &str, value: &str) {
 }
 
 /// The cells of a side and their memory.
-fn side(text: &mut String, name: &str, grid: &GridCase, numbers: f64) {
+fn side(text: &mut String, name: &str, grid: &GridCase, memory: Memory) {
     let ([cells_z, cells_r], [blocks_z, blocks_r], [h_z, h_r]) =
         (grid.finest(), grid.blocks(), grid.cell_size());
     let (count, size) = (grid.cell_count(), format!("{} x {}", si(h_z, "m"), si(h_r, "m")));
-    let bytes = memory(grid.cell_count() as f64, numbers);
     if grid.adaptation.is_none() {
         let cells = format!(
             "{cells_z} x {cells_r} = {count} cells of {size}, {} blocks of {BLOCK} x {BLOCK}, about {}",
             blocks_z * blocks_r,
-            mebibytes(bytes)
+            mebibytes(memory.most)
         );
         return line(text, name, &cells);
     }
@@ -132,9 +127,9 @@ fn side(text: &mut String, name: &str, grid: &GridCase, numbers: f64) {
     );
     line(text, name, &cells);
     let bounds = format!(
-        "{count} cells and {} if all cells were on the finest level; a tenth of it is a guess: {}",
-        mebibytes(bytes),
-        mebibytes(GUESSED_SHARE * bytes)
+        "{count} cells and {} if all cells were on the finest level; a tenth of them is a guess: {}",
+        mebibytes(memory.most),
+        mebibytes(guessed_memory(memory, grid))
     );
     line(text, "  at most", &bounds);
 }
@@ -239,42 +234,8 @@ fn impedances(text: &mut String, fluid: &FluidCase, solid: &SolidCase) {
     line(text, "impedance", &numbers);
 }
 
-/// The fluid's step at t = 0, s: the shortest of its cells', see [`mesh::longest_step`].
-fn fluid_step(fluid: &FluidCase, cfl: f64) -> f64 {
-    let limit = |state: &PhaseState| {
-        let c = sound_speed(fluid.eos(state), state.density, state.pressure);
-        mesh::longest_step(cfl, fluid.grid.cell_size(), state.velocity.map(|v| v.abs() + c))
-    };
-    let initial = &fluid.initial;
-    let mut step = limit(&initial.ambient);
-    for region in &initial.regions {
-        step = step.min(limit(&region.state));
-    }
-    // At a pulse's crest the liquid is compressed along its isentrope, (p + π)/ρ^γ = const.
-    for pulse in initial.pulses.iter().filter(|pulse| pulse.amplitude > 0.0) {
-        let eos = fluid.eos(&initial.ambient);
-        let (density, pressure) = (initial.ambient.density, initial.ambient.pressure);
-        let crest = pressure + pulse.amplitude;
-        let compressed = density * ((crest + eos.pi) / (pressure + eos.pi)).powf(1.0 / eos.gamma);
-        let mut state = PhaseState { density: compressed, pressure: crest, ..initial.ambient };
-        if let PulseShape::Plane { direction: Some([z, r]) } = pulse.shape {
-            let v = pulse.amplitude / (density * sound_speed(eos, density, pressure));
-            state.velocity[0] += v * z;
-            state.velocity[1] += v * r;
-        }
-        step = step.min(limit(&state));
-    }
-    step
-}
-
-/// The solid's step, s.
-fn solid_step(solid: &SolidCase, cfl: f64) -> f64 {
-    mesh::longest_step(cfl, solid.grid.cell_size(), [solid.material.c1(); 2])
-}
-
 fn steps(text: &mut String, case: &Case) {
-    let fluid = case.fluid.as_ref().map(|fluid| fluid_step(fluid, case.time.cfl));
-    let solid = case.solid.as_ref().map(|solid| solid_step(solid, case.time.cfl));
+    let [fluid, solid] = first_steps(case).map(|side| side.map(|first| first.length));
     // Each side keeps its own step, as far as the other can follow.
     let ratio = f64::from(case.coupling.step_ratio);
     let beside = |own: Option<f64>, other: Option<f64>| {
@@ -335,31 +296,26 @@ fn guessed_cells(grid: &GridCase) -> f64 {
     share * grid.cell_count() as f64
 }
 
-/// Bytes for the fields of so many cells.
-fn memory(cells: f64, numbers: f64) -> f64 {
-    let block = BLOCK as f64;
-    let with_ghosts = ((block + 2.0 * GHOSTS) / block).powi(2);
-    cells * with_ghosts * numbers * 8.0
+/// The memory that a side is expected to take: of a uniform grid all, of an adaptive one a guess.
+fn guessed_memory(memory: Memory, grid: &GridCase) -> f64 {
+    let share = if grid.adaptation.is_some() { GUESSED_SHARE } else { 1.0 };
+    memory.at_start.max(share * memory.most)
 }
 
 fn memory_warning(case: &Case) -> Option<String> {
-    let needed = case.fluid.as_ref().map_or(0.0, |side| memory(guessed_cells(&side.grid), FLUID_NUMBERS))
-        + case.solid.as_ref().map_or(0.0, |side| memory(guessed_cells(&side.grid), SOLID_NUMBERS));
+    let sides = [
+        case.fluid_memory().zip(case.fluid.as_ref().map(|side| &side.grid)),
+        case.solid_memory().zip(case.solid.as_ref().map(|side| &side.grid)),
+    ];
+    let needed: f64 = sides.into_iter().flatten().map(|(memory, grid)| guessed_memory(memory, grid)).sum();
     let available = available_memory()?;
     (needed > available).then(|| {
         format!(
-            "the fields need about {}, but {} of memory are available; lower `levels`",
+            "the run needs about {}, but {} of memory are available; lower `levels`",
             mebibytes(needed),
             mebibytes(available)
         )
     })
-}
-
-/// What the kernel says is available, bytes; unknown on systems that do not say.
-fn available_memory() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let row = text.lines().find_map(|row| row.strip_prefix("MemAvailable:"))?;
-    row.trim().strip_suffix("kB")?.trim().parse::<f64>().ok().map(|kib| kib * 1024.0)
 }
 
 #[cfg(test)]

@@ -42,6 +42,8 @@ fn remedy(error: RayleighError) -> String {
         RayleighError::Overlap { first, second } => {
             otherwise(&format!("move fluid.region.{first} and fluid.region.{second} apart"))
         }
-        RayleighError::TooNear { .. } => otherwise("leave more space between the bubbles and to the wall"),
+        RayleighError::TooNear { .. } => {
+            otherwise("leave more space between the bubbles (fluid.region) and to the wall")
+        }
     }
 }

@@ -7,6 +7,7 @@ mod error;
 mod far_field;
 mod format;
 mod initial_pressure;
+mod memory;
 mod read;
 mod read_adaptation;
 mod read_coupling;
@@ -16,6 +17,7 @@ mod read_solid;
 mod reader;
 mod scales;
 mod set;
+mod steps;
 mod thresholds;
 mod warnings;
 
@@ -28,7 +30,9 @@ use solid::{InitialStress, Material, PotentialPulse};
 
 pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
+pub use memory::{Memory, available_memory};
 pub use read_adaptation::DEFAULT_ADAPT_EVERY;
+pub use steps::SMALLEST_STEP;
 pub use thresholds::DEFAULT_ERROR;
 
 /// Cell fields of the fluid that `output.fields` may name.

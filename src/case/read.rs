@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use coupler::Scheme;
 use mesh::{Geometry, Side};
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::error::{CaseError, suggest};
@@ -11,11 +12,13 @@ use super::read_grid::MOST_CELLS;
 use super::reader::{Faults, Given, Table, array, pair};
 use super::{
     Case, FLUID_FIELDS, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index, read_coupling,
-    read_fluid, read_solid, scales, thresholds,
+    read_fluid, read_solid, scales, steps, thresholds,
 };
 
 /// More snapshots than this are a mistake.
 const MOST_SNAPSHOTS: f64 = 1e5;
+/// More rows than this in the histories of the interface and of the conserved quantities are a mistake.
+const MOST_ROWS: f64 = 1e6;
 
 /// What the tables of both sides need to know of the rest of the case.
 #[derive(Clone, Copy)]
@@ -59,7 +62,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         coupling.load.as_ref(),
     );
     let probes = probes(&mut root, &mut faults);
-    let output = output(&mut root, &mut faults);
+    let output = output(&mut root, time.as_ref().map(|time| time.end), &mut faults);
     root.finish(&mut faults);
 
     let mut notes = Vec::new();
@@ -86,20 +89,24 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         &mut faults,
     );
 
-    match time {
-        Some(time) if faults.0.is_empty() => Ok(Case {
-            name: name.to_owned(),
-            geometry,
-            time,
-            fluid: fluid.map(|(fluid, _)| fluid),
-            solid: solid.map(|(solid, _)| solid),
-            coupling,
-            probes,
-            output,
-            notes,
-        }),
-        _ => Err(faults.0),
+    let Some(time) = time.filter(|_| faults.0.is_empty()) else { return Err(faults.0) };
+    let case = Case {
+        name: name.to_owned(),
+        geometry,
+        time,
+        fluid: fluid.map(|(fluid, _)| fluid),
+        solid: solid.map(|(solid, _)| solid),
+        coupling,
+        probes,
+        output,
+        notes,
+    };
+    if let Some((message, help)) = steps::too_many(&case) {
+        let end = document.get_ref().get("time").and_then(|time| time.get_ref().as_table()?.get("end"));
+        faults.at("time.end", &end.map_or(0..0, Spanned::span), message, help);
+        return Err(faults.0);
     }
+    Ok(case)
 }
 
 fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
@@ -138,7 +145,8 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
         if every <= 0.0 {
             faults.of(given, format!("must be positive, got {every:?}"), "give an interval > 0 in s");
         } else if end / every > MOST_SNAPSHOTS {
-            let message = format!("{every:?} s means more than {MOST_SNAPSHOTS} snapshots until {end:?} s");
+            let message =
+                format!("{every:?} s means more than {MOST_SNAPSHOTS} snapshots until time.end = {end:?} s");
             faults.of(given, message, "give a longer interval");
         } else {
             times.extend((1..).map(|k| f64::from(k) * every).take_while(|time| *time < end));
@@ -196,7 +204,8 @@ fn probes(root: &mut Table<'_>, faults: &mut Faults) -> Vec<PlacedProbe> {
     probes
 }
 
-fn output(root: &mut Table<'_>, faults: &mut Faults) -> OutputCase {
+/// - `end`: of the run, s, where known.
+fn output(root: &mut Table<'_>, end: Option<f64>, faults: &mut Faults) -> OutputCase {
     let mut output = OutputCase {
         directory: None,
         fields: None,
@@ -238,6 +247,13 @@ fn output(root: &mut Table<'_>, faults: &mut Faults) -> OutputCase {
     }
     output.interface_cells = table.whole("interface_cells", 1..=MOST_CELLS, faults).map(|given| given.value);
     output.interface_every = table.positive("interface_every", "s", faults);
+    if let (Some(every), Some(end), Some(given)) =
+        (output.interface_every, end, table.place("interface_every"))
+        && end / every > MOST_ROWS * (1.0 + 1e-9)
+    {
+        let message = format!("{every:?} s means more than {MOST_ROWS:e} rows until time.end = {end:?} s");
+        faults.of(&given, message, format!("give {:?} s or more", end / MOST_ROWS));
+    }
     table.finish(faults);
     output
 }

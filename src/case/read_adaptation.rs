@@ -2,7 +2,7 @@
 
 use mesh::{Adaptation, LevelBound, Side, Zone};
 
-use super::reader::{Faults, Given, Table};
+use super::reader::{Faults, Given, LARGEST, Table};
 use super::thresholds::DEFAULT_ERROR;
 
 /// Steps between two adaptations where a case does not say.
@@ -123,7 +123,7 @@ fn outer(table: &mut Table<'_>, levels: Levels, faults: &mut Faults) -> Option<V
     let (centre, radius) = (centre?.value, radius?);
     let coarser = 1..=levels.finest.saturating_sub(levels.roots);
     let ring = |halvings: usize| LevelBound {
-        zone: Zone::Beyond { centre, radius: radius * f64::powi(2.0, halvings as i32 - 1) },
+        zone: Zone::Beyond { centre, radius: (radius * f64::powi(2.0, halvings as i32 - 1)).min(LARGEST) },
         at_least: levels.roots as u8,
         at_most: (levels.finest - halvings) as u8,
     };

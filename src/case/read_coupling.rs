@@ -85,10 +85,10 @@ pub(super) fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCa
         coupling.max_iterations = most.value as u32;
         only_in(&[Scheme::Strong], faults, &most.path, &most.span);
     }
-    if let Some(seconds) = table.positive("connect_timeout", "s", faults) {
+    if let Some(seconds) = table.waiting("connect_timeout", faults) {
         coupling.connect_timeout = seconds;
     }
-    if let Some(seconds) = table.positive("patience", "s", faults) {
+    if let Some(seconds) = table.waiting("patience", faults) {
         coupling.patience = seconds;
     }
     coupling.load = load(&mut table, scheme.as_ref(), faults);

@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use super::error::suggest;
 use super::read::{Context, boundaries};
 use super::read_grid::{GridPlace, grid};
-use super::reader::{Faults, Table, describe};
+use super::reader::{Faults, LARGEST, SMALLEST, Table, describe};
 use super::{SolidCase, scales};
 
 /// - `acting`: what acts on the solid from outside.
@@ -136,6 +136,16 @@ fn custom(mut table: Table<'_>, faults: &mut Faults) -> Option<Material> {
         None => Ok(material),
     });
     match built {
+        // Speeds that follow from moduli are written out, and read again.
+        Ok(material) if material.c1() > LARGEST || material.c2() < SMALLEST || density < SMALLEST => {
+            let message = format!(
+                "density {density:e} kg/m3, c1 = {:e} m/s and c2 = {:e} m/s are not all from {SMALLEST:e} to {LARGEST:e}",
+                material.c1(),
+                material.c2()
+            );
+            faults.at(&path, &span, message, "give speeds or moduli and a density that belong together");
+            None
+        }
         Ok(material) => {
             let name = name.map_or("custom", |given| given.value);
             let material = material.named(name, "the case file");

@@ -10,6 +10,14 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{CaseError, suggest};
 
+/// Numbers of larger magnitude are mistakes: squares and products of several would leave the range of `f64`.
+pub(super) const LARGEST: f64 = 1e60;
+/// Positive numbers below this are mistakes likewise.
+pub(super) const SMALLEST: f64 = 1e-60;
+
+/// How long a side may be told to wait for the other, s: from a millisecond to thirty years.
+const WAITING: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
+
 /// A value with the key it stands under and its place in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Given<T> {
@@ -139,11 +147,32 @@ impl<'a> Table<'a> {
     /// A positive number; a default makes it optional.
     pub fn positive(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<f64> {
         let given = self.number(key, unit, faults)?;
-        if given.value > 0.0 {
+        let got = given.value;
+        if got >= SMALLEST {
+            return Some(got);
+        }
+        let message = if got > 0.0 {
+            format!("must be {SMALLEST:e} at least, got {got:?}")
+        } else {
+            format!("must be positive, got {got:?}")
+        };
+        faults.of(&given, message, format!("give a number > 0 in {unit}"));
+        None
+    }
+
+    /// A time to wait, s, within a range that clocks can count.
+    pub fn waiting(&mut self, key: &'static str, faults: &mut Faults) -> Option<f64> {
+        let given = self.number(key, "s", faults)?;
+        if WAITING.contains(&given.value) {
             return Some(given.value);
         }
-        let got = given.value;
-        faults.of(&given, format!("must be positive, got {got:?}"), format!("give a number > 0 in {unit}"));
+        let (least, most) = (WAITING.start(), WAITING.end());
+        let message = if given.value <= 0.0 {
+            format!("must be positive, got {:?}", given.value)
+        } else {
+            format!("must be from {least:?} to {most:e} s, got {:?}", given.value)
+        };
+        faults.of(&given, message, format!("give seconds from {least:?} to {most:e}"));
         None
     }
 
@@ -188,8 +217,13 @@ impl<'a> Table<'a> {
     pub fn range(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
         let given = self.required_pair(key, "m", faults)?;
         let [low, high] = given.value;
-        if low < high {
+        if high - low >= SMALLEST {
             return Some(given);
+        }
+        if low < high {
+            let message = format!("must be {SMALLEST:e} m wide at least, got [{low:?}, {high:?}] m");
+            faults.of(&given, message, "give bounds that are further apart, in m");
+            return None;
         }
         let help =
             format!("give the smaller bound first: {key} = [{:?}, {:?}]", high.min(low), high.max(low));
@@ -341,7 +375,12 @@ pub(super) fn number(given: &Given<&DeValue<'_>>, unit: &str, faults: &mut Fault
     }
     let value = as_number(given.value);
     match value {
-        Some(value) if value.is_finite() => Some(value),
+        Some(value) if value.abs() <= LARGEST => Some(value),
+        Some(value) if value.is_finite() => {
+            let message = format!("must not exceed {LARGEST:e} in magnitude, got {value:e}");
+            faults.of(given, message, format!("give a smaller number in {unit}"));
+            None
+        }
         _ => {
             let message = format!("must be finite, got {}", describe(given.value));
             faults.of(given, message, format!("give a finite number in {unit}"));

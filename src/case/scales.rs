@@ -3,6 +3,7 @@
 use fluid::{InitialCondition, PhaseState, StiffenedGas};
 use solid::{Material, PotentialPulse};
 
+use super::reader::{LARGEST, SMALLEST};
 use super::{Inflow, LoadCase};
 
 /// Stress scale of a solid on which nothing acts, Pa.
@@ -62,10 +63,10 @@ pub(super) fn stress(acting: Acting<'_>, pulses: &[PotentialPulse], material: &M
     acting.fluid.or_else(|| largest(pulses.iter().map(of_pulse).chain(of_load))).unwrap_or(QUIET_STRESS)
 }
 
-/// The largest magnitude; `None` if all are zero. What overflows is the largest number there is.
+/// The largest magnitude, as far as a case may name it; `None` if all are zero.
 fn largest(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let largest = values.into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    (largest > 0.0).then_some(largest.min(f64::MAX))
+    (largest > 0.0).then_some(largest.clamp(SMALLEST, LARGEST))
 }
 
 #[cfg(test)]

@@ -20,6 +20,8 @@ const FLUSH_SHARE: f64 = 0.02;
 /// batch copies the file, so that a share is what keeps the copies in proportion to what they add.
 const LARGEST_BUFFER: u64 = 1 << 20;
 const BUFFER_SHARE: u64 = 64;
+/// Rows that take this much and that share do not even wait so long.
+const MOST_BUFFERED: u64 = 1 << 24;
 /// A batch of this length, bytes, has rows of all series in the proportion in which they come.
 const TYPICAL_BATCH: u64 = 1 << 16;
 
@@ -236,11 +238,12 @@ impl HistoryFile {
 
     /// Whether a batch is due: a second after the last one at the earliest, and late enough that a batch that costs as
     /// much as the last one stays under 2 % of the wall time; at any cost when the rows fill their memory, 1 MiB or a
-    /// sixty-fourth of the file.
+    /// sixty-fourth of the file; at once when that is 16 MiB or more.
     pub fn is_flush_due(&self) -> bool {
         let elapsed = self.last_flush.elapsed();
         let is_cheap = self.last_cost.as_secs_f64() < FLUSH_SHARE * elapsed.as_secs_f64();
         elapsed >= FLUSH_INTERVAL && (is_cheap || self.is_full())
+            || self.buffered() >= MOST_BUFFERED.max(self.length / BUFFER_SHARE)
     }
 
     fn is_full(&self) -> bool {

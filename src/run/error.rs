@@ -35,6 +35,25 @@ pub enum RunError {
         /// "fluid" or "solid".
         limited_by: &'static str,
     },
+    /// The grid has grown beyond what the machine has.
+    #[error(
+        "memory runs short: the {side} has {cells} cells at t = {time:.6e} s, the next snapshot of which takes about {} MiB, and \
+         {} MiB are available; take fewer {side}.levels or a larger {side}.epsilon, or free some and `--resume`",
+        needed >> 20,
+        available >> 20
+    )]
+    Memory {
+        /// "fluid" or "solid".
+        side: &'static str,
+        /// Its cells.
+        cells: usize,
+        /// Time, s.
+        time: f64,
+        /// Bytes.
+        needed: u64,
+        /// Bytes.
+        available: u64,
+    },
     /// One side of a case that has no other.
     #[error("coupling.scheme: this case couples no two media, so `cav {side}` has no peer; use `cav run`")]
     NoPeer {
@@ -117,7 +136,7 @@ impl RunError {
             Self::Coupler(CouplerError::NoState { .. }) => 3,
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
             Self::Coupler(_) | Self::Start { .. } => 4,
-            Self::Output(_) => 5,
+            Self::Output(_) | Self::Memory { .. } => 5,
             Self::Child { code, .. } => *code,
             Self::Interrupted => 130,
             Self::Terminated => 143,
@@ -128,7 +147,7 @@ impl RunError {
     pub fn fault(&self) -> Fault {
         match self {
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => Fault::Numerical,
-            Self::Output(_) | Self::Directory(_) => Fault::Output,
+            Self::Output(_) | Self::Directory(_) | Self::Memory { .. } => Fault::Output,
             Self::Coupler(CouplerError::NoState { .. }) => Fault::Numerical,
             Self::Coupler(_) => Fault::Protocol,
             Self::Interrupted | Self::Terminated => Fault::Stopped,

@@ -20,6 +20,7 @@ use super::cell_exchange::CellExchange;
 use super::checkpoints::Keeper;
 use super::fluid_record::FluidRecord;
 use super::medium::{self, StepRule};
+use super::memory::MemoryWatch;
 use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
 use super::setup::fluid_solver;
@@ -72,9 +73,9 @@ pub struct FluidSide {
     /// The last word to the solid: what it answers has to be about that step.
     sent: FrameHeader,
     limited_by: &'static str,
-    smallest_step: f64,
     last_dt: f64,
     clock: Clock,
+    memory: MemoryWatch,
     keeper: Option<Keeper>,
     /// Whether the frame that this turn ends with asks the solid for its part of a checkpoint.
     tells_of_checkpoint: bool,
@@ -82,9 +83,6 @@ pub struct FluidSide {
     is_resumed: bool,
     past: Past,
 }
-
-/// A step shorter than this share of the run means that the solution has gone bad.
-const SMALLEST_SHARE: f64 = 1e-9;
 
 impl FluidSide {
     /// The fluid of a case; with a directory it writes what happens.
@@ -113,7 +111,7 @@ impl FluidSide {
             answer: FrameHeader::new(FrameKind::Register),
             sent: FrameHeader::new(FrameKind::Trace),
             limited_by: "fluid",
-            smallest_step: SMALLEST_SHARE * case.time.end,
+            memory: MemoryWatch::of(case.fluid_memory()),
             last_dt: 0.0,
             clock: Clock::default(),
             keeper: None,
@@ -222,7 +220,7 @@ impl FluidSide {
             return Ok(Turn::Over(stopped));
         }
         if self.solver.steps() > 0 {
-            self.adapt_if_due();
+            self.adapt_if_due()?;
         }
         let (own, others) = (self.rule.long(&self.solver).limit, self.answer.dt_max);
         let is_long = own >= others || self.rule.ratio == 1 || self.answer.has(FrameHeader::FOLLOWS);
@@ -336,7 +334,7 @@ impl FluidSide {
     }
 
     /// Adapts the grid if it is time to, with all that is kept per face of the wall.
-    fn adapt_if_due(&mut self) {
+    fn adapt_if_due(&mut self) -> Result<(), RunError> {
         let start = Instant::now();
         if self.solver.adapt_if_due(self.last_dt, self.rule.steps_in(self.last_dt, &self.solver)) {
             let edges = self.solver.wall_edges();
@@ -354,13 +352,14 @@ impl FluidSide {
         let elapsed = start.elapsed();
         self.clock.computing += elapsed;
         self.clock.adapting += elapsed;
+        self.memory.look(self.solver.mesh().cells(), self.solver.time(), "fluid")
     }
 
     /// The next step: no longer than either side's limit.
     fn plan(&mut self, own: f64, others_limit: f64) -> Result<Option<Plan>, RunError> {
         self.limited_by = if own <= others_limit { "fluid" } else { "solid" };
         let limit = own.min(others_limit);
-        if !(limit > self.smallest_step) {
+        if !(limit > self.rule.smallest) {
             return Err(RunError::TimeStepCollapsed {
                 dt: limit,
                 time: self.solver.time(),

@@ -73,6 +73,7 @@ pub fn run(
     on_directory: impl FnOnce(&Path),
 ) -> Result<PathBuf, RunError> {
     RunError::unless_whole(case)?;
+    case.fits_memory([true; 2])?;
     let directory = prepare(case, options)?;
     on_directory(directory.path());
     carry_out(case, options, &directory, stop)
@@ -174,6 +175,7 @@ pub fn run_side(
     if !is_side(case, joining.participant) {
         return Err(RunError::NoPeer { side: joining.participant.name() });
     }
+    case.fits_memory([Participant::Fluid, Participant::Solid].map(|side| side == joining.participant))?;
     let path = directory_of(case, options.out.as_deref());
     let alone = case.coupling.scheme == Scheme::External;
     let leads = (joining.participant == Participant::Fluid || alone) && !child;

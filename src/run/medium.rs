@@ -9,14 +9,10 @@ use mesh::{BLOCK, Geometry, GroupStep, LevelClock, Mesh, Part};
 use solid::SolidSolver;
 
 use super::RunError;
-use crate::case::Case;
+use crate::case::{Case, SMALLEST_STEP};
 
 /// An exchange may take no more steps of the finest level than waves stay within the blocks that adaptation made for them.
 const LONGEST_EXCHANGE: f64 = 24.0;
-
-/// A step of a level below this share of the whole one means that the solution has gone bad on the way: an exchange is planned
-/// with [`LONGEST_EXCHANGE`] steps of the finest level, and what comes through the interface may be anything.
-const SMALLEST_WITHIN: f64 = 1e-4;
 
 /// How long steps may be.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +23,8 @@ pub struct StepRule {
     pub local: bool,
     /// The most steps that one side makes within one of the other.
     pub ratio: u32,
+    /// A limit that is no longer than this, s, means that the solution has gone bad.
+    pub smallest: f64,
 }
 
 /// A solver, whichever medium it is for.
@@ -153,7 +151,25 @@ impl StepRule {
     /// A case's rule. The paper's schemes are made for one step of both sides.
     pub fn of(case: &Case) -> Self {
         let common = case.coupling.scheme.exchanges_cells();
-        Self { cfl: case.time.cfl, local: case.time.local_steps && !common, ratio: case.coupling.step_ratio }
+        Self {
+            cfl: case.time.cfl,
+            local: case.time.local_steps && !common,
+            ratio: case.coupling.step_ratio,
+            smallest: SMALLEST_STEP * case.time.end,
+        }
+    }
+
+    /// Passes a limit of a medium's step on unless it has collapsed: steps of no length would go on for ever.
+    pub fn unless_collapsed<M: Medium>(&self, limit: f64, medium: &M) -> Result<f64, RunError> {
+        if limit > self.smallest {
+            return Ok(limit);
+        }
+        Err(RunError::TimeStepCollapsed {
+            dt: limit,
+            time: medium.reached(),
+            step: medium.made() + 1,
+            limited_by: M::OWN.name(),
+        })
     }
 
     /// About how many steps of the finest level a step of length `dt` holds.
@@ -239,7 +255,7 @@ fn step_to_end<M: Medium>(
 ) -> Result<(), RunError> {
     loop {
         while medium.clock().due().is_some() {
-            let limit = within(medium, medium.clock().length(0), medium.due_limit(rule.cfl))?;
+            let limit = rule.unless_collapsed(medium.due_limit(rule.cfl), medium)?;
             let step = medium.start(limit);
             before(medium, step);
             medium.run(step, Part::All)?;
@@ -248,21 +264,6 @@ fn step_to_end<M: Medium>(
             return Ok(());
         }
     }
-}
-
-/// The limit of a step within one of length `whole`.
-///
-/// - errors: it has collapsed.
-fn within<M: Medium>(medium: &M, whole: f64, limit: f64) -> Result<f64, RunError> {
-    if limit > SMALLEST_WITHIN * whole {
-        return Ok(limit);
-    }
-    Err(RunError::TimeStepCollapsed {
-        dt: limit,
-        time: medium.reached(),
-        step: medium.made() + 1,
-        limited_by: M::OWN.name(),
-    })
 }
 
 /// Ends the step of the finest level and tells of it; whether the whole step is over.
@@ -304,7 +305,7 @@ pub fn short_steps<M: Medium>(
         while let Some(group) = medium.clock().due() {
             // The whole is the other side's: how many steps of the coarsest level it holds follows from that level's limit.
             let limit = if group == 0 { rule.alone(medium).limit } else { medium.due_limit(rule.cfl) };
-            let step = medium.start(within(medium, dt, limit)?);
+            let step = medium.start(rule.unless_collapsed(limit, medium)?);
             let (rows, faces) = meeting.own_trace();
             medium.write_group_trace(step, |row, face, value| rows[row as usize * faces + face] = value);
             let is_due = |face: usize| medium.group_of_face(face) == group;

@@ -11,6 +11,7 @@
 //! | [`cell_exchange`] | the paper's coupling schemes |
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
 //! | [`medium`] | long and short steps of a solver, whichever medium it is for |
+//! | [`memory`] | whether a grid that grows still has room |
 //! | [`side_files`] | into which files |
 //! | [`load`] | a given pressure on a solid without a fluid |
 //! | [`interface_history`] | of the interface on a fixed grid |
@@ -35,6 +36,7 @@ pub mod interface_history;
 pub mod launch;
 pub mod load;
 pub mod medium;
+pub mod memory;
 pub mod past;
 pub mod record;
 pub mod resume;

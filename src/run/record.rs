@@ -78,8 +78,12 @@ impl Ticker {
     /// Whether an event is due at `time`.
     pub fn is_due(&mut self, time: f64) -> bool {
         let due = time >= self.next * (1.0 - 1e-12);
-        while self.next <= time * (1.0 + 1e-12) && self.every > 0.0 {
-            self.next += self.every;
+        if due && self.every > 0.0 {
+            // All intervals that have passed at once: a step may hold any number of them.
+            self.next += ((time - self.next) / self.every).floor().max(0.0) * self.every;
+            if self.next <= time * (1.0 + 1e-12) {
+                self.next += self.every;
+            }
         }
         due
     }
@@ -184,6 +188,16 @@ mod tests {
         assert_eq!(ticks.len(), 12);
         assert_eq!(ticks[0], 0.0);
         assert!((ticks[1] - 1.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_ticker_passes_any_number_of_intervals_at_once() {
+        for every in [1e-30, 1e-300, f64::MIN_POSITIVE, 0.0, f64::NAN] {
+            let mut ticker = Ticker { every, next: 0.0 };
+            assert!((0..5).all(|k| ticker.is_due(0.3 * f64::from(k)) || !(every > 0.0)), "{every:e}");
+        }
+        let mut ticker = Ticker { every: 1e-3, next: 0.0 };
+        assert!(ticker.is_due(0.5004) && !ticker.is_due(0.5009) && ticker.is_due(0.5011));
     }
 
     #[test]

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use coupler::Participant;
 use serde_json::json;
 
 use super::RunError;
 use super::checkpoints::Checkpoints;
 use super::launch::{Options, carry_out};
 use super::stop::Stop;
-use crate::case::{Case, CaseErrors};
+use crate::case::{Case, CaseErrors, available_memory};
 use crate::output::run_directory::{CASE, FLUID_HISTORY, SOLID_HISTORY, SUMMARY};
 use crate::output::{Join, OutputError, Progress, RunDirectory, history, join_histories, summary};
 
@@ -41,11 +42,15 @@ pub fn resume(
         return Ok(directory.path().to_path_buf());
     }
     let case = case_of(&directory)?;
+    case.fits_memory([true; 2])?;
     directory.tidy()?;
     let from = Checkpoints::of(&case, &directory).newest(|warning| {
         tracing::warn!("{warning}");
         progress.message(&format!("warning: {warning}"));
     })?;
+    if let Some(step) = from {
+        room_for(&case, &Checkpoints::of(&case, &directory), step)?;
+    }
     let words = match from {
         Some(step) => format!("going on from the checkpoint of step {step}"),
         None => "there is no checkpoint yet: the run begins again from the start".to_owned(),
@@ -65,6 +70,29 @@ pub fn resume(
         ..options.clone()
     };
     carry_out(&case, &options, &directory, stop)
+}
+
+/// A checkpoint's memory while it is taken up, as a multiple of its length: its bytes, what they mean, and the solver.
+const TAKING_UP: f64 = 4.0;
+
+/// Whether there is memory to take up the checkpoint of a step.
+fn room_for(case: &Case, checkpoints: &Checkpoints, step: u64) -> Result<(), RunError> {
+    let sides = [(Participant::Fluid, case.fluid.is_some()), (Participant::Solid, case.solid.is_some())];
+    let paths = sides.iter().filter(|(_, is_there)| *is_there).map(|(side, _)| checkpoints.path(*side, step));
+    let bytes: u64 = paths.filter_map(|path| std::fs::metadata(path).ok()).map(|file| file.len()).sum();
+    match available_memory().filter(|available| TAKING_UP * bytes as f64 > *available) {
+        None => Ok(()),
+        Some(available) => {
+            let needed = TAKING_UP * bytes as f64;
+            let reason = format!(
+                "its checkpoint of step {step} takes about {:.0} MiB of memory to go on from, but {:.0} MiB are available; free \
+                 some, or go on on a larger machine",
+                needed / f64::from(1 << 20),
+                available / f64::from(1 << 20)
+            );
+            Err(RunError::Resume { path: checkpoints.path(Participant::Fluid, step), reason })
+        }
+    }
 }
 
 /// Locks the directory; processes that a killed launcher left behind hold it until they have ended.

@@ -78,6 +78,7 @@ impl Session {
     /// - errors: see [`RunError`]; with scheme `"external"` the other side is not in this process.
     pub fn new(case: &Case, directory: Option<&RunDirectory>, solvers: Solvers) -> Result<Self, RunError> {
         RunError::unless_whole(case)?;
+        case.fits_memory([true; 2])?;
         let fluid = match &case.fluid {
             Some(fluid) => {
                 let solver = solvers.fluid.map_or_else(|| fluid_solver(case, fluid), Ok)?;

@@ -19,6 +19,7 @@ use super::drive::Side;
 use super::fluid_side::Turn;
 use super::load::Load;
 use super::medium::{self, Medium, StepRule};
+use super::memory::MemoryWatch;
 use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
 use super::setup::solid_solver;
@@ -60,6 +61,7 @@ pub struct SolidSide {
     end: f64,
     last_dt: f64,
     clock: Clock,
+    memory: MemoryWatch,
     keeper: Option<Keeper>,
     past: Past,
 }
@@ -98,6 +100,7 @@ impl SolidSide {
             end: case.time.end * (1.0 - 1e-12),
             last_dt: 0.0,
             clock: Clock::default(),
+            memory: MemoryWatch::of(case.solid_memory()),
             keeper: None,
             past: Past::after(Done::default()),
         }
@@ -172,13 +175,12 @@ impl SolidSide {
         let adapts = self.adapts(plan.dt);
         let timed = Timed::new(&mut self.clock);
         medium::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))?;
-        self.adapt_if(adapts, plan.dt);
-        Ok(())
+        self.adapt_if(adapts, plan.dt)
     }
 
     /// Begins a long step: shows the trace and does what does not depend on the fluid.
     fn begin_long(&mut self, link: &mut impl Link, asked: Plan, stop: &Stop) -> Result<(), RunError> {
-        let limit = self.rule.long(&self.solver).limit;
+        let limit = self.rule.unless_collapsed(self.rule.long(&self.solver).limit, &self.solver)?;
         let plan =
             if asked.dt <= limit * (1.0 + 1e-10) { asked } else { Plan { dt: limit, snapshot: false } };
         self.last_dt = plan.dt;
@@ -224,7 +226,7 @@ impl SolidSide {
             |_, meeting| if early { send(meeting, header) } else { Ok(()) },
             timed.recorded(&mut self.record, plan),
         )?;
-        self.adapt_if(adapts, plan.dt);
+        self.adapt_if(adapts, plan.dt)?;
         if !early {
             let dt_max = self.rule.counted(&self.solver);
             self.promised = dt_max;
@@ -271,9 +273,9 @@ impl SolidSide {
         self.rule.steps_in(dt, &self.solver).max(fluids)
     }
 
-    fn adapt_if(&mut self, adapts: bool, dt: f64) {
+    fn adapt_if(&mut self, adapts: bool, dt: f64) -> Result<(), RunError> {
         if !adapts {
-            return;
+            return Ok(());
         }
         let start = Instant::now();
         if self.solver.adapt(dt, self.steps_in(dt)) {
@@ -282,6 +284,7 @@ impl SolidSide {
         let elapsed = start.elapsed();
         self.clock.computing += elapsed;
         self.clock.adapting += elapsed;
+        self.memory.look(self.solver.mesh().cells(), self.solver.time(), "solid")
     }
 
     fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
@@ -299,7 +302,7 @@ impl Side for SolidSide {
     const SUMMARY: &'static str = SOLID_SUMMARY;
 
     fn step_alone(&mut self) -> Result<bool, RunError> {
-        let limit = self.rule.alone(&self.solver).limit;
+        let limit = self.rule.unless_collapsed(self.rule.alone(&self.solver).limit, &self.solver)?;
         let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(false) };
         self.last_dt = plan.dt;
         let adapts = self.adapts(plan.dt);
@@ -312,7 +315,7 @@ impl Side for SolidSide {
         };
         let after = timed.recorded(&mut self.record, plan);
         medium::step_alone(&mut self.solver, plan.dt, &self.rule, press, after)?;
-        self.adapt_if(adapts, plan.dt);
+        self.adapt_if(adapts, plan.dt)?;
         Ok(true)
     }
 

@@ -65,6 +65,16 @@ pub(crate) fn asks_for_finer(
     })
 }
 
+impl InitialCondition {
+    /// Whether it has something in a block that the block's cells may be too coarse to show: the edge of a region, or a pulse
+    /// narrower than a few of them. An adaptive grid begins with finer blocks there.
+    ///
+    /// - `low`, `high`: the block's corners (z, r), m; `widths`: of its cells, m.
+    pub fn asks_for_finer(&self, low: [f64; 2], high: [f64; 2], widths: [f64; 2]) -> bool {
+        asks_for_finer(self, low, high, widths)
+    }
+}
+
 /// Fills a field of conserved variables with what `state` says of each cell (centre, widths).
 pub(crate) fn fill<const N: usize>(
     mesh: &Mesh<N>,

@@ -1,6 +1,6 @@
 //! What a user says about adaptation; the machinery is in `patch.rs`, `marks.rs` and `remap.rs`.
 
-use crate::Side;
+use crate::{Domain, Side};
 
 /// How a grid adapts.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,4 +51,34 @@ pub enum Zone {
     },
     /// The blocks along a side of the domain.
     Along(Side),
+}
+
+impl Zone {
+    /// Whether a block has points in the zone; for zones that bound from above that is what keeps them whole.
+    ///
+    /// - `low`, `high`: the block's corners (z, r), m; `widths`: of its cells, m; `domain`: where the grid is.
+    pub fn meets(&self, low: [f64; 2], high: [f64; 2], widths: [f64; 2], domain: &Domain) -> bool {
+        match self {
+            Self::Within { centre, radius } => {
+                let nearest = [0, 1].map(|axis| centre[axis].clamp(low[axis], high[axis]) - centre[axis]);
+                nearest[0].hypot(nearest[1]) < *radius
+            }
+            // A block is beyond the circle when all of it is: else the circle's rim could never be refined.
+            Self::Beyond { centre, radius } => {
+                let nearest = [0, 1].map(|axis| centre[axis].clamp(low[axis], high[axis]) - centre[axis]);
+                nearest[0].hypot(nearest[1]) >= *radius
+            }
+            Self::Box { z, r } => z[0] < high[0] && z[1] > low[0] && r[0] < high[1] && r[1] > low[1],
+            Self::Along(side) => {
+                let Domain { z, r, .. } = domain;
+                let at = |a: f64, b: f64, h: f64| (a - b).abs() < 0.5 * h;
+                match side {
+                    Side::ZMin => at(low[0], z[0], widths[0]),
+                    Side::ZMax => at(high[0], z[1], widths[0]),
+                    Side::RMin => at(low[1], r[0], widths[1]),
+                    Side::RMax => at(high[1], r[1], widths[1]),
+                }
+            }
+        }
+    }
 }

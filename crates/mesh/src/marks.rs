@@ -277,30 +277,9 @@ fn bounds<const N: usize>(mesh: &Mesh<N>, id: BlockId, bounds: &[LevelBound]) ->
     range
 }
 
-/// Whether a block has points in a zone; for zones that bound from above that is what keeps them whole.
+/// Whether a block has points in a zone, see [`Zone::meets`].
 fn meets<const N: usize>(mesh: &Mesh<N>, id: BlockId, zone: &Zone) -> bool {
     let (low, widths) = (mesh.origin(id), mesh.widths(id.level));
     let high = [low[0] + N as f64 * widths[0], low[1] + N as f64 * widths[1]];
-    match zone {
-        Zone::Within { centre, radius } => {
-            let nearest = [0, 1].map(|axis| centre[axis].clamp(low[axis], high[axis]) - centre[axis]);
-            nearest[0].hypot(nearest[1]) < *radius
-        }
-        // A block is beyond the circle when all of it is: else the circle's rim could never be refined.
-        Zone::Beyond { centre, radius } => {
-            let nearest = [0, 1].map(|axis| centre[axis].clamp(low[axis], high[axis]) - centre[axis]);
-            nearest[0].hypot(nearest[1]) >= *radius
-        }
-        Zone::Box { z, r } => z[0] < high[0] && z[1] > low[0] && r[0] < high[1] && r[1] > low[1],
-        Zone::Along(side) => {
-            let Domain { z, r, .. } = mesh.domain();
-            let at = |a: f64, b: f64, h: f64| (a - b).abs() < 0.5 * h;
-            match side {
-                crate::Side::ZMin => at(low[0], z[0], widths[0]),
-                crate::Side::ZMax => at(high[0], z[1], widths[0]),
-                crate::Side::RMin => at(low[1], r[0], widths[1]),
-                crate::Side::RMax => at(high[1], r[1], widths[1]),
-            }
-        }
-    }
+    zone.meets(low, high, widths, mesh.domain())
 }

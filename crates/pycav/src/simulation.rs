@@ -179,6 +179,7 @@ impl Simulation {
         let case = case.case();
         let run = py.detach(|| {
             guarded(|| {
+                case.fits_memory([true; 2]).map_err(cav::run::RunError::from)?;
                 let pool = Arc::new(thread_pool(threads)?);
                 let options = Options { out: out.clone(), force, ..Options::default() };
                 let directory = out.is_some().then(|| prepare(case, &options)).transpose()?;

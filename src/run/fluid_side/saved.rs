@@ -54,9 +54,9 @@ impl FluidSide {
             // Made with each step.
             sent: _,
             limited_by: _,
-            smallest_step: _,
             last_dt,
             clock,
+            memory: _,
             keeper: _,
             tells_of_checkpoint: _,
             is_resumed: _,

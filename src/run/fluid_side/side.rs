@@ -25,7 +25,7 @@ impl Side for FluidSide {
         let timed = Timed::new(&mut self.clock);
         let after = timed.recorded(&mut self.record, plan);
         medium::step_alone(&mut self.solver, plan.dt, &self.rule, |_, _| (), after)?;
-        self.adapt_if_due();
+        self.adapt_if_due()?;
         Ok(true)
     }
 

@@ -29,7 +29,7 @@ impl SolidSide {
         }
         self.clock.computing += start.elapsed();
         self.recorded(plan)?;
-        self.adapt_if(adapts, plan.dt);
+        self.adapt_if(adapts, plan.dt)?;
         self.answer_with_cells(link, (step, time), stop)
     }
 

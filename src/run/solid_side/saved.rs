@@ -60,6 +60,7 @@ impl SolidSide {
             end: _,
             last_dt,
             clock,
+            memory: _,
             keeper: _,
             past,
         } = self;

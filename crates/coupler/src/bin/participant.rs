@@ -145,12 +145,8 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Options, String> {
             "--faces" => faces = number::<u64>(&key, &word)?.max(1),
             "--sleep-ms" => sleep_ms = number(&key, &word)?,
             "--hash" => endpoint.case_hash = [number(&key, &word)?; 32],
-            "--timeout-s" => {
-                endpoint.connect_timeout = Duration::from_secs_f64(number::<f64>(&key, &word)?.max(0.0))
-            }
-            "--patience-s" => {
-                endpoint.patience = Duration::from_secs_f64(number::<f64>(&key, &word)?.max(0.0))
-            }
+            "--timeout-s" => endpoint.connect_timeout = seconds(&key, &word)?,
+            "--patience-s" => endpoint.patience = seconds(&key, &word)?,
             "--fail-at" => fail_at = Some(number(&key, &word)?),
             "--prefix" => endpoint.domain = Domain { prefix: word, ..endpoint.domain },
             "--root" => endpoint.domain = Domain { root: word.into(), ..endpoint.domain },
@@ -159,6 +155,10 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Options, String> {
     }
     endpoint.name = name.ok_or("say --name fluid or --name solid")?;
     Ok(Options { endpoint, steps, faces, grow, sleep: Duration::from_millis(sleep_ms), fail_at })
+}
+
+fn seconds(key: &str, word: &str) -> Result<Duration, String> {
+    Duration::try_from_secs_f64(number(key, word)?).map_err(|error| format!("{key} {word}: {error}"))
 }
 
 fn number<T: FromStr>(key: &str, word: &str) -> Result<T, String> {

@@ -1,0 +1,249 @@
+//! How much memory a run takes, and whether the machine has it.
+//!
+//! Counted is what is there at the same time at the worst moment, a snapshot that is made while the one before is still being
+//! written: fields and registers of the solver, the values of both snapshots and the meshes that they are on. Against
+//! measured peaks see docs/cases.md.
+
+use fluid::Model;
+use mesh::{BLOCK, Domain};
+
+use super::format::mebibytes;
+use super::{Case, CaseError, CaseErrors, GridCase};
+
+/// A process without any cells, bytes: program, libraries, threads and their scratch, histories.
+const PROCESS: f64 = 28.0 * MEBI;
+const MEBI: f64 = (1 << 20) as f64;
+const NUMBER: f64 = size_of::<f64>() as f64;
+/// Numbers a cell of what is kept block by block besides fields: reports, tree.
+const OF_BLOCKS: f64 = 1.5;
+/// Numbers a cell in a mesh as it is written: 17 × 17 points of three coordinates a block, four corners a cell.
+const MESH: f64 = ((BLOCK + 1) * (BLOCK + 1) * 3) as f64 / (BLOCK * BLOCK) as f64 + 4.0;
+/// Numbers a cell in copies that are made in writing one: corners, offsets and levels of other types.
+const COPIES: f64 = 6.0;
+/// What grows has more than it needs: rows an eighth, lists up to twice, while they move both the old and the new.
+const SPARE: f64 = 1.2;
+/// Numbers a cell in a snapshot: density, pressure, velocity, gas fraction, |∇ρ|, level.
+const FLUID_VALUES: f64 = 8.0;
+/// The same of the solid: velocity, four stresses, von Mises stress, yield function, level.
+const SOLID_VALUES: f64 = 10.0;
+/// What of a row of the interface's history is in memory, in rows: grid, last and first state, map, row, buffer, batch.
+const ROWS: f64 = 11.0;
+
+/// What a side keeps of each cell.
+#[derive(Clone, Copy)]
+struct Numbers {
+    components: usize,
+    /// Registered at each face between blocks.
+    registered: usize,
+    values: f64,
+}
+
+const SOLID: Numbers = Numbers { components: 6, registered: 4, values: SOLID_VALUES };
+
+fn of_fluid(model: Model) -> Numbers {
+    Numbers { components: model.components(), registered: 8, values: FLUID_VALUES }
+}
+
+impl Numbers {
+    /// Numbers a cell at the most.
+    fn most(self, grid: &GridCase, local_steps: bool) -> f64 {
+        let adapts = grid.adaptation.is_some();
+        let fields = self.components as f64;
+        let register = (4 * self.registered) as f64 / BLOCK as f64;
+        let present = 2.0 * fields + register + OF_BLOCKS;
+        // Levels that step by themselves have a third field, and means of what passed between them.
+        let local = if adapts && local_steps { fields + register } else { 0.0 };
+        (present + local + self.output(adapts)) * if adapts { SPARE } else { 1.0 }
+    }
+
+    /// Of these, those of snapshots.
+    fn output(self, adapts: bool) -> f64 {
+        let meshes = if adapts { 2.0 } else { 1.0 };
+        2.0 * self.values + meshes * MESH + COPIES
+    }
+}
+
+/// The memory of one side of a run, bytes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memory {
+    /// If all cells are on the finest level.
+    pub most: f64,
+    /// At the start, at least: of an adaptive grid what its level bounds, regions and pulses ask for.
+    pub at_start: f64,
+    /// What a snapshot takes, bytes a cell.
+    pub per_cell_of_output: f64,
+}
+
+impl Memory {
+    /// - `least_cells`: cells at the start; `rows`: bytes of a row of the interface's history.
+    fn of(numbers: Numbers, grid: &GridCase, local_steps: bool, least_cells: f64, row: f64) -> Self {
+        let per_cell = NUMBER * numbers.most(grid, local_steps);
+        let fixed = PROCESS + ROWS * row;
+        Self {
+            most: fixed + per_cell * grid.cell_count() as f64,
+            at_start: fixed + per_cell * least_cells,
+            per_cell_of_output: NUMBER * numbers.output(grid.adaptation.is_some()),
+        }
+    }
+}
+
+impl Case {
+    /// The fluid's memory.
+    pub fn fluid_memory(&self) -> Option<Memory> {
+        let fluid = self.fluid.as_ref()?;
+        let cells = self.output.interface_cells.unwrap_or(fluid.grid.finest()[1]);
+        let least = least_cells(self, &fluid.grid, |low, high, widths| {
+            fluid.initial.asks_for_finer(low, high, widths)
+        });
+        let row = NUMBER * (1 + 3 * cells) as f64;
+        Some(Memory::of(of_fluid(fluid.model), &fluid.grid, self.time.local_steps, least, row))
+    }
+
+    /// The solid's memory.
+    pub fn solid_memory(&self) -> Option<Memory> {
+        let solid = self.solid.as_ref()?;
+        let least = least_cells(self, &solid.grid, |_, _, _| false);
+        Some(Memory::of(SOLID, &solid.grid, self.time.local_steps, least, 0.0))
+    }
+
+    /// Whether the machine has the memory with which some sides of the case begin, the fluid's and the solid's.
+    ///
+    /// # Errors
+    /// It has not: the key that counts most, and the remedy. Where the system does not say what it has, nothing is refused.
+    pub fn fits_memory(&self, [fluid, solid]: [bool; 2]) -> Result<(), CaseErrors> {
+        let Some(available) = available_memory() else { return Ok(()) };
+        let sides = [
+            ("fluid", self.fluid_memory().filter(|_| fluid), self.fluid.as_ref().map(|side| &side.grid)),
+            ("solid", self.solid_memory().filter(|_| solid), self.solid.as_ref().map(|side| &side.grid)),
+        ];
+        let bytes = |memory: &Option<Memory>| memory.map_or(0.0, |memory| memory.at_start);
+        let needed: f64 = sides.iter().map(|(_, memory, _)| bytes(memory)).sum();
+        if needed <= available {
+            return Ok(());
+        }
+        let largest = sides.iter().max_by(|one, other| bytes(&one.1).total_cmp(&bytes(&other.1)));
+        let Some((name, _, Some(grid))) = largest else { return Ok(()) };
+        let [cells_z, cells_r] = grid.finest();
+        let message = format!(
+            "the run begins with about {}, but {} of memory are available: the {name} has up to {cells_z} x {cells_r} cells",
+            mebibytes(needed),
+            mebibytes(available)
+        );
+        let uniform = if grid.adaptation.is_none() {
+            format!(", or let the grid adapt ({name}.adapt)")
+        } else {
+            String::new()
+        };
+        let help =
+            format!("lower {name}.levels or {name}.cells{uniform}; `cav check` says what the case needs");
+        let fault = CaseError { path: format!("{name}.levels"), message, help: Some(help), span: None };
+        Err(CaseErrors::new(&self.name, "", vec![fault]))
+    }
+}
+
+/// Cells that a grid has at the start at least: where level bounds, and what `asks` for finer ones (a block's corners and the
+/// widths of its cells), want them. More than any machine can hold are not counted on.
+fn least_cells(case: &Case, grid: &GridCase, asks: impl Fn([f64; 2], [f64; 2], [f64; 2]) -> bool) -> f64 {
+    const ENOUGH: usize = 1 << 22;
+    let in_block = (BLOCK * BLOCK) as f64;
+    let Some(adaptation) = &grid.adaptation else { return grid.cell_count() as f64 };
+    let (roots, finest) = (grid.root_level(), grid.levels);
+    let [along_z, along_r] = grid.cells_on(roots).map(|cells| cells / BLOCK);
+    let domain = Domain { geometry: case.geometry, z: grid.z, r: grid.r };
+    let is_refined = |level: usize, [i, j]: [usize; 2]| {
+        let cells = grid.cells_on(level);
+        let widths = [(grid.z[1] - grid.z[0]) / cells[0] as f64, (grid.r[1] - grid.r[0]) / cells[1] as f64];
+        let low = [grid.z[0] + (i * BLOCK) as f64 * widths[0], grid.r[0] + (j * BLOCK) as f64 * widths[1]];
+        let high = [low[0] + BLOCK as f64 * widths[0], low[1] + BLOCK as f64 * widths[1]];
+        let mut wanted = if asks(low, high, widths) { finest } else { roots };
+        for bound in adaptation.bounds.iter().filter(|bound| bound.zone.meets(low, high, widths, &domain)) {
+            wanted = wanted.max(usize::from(bound.at_least)).min(usize::from(bound.at_most));
+        }
+        wanted > level
+    };
+    let mut blocks = along_z.saturating_mul(along_r);
+    if blocks > ENOUGH {
+        return blocks as f64 * in_block;
+    }
+    // Depth first: at most three blocks wait on each level.
+    let mut waiting: Vec<(usize, [usize; 2])> = Vec::new();
+    for root in 0..blocks {
+        waiting.push((roots, [root % along_z, root / along_z]));
+        while let Some((level, [i, j])) = waiting.pop() {
+            if level < finest && is_refined(level, [i, j]) {
+                blocks += 3;
+                waiting.extend(
+                    [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[a, b]| (level + 1, [2 * i + a, 2 * j + b])),
+                );
+            }
+            if blocks > ENOUGH {
+                return blocks as f64 * in_block;
+            }
+        }
+    }
+    blocks as f64 * in_block
+}
+
+/// What the kernel says is available, bytes; unknown on systems that do not say.
+pub fn available_memory() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let row = text.lines().find_map(|row| row.strip_prefix("MemAvailable:"))?;
+    let machine = row.trim().strip_suffix("kB")?.trim().parse::<f64>().ok().map(|kib| kib * 1024.0)?;
+    Some(group_memory().map_or(machine, |group| machine.min(group)))
+}
+
+/// What the control group that a container is leaves, bytes; `None` where it has no limit.
+fn group_memory() -> Option<f64> {
+    let read = |name: &str| std::fs::read_to_string(format!("/sys/fs/cgroup/{name}")).ok();
+    let number = |name: &str| read(name)?.trim().parse::<f64>().ok();
+    // Pages of files that the kernel can give back count as used.
+    let idle = read("memory.stat").and_then(|text| {
+        text.lines().find_map(|row| row.strip_prefix("inactive_file ")?.trim().parse::<f64>().ok())
+    });
+    Some((number("memory.max")? - number("memory.current")? + idle.unwrap_or(0.0)).max(0.0))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn case(sets: &[&str]) -> Case {
+        let text = "[time]\nend = 1e-6\n[coupling]\nscheme = \"rigid\"\n[fluid]\nz = [0, 0.01]\nr = [0, 0.01]\ncells = [16, 16]\n\
+                    levels = 4\n[fluid.liquid]\ngamma = 7.15\npi = 3e8\n[fluid.ambient]\ndensity = 1000\npressure = 1e6\n\
+                    [[fluid.region]]\nshape = \"sphere\"\ncentre = [0.004, 0]\nradius = 0.002\nphase = \"gas\"\ndensity = 1.2\n\
+                    pressure = 1e5\n";
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        Case::from_toml(text, "small", &sets).unwrap()
+    }
+
+    #[test]
+    fn an_adaptive_grid_begins_with_what_its_regions_and_bounds_ask_for() {
+        let cells = |sets: &[&str]| {
+            let case = case(sets);
+            let fluid = case.fluid.as_ref().unwrap();
+            least_cells(&case, &fluid.grid, |low, high, widths| {
+                fluid.initial.asks_for_finer(low, high, widths)
+            })
+        };
+        assert_eq!(cells(&["fluid.adapt=false"]), 65536.0);
+        let edge = cells(&[]);
+        assert!(edge > 4096.0 && edge < 32768.0, "{edge}");
+        assert_eq!(cells(&["fluid.refine=[{ shape = \"interface\", at_least = 0, at_most = 4 }]"]), edge);
+        assert!(cells(&["fluid.refine=[{ shape = \"interface\", at_least = 4 }]"]) > edge);
+        let all = "fluid.refine=[{ shape = \"box\", z = [0, 1], r = [0, 1], at_least = 4 }]";
+        assert_eq!(cells(&[all]), 65536.0);
+    }
+
+    #[test]
+    fn what_no_machine_holds_is_refused_with_key_and_remedy() {
+        case(&[]).fits_memory([true; 2]).unwrap();
+        let large =
+            case(&["fluid.adapt=false", "fluid.levels=0", "fluid.cells=[1048576, 1048576]", "time.end=1e-9"]);
+        large.fits_memory([false, true]).unwrap();
+        let text = large.fits_memory([true, true]).unwrap_err().to_string();
+        for part in ["fluid.levels", "1048576 x 1048576", "available", "fluid.adapt", "GiB"] {
+            assert!(text.contains(part), "no {part} in {text}");
+        }
+    }
+}
