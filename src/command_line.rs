@@ -126,13 +126,11 @@ impl Every {
         if text == "off" {
             return Ok(Self(None));
         }
-        let units = [("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("s", 1.0), ("", 1.0)];
-        let seconds = units.into_iter().find_map(|(unit, seconds)| {
-            let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
-            Some(number * seconds)
-        });
-        let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-        duration
+        let every = match text.parse() {
+            Ok(seconds) => Duration::try_from_secs_f64(seconds).ok(),
+            Err(_) => humantime::parse_duration(text).ok(),
+        };
+        every
             .map(|every| Self(Some(every)))
             .ok_or_else(|| "give a time, as 30s, 5min or 1h, or off".to_owned())
     }
@@ -278,12 +276,19 @@ mod tests {
     fn intervals_are_numbers_with_units_or_off() {
         let seconds =
             |text| Every::parse(text).ok().map(|Every(every)| every.map(|every| every.as_secs_f64()));
-        for (text, expected) in [("5min", 300.0), ("0.5 h", 1800.0), ("250ms", 0.25), ("3s", 3.0), ("7", 7.0)]
-        {
+        for (text, expected) in [
+            ("5min", 300.0),
+            ("0.5 h", 1800.0),
+            ("1h 30min", 5400.0),
+            ("2 days", 172_800.0),
+            ("250ms", 0.25),
+            ("3s", 3.0),
+            ("7", 7.0),
+        ] {
             assert_eq!(seconds(text), Some(Some(expected)), "{text}");
         }
         assert_eq!(seconds("off"), Some(None));
-        for text in ["", "min", "-3s", "5 days", "1e400", "nan"] {
+        for text in ["", "min", "-3s", "-3", "5 parsecs", "1e400", "nan", "99999999999999999999h"] {
             assert_eq!(seconds(text), None, "{text}");
         }
     }

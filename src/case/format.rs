@@ -1,18 +1,23 @@
 //! Numbers as they are said: with prefixes, as durations, as sizes.
 
 use std::fmt::Write as _;
+use std::time::Duration;
 
 pub(super) fn mebibytes(bytes: f64) -> String {
     let mebi = bytes / f64::from(1 << 20);
     if mebi < 10_000.0 { format!("{mebi:.0} MiB") } else { format!("{:.0} GiB", mebi / 1024.0) }
 }
 
+/// An estimate of a duration, with two or three digits: `98s`, `12m`, `1h 23m`, `4days 4h`.
 pub(super) fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 100.0 => format!("{s:.0} s"),
-        s if s < 6000.0 => format!("{:.0} min", s / 60.0),
-        s if s < 100.0 * 3600.0 => format!("{:.1} h", s / 3600.0),
-        s => format!("{:.1} days", s / 86400.0),
+    let unit = match seconds {
+        s if s < 100.0 => 1.0,
+        s if s < 86400.0 => 60.0,
+        _ => 3600.0,
+    };
+    match Duration::try_from_secs_f64((seconds / unit).round() * unit) {
+        Ok(rounded) => humantime::format_duration(rounded).to_string(),
+        Err(_) => format!("{seconds:.0e} s"),
     }
 }
 
@@ -69,7 +74,11 @@ mod tests {
         assert_eq!(plain(999.9734, "kg/m3"), "999.9734 kg/m3");
         assert_eq!(plain(1.0, "kg/m3"), "1 kg/m3");
         assert_eq!(plain(4.7e-6, "kg/m3"), "4.700e-6 kg/m3");
-        assert_eq!(duration(30.0), "30 s");
-        assert_eq!(duration(3600.0 * 5.0), "5.0 h");
+        assert_eq!(duration(0.4), "0s");
+        assert_eq!(duration(30.2), "30s");
+        assert_eq!(duration(4981.0), "1h 23m");
+        assert_eq!(duration(3600.0 * 5.0), "5h");
+        assert_eq!(duration(3600.0 * 100.4), "4days 4h");
+        assert_eq!(duration(1e300), "1e300 s");
     }
 }

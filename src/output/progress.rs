@@ -162,7 +162,9 @@ fn bar() -> ProgressBar {
 
 /// Simulated time, step, step length and who limits it, cells and the time left, in one line.
 fn describe(line: &ProgressLine, end_time: f64, left: Option<f64>) -> String {
-    let left = left.map_or_else(|| "?".to_owned(), clock);
+    let whole = |seconds: f64| Duration::from_secs(seconds.max(0.0).round() as u64);
+    let left =
+        left.map_or_else(|| "?".to_owned(), |left| humantime::format_duration(whole(left)).to_string());
     format!(
         "t = {} of {}  step {}  Δt = {} ({})  {} cells  {} left",
         engineering(line.time, "s"),
@@ -194,16 +196,6 @@ pub fn engineering(value: f64, unit: &str) -> String {
     let scaled = value / factor;
     let decimals = if scaled == 0.0 || scaled.abs() >= 99.995 { 1 } else { 2 };
     format!("{scaled:.decimals$} {prefix}{unit}")
-}
-
-/// A duration as `7 s`, `3:07` or `2:03:07`.
-fn clock(seconds: f64) -> String {
-    let whole = seconds.max(0.0).round() as u64;
-    match (whole / 3600, whole / 60 % 60, whole % 60) {
-        (0, 0, s) => format!("{s} s"),
-        (0, m, s) => format!("{m}:{s:02}"),
-        (h, m, s) => format!("{h}:{m:02}:{s:02}"),
-    }
 }
 
 /// Simulated time per wall time, averaged over the last seconds: the step length changes much in a collapse.
@@ -263,7 +255,7 @@ mod tests {
         let text = describe(&line(), 6.57e-5, Some(185.0));
         assert_eq!(
             text,
-            "t = 12.50 µs of 65.70 µs  step 340  Δt = 31.00 ns (fluid)  131072 cells  3:05 left"
+            "t = 12.50 µs of 65.70 µs  step 340  Δt = 31.00 ns (fluid)  131072 cells  3m 5s left"
         );
     }
 

@@ -6,6 +6,7 @@ use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use coupler::{Participant, clean_up_dead};
+use humantime::format_duration;
 use rustix::process::{Pid, Signal, kill_process};
 
 use super::RunError;
@@ -120,7 +121,7 @@ fn start(
         command.args(["--threads", &threads.to_string()]);
     }
     let every =
-        options.checkpoint_every.map_or_else(|| "off".to_owned(), |every| every.as_secs_f64().to_string());
+        options.checkpoint_every.map_or_else(|| "off".to_owned(), |every| format_duration(every).to_string());
     command.args(["--checkpoint-every", &every]);
     if let Some(step) = options.from {
         command.args(["--from", &step.to_string()]);

@@ -6,7 +6,7 @@ use coupler::LinkCounters;
 use serde::{Deserialize, Serialize};
 
 /// Wall time and exchanges of a side, over all parts of a run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Past {
     before: Done,
     since: Instant,
@@ -15,7 +15,7 @@ pub struct Past {
 }
 
 /// What was done up to a checkpoint.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Done {
     wall: Duration,
     exchanged: LinkCounters,
@@ -39,7 +39,7 @@ impl Past {
 
     /// Exchanges of the whole run, the link's counters being `now`.
     pub fn exchanged(&self, now: LinkCounters) -> LinkCounters {
-        self.before.exchanged.plus(now.since(self.greetings))
+        now.since(&self.greetings).plus(&self.before.exchanged)
     }
 
     /// What has to be kept of it.

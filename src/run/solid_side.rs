@@ -312,9 +312,12 @@ impl Side for SolidSide {
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         self.settle(link)?;
-        let counters = link.counters();
+        // As they stand before this frame, which comes again if the run is taken up here.
+        let counters = self.keeper.is_some().then(|| link.counters());
         let header = link.receive(|frame| {
-            if frame.header.has(FrameHeader::CHECKPOINT) {
+            if frame.header.has(FrameHeader::CHECKPOINT)
+                && let Some(counters) = counters
+            {
                 self.keep(frame.header.step, counters)?;
             }
             if frame.require(FrameKind::Yours).is_err() {

@@ -87,7 +87,7 @@ impl Link for DirectLink {
     }
 
     fn counters(&self) -> LinkCounters {
-        self.talk.counters
+        self.talk.counters.clone()
     }
 }
 

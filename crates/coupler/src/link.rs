@@ -43,7 +43,7 @@ impl fmt::Display for Participant {
 }
 
 /// What a link has done so far. Greetings and goodbyes count, too.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct LinkCounters {
     /// Frames sent.
     pub sent: u64,
@@ -63,27 +63,27 @@ pub struct LinkCounters {
 impl LinkCounters {
     /// What was done here and in `other`.
     #[must_use]
-    pub fn plus(self, other: Self) -> Self {
+    pub fn plus(self, other: &Self) -> Self {
         Self {
             sent: self.sent + other.sent,
             received: self.received + other.received,
             bytes: self.bytes + other.bytes,
             waited: self.waited + other.waited,
             exchanging: self.exchanging + other.exchanging,
-            latencies: self.latencies.zip(other.latencies, |a, b| a + b),
+            latencies: self.latencies.plus(&other.latencies),
         }
     }
 
     /// What was done since these counters stood at `earlier`.
     #[must_use]
-    pub fn since(self, earlier: Self) -> Self {
+    pub fn since(self, earlier: &Self) -> Self {
         Self {
             sent: self.sent - earlier.sent,
             received: self.received - earlier.received,
             bytes: self.bytes - earlier.bytes,
             waited: self.waited.saturating_sub(earlier.waited),
             exchanging: self.exchanging.saturating_sub(earlier.exchanging),
-            latencies: self.latencies.zip(earlier.latencies, u64::saturating_sub),
+            latencies: self.latencies.since(&earlier.latencies),
         }
     }
 }

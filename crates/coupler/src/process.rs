@@ -318,7 +318,7 @@ impl Link for ProcessLink {
     }
 
     fn counters(&self) -> LinkCounters {
-        self.talk.counters
+        self.talk.counters.clone()
     }
 }
 

@@ -9,7 +9,8 @@ mod analysis;
 mod block;
 mod boundary;
 mod diagnostics;
-pub mod eigen;
+#[cfg(test)]
+mod eigen;
 mod error;
 mod material;
 mod options;
