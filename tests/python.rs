@@ -26,16 +26,20 @@ fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
     command
 }
 
-/// The directory that cargo builds in.
-fn target() -> PathBuf {
-    let binary = Path::new(env!("CARGO_BIN_EXE_cav"));
-    binary.ancestors().nth(2).expect("target/release/cav").to_owned()
+/// The directory that cargo builds in, and the profile that it builds this with.
+fn target() -> (PathBuf, String) {
+    let directory = Path::new(env!("CARGO_BIN_EXE_cav")).parent().expect("target/debug/cav");
+    let name = directory.file_name().expect("debug").to_string_lossy();
+    // The one profile whose directory has another name.
+    let profile = if name == "debug" { "dev".into() } else { name };
+    (directory.parent().expect("target").to_owned(), profile.into_owned())
 }
 
 #[test]
 fn the_package_installs_from_source_and_passes_its_tests() {
     let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/pycav");
-    let environment = target().join("python");
+    let (target, profile) = target();
+    let environment = target.join("python");
     let python = environment.join("bin/python");
     if !python.exists() {
         run("making a virtual environment", command("python3").args(["-m", "venv"]).arg(&environment));
@@ -43,7 +47,9 @@ fn the_package_installs_from_source_and_passes_its_tests() {
     let pip = |arguments: &[&str]| {
         let mut install = command(&python);
         install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(arguments);
-        install.current_dir(&package).env("CARGO_TARGET_DIR", target());
+        install.current_dir(&package).env("CARGO_TARGET_DIR", &target);
+        // By itself it would be the release profile, for which every dependency would be compiled once more.
+        install.env("MATURIN_PEP517_ARGS", format!("--profile {profile}"));
         run("installing the package", &mut install);
     };
     pip(&[".[test]"]);

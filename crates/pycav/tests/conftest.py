@@ -27,7 +27,7 @@ def root() -> Path:
 def cav() -> Callable[..., subprocess.CompletedProcess[str]]:
     """Runs the program `cav` that CAV_BINARY names."""
     binary = os.environ.get("CAV_BINARY")
-    assert binary and Path(binary).is_file(), "set CAV_BINARY to the program cav: target/release/cav"
+    assert binary and Path(binary).is_file(), "set CAV_BINARY to the program cav: target/debug/cav"
 
     def run(*arguments: object, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
         return subprocess.run([binary, *map(str, arguments)], cwd=cwd, text=True, capture_output=True, check=False)

@@ -1,4 +1,4 @@
-//! Numerical verification of the solid's solver: errors, orders, invariants. Run in release mode.
+//! Numerical verification of the solid's solver: errors, orders, invariants.
 
 #![allow(clippy::unwrap_used, reason = "a test that fails to step has failed")]
 
