@@ -24,7 +24,8 @@ impl Latencies {
     /// The time that a share of all did not exceed, s, as the upper bound of its class; `None` before the first.
     #[must_use]
     pub fn percentile(&self, share: f64) -> Option<f64> {
-        (!self.0.is_empty()).then(|| self.0.value_at_quantile(share) as f64 * 1e-9)
+        let within = self.0.value_at_quantile(share);
+        (!self.0.is_empty()).then(|| self.0.highest_equivalent(within) as f64 * 1e-9)
     }
 
     /// These and the `other` ones.
