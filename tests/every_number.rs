@@ -26,8 +26,10 @@ const LARGEST_WHOLE: &str = "9223372036854775807";
 const AT_ONCE: usize = 3;
 /// Runs that take longer are asked to stop.
 const LONG: Duration = Duration::from_secs(3);
-/// By then a run that was asked to stop has ended, and one that has not even begun is lost: a busy machine's share included.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// By then a run that was asked to stop has ended; most of it is for machines that are busy.
+const STOPPED: Duration = Duration::from_secs(5);
+/// By then a run has begun, or is lost.
+const BEGUN: Duration = Duration::from_secs(30);
 
 /// The paths of the numbers in a document, and whether each is a whole one.
 fn numbers(value: &Value, path: &str, found: &mut Vec<(String, bool)>) {
@@ -143,7 +145,8 @@ fn run(trial: &Trial, directory: &Path, most_memory: u64) -> Option<Outcome> {
             ask(&child, Signal::INT);
             asked = Some(Instant::now());
         }
-        if asked.unwrap_or(begin).elapsed() > PATIENCE || memory > most_memory {
+        let is_lost = asked.map_or(begin.elapsed() > BEGUN, |asked| asked.elapsed() > STOPPED);
+        if is_lost || memory > most_memory {
             ask(&child, Signal::TERM);
             std::thread::sleep(Duration::from_millis(200));
             ask(&child, Signal::KILL);
@@ -172,17 +175,12 @@ fn fault(trial: &Trial, outcome: Option<&Outcome>, most_memory: u64) -> Option<S
         // A state that is not physical, a step that collapses: the remedy is part of the message.
         Some(3) => (!said.contains("try a smaller time.cfl")).then(|| format!("no remedy: {said}")),
         Some(2) => {
-            // The key, or the table that it is in.
             let keys = keys_alone(&trial.path);
-            let element: Vec<&str> = trial.path.split('.').collect();
-            let element = element
-                .iter()
-                .rposition(|key| key.parse::<usize>().is_err())
-                .map(|last| element[..last].join("."));
-            let names_it = said.contains(&keys.join("."))
-                || said.contains(&trial.path)
-                || keys.last().is_some_and(|key| said.contains(&format!(".{key}")))
-                || element.is_some_and(|table| !table.is_empty() && said.contains(&table));
+            let (last, tables) = keys.split_last().unwrap();
+            // The key, or the table that it is in, if it is not one of the largest.
+            let names_it = said.contains(&format!("{last}:"))
+                || said.contains(&format!(".{last}"))
+                || tables.len() > 1 && said.contains(&tables.join("."));
             let has_remedy = said.contains("help:");
             (!(names_it && has_remedy)).then(|| format!("does not name the key, or no remedy: {said}"))
         }

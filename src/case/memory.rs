@@ -167,7 +167,7 @@ fn least_cells(case: &Case, grid: &GridCase, asks: impl Fn([f64; 2], [f64; 2], [
     }
     // Depth first: at most three blocks wait on each level.
     let mut waiting: Vec<(usize, [usize; 2])> = Vec::new();
-    for root in 0..blocks {
+    for root in 0..along_z * along_r {
         waiting.push((roots, [root % along_z, root / along_z]));
         while let Some((level, [i, j])) = waiting.pop() {
             if level < finest && is_refined(level, [i, j]) {

@@ -97,7 +97,7 @@ pub(super) fn too_many(case: &Case) -> Option<(String, String)> {
         }
         let ([h_z, h_r], speed) = (grid.cell_size(), first.speeds[0].max(first.speeds[1]));
         let message = format!(
-            "{end:?} s are {:.1e} steps of {:.1e} s, more than {:e}: the {side} has cells of {h_z:.1e} x {h_r:.1e} m, signals \
+            "{end:?} s are {:.1e} steps of {:.1e} s, more than {:.0e}: the {side} has cells of {h_z:.1e} x {h_r:.1e} m, signals \
              of {speed:.1e} m/s in {}, and time.cfl = {:?}",
             end / first.length,
             first.length,

@@ -329,3 +329,29 @@ pub fn short_steps<M: Medium>(
         }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::run::setup::solid_solver;
+
+    #[test]
+    fn a_step_that_has_collapsed_ends_the_solids_run_too() {
+        let text = "[time]\nend = 1e-6\n[coupling]\nscheme = \"none\"\n[solid]\nz = [0, 1]\nr = [0, 1]\ncells = [16, 16]\n\
+                    material = \"copper\"\n";
+        let case = Case::from_toml(text, "small", &[]).unwrap();
+        let solver = solid_solver(&case, case.solid.as_ref().unwrap()).unwrap();
+        let rule = StepRule::of(&case);
+        assert_eq!(rule.unless_collapsed(2e-15, &solver).unwrap(), 2e-15);
+        for limit in [0.5e-15, 0.0, -1.0, f64::NAN] {
+            let error = rule.unless_collapsed(limit, &solver).unwrap_err();
+            assert_eq!(error.exit_code(), 3);
+            let said = error.to_string();
+            assert!(
+                said.contains("limited by the solid") && said.contains("try a smaller time.cfl"),
+                "{said}"
+            );
+        }
+    }
+}
