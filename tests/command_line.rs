@@ -465,9 +465,15 @@ fn complete_directory(workshop: &Workshop, out: &str) {
     for key in ["collapse_time", "min_equivalent_radius"] {
         assert!(summary.get(key).is_some_and(serde_json::Value::is_null), "{key}: {summary}");
     }
-    for key in ["first_order", "floored", "floor_energy", "floored_stars"] {
+    let masses = ["gas_mass_added", "liquid_mass_added"];
+    let fixups = ["first_order", "floored", "floor_energy", "floored_stars"];
+    for key in fixups.iter().chain(&masses).chain(&fluid::Clips::NAMES) {
         assert!(summary["fixups"][key].is_number(), "{key}: {summary}");
     }
+    assert!(
+        summary["coupling"]["exchange_wait_share"].as_f64().is_some_and(|share| share >= 0.0),
+        "{summary}"
+    );
     assert!(summary["coupling"]["exchanges"].as_u64() >= Some(steps as u64), "{summary}");
     for side in ["fluid", "solid"] {
         for key in ["seconds_waited", "seconds_computing", "seconds_recording"] {

@@ -26,8 +26,12 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     if let Some(seconds) = compute_seconds(&whole) {
         whole.insert("compute_seconds".to_owned(), seconds);
     }
-    if let Some(share) = exchange_share(&whole) {
-        whole["coupling"]["exchange_share"] = json!(share);
+    for (key, share) in
+        [("exchange_share", exchange_share(&whole)), ("exchange_wait_share", exchange_wait_share(&whole))]
+    {
+        if let Some(share) = share {
+            whole["coupling"][key] = json!(share);
+        }
     }
     let warnings = warnings(&whole);
     for warning in &warnings {
@@ -53,8 +57,7 @@ fn compute_seconds(whole: &Map<String, Value>) -> Option<Value> {
 
 /// (wall time − both sides' compute − output) / wall time: what the exchange cost.
 ///
-/// Negative where the sides compute at the same time. What each waited for frames that were ready is in
-/// `seconds_exchanging`; that has the waits for a processor in it which the other side is using.
+/// Negative where the sides compute at the same time, see [`exchange_wait_share`].
 fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
     let wall = whole.get("wall_seconds")?.as_f64()?;
     let mut rest = wall;
@@ -64,6 +67,17 @@ fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
         }
     }
     Some(rest / wall)
+}
+
+/// What both sides waited for frames that were ready, over the wall time: what the exchange cost, whether the sides take turns or
+/// compute at the same time. Never negative.
+///
+/// From the moment when a frame was complete and its reader asked for it to the moment when the reader had it, added up over the
+/// frames both ways. Waits for a processor that the other side is using are in it.
+fn exchange_wait_share(whole: &Map<String, Value>) -> Option<f64> {
+    let wall = whole.get("wall_seconds")?.as_f64()?;
+    let waited = |side: &str| whole.get("coupling")?.get(side)?.get("seconds_exchanging")?.as_f64();
+    Some((waited("fluid")? + waited("solid")?) / wall)
 }
 
 /// Share of the collapse's energy above which what the pressure floor added is worth a warning.
@@ -124,4 +138,24 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
     words.extend(warnings.filter_map(Value::as_str).map(|warning| format!("warning: {warning}")));
     words.push(format!("see {}", directory.display()));
     words.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_sides_wait_for_frames_that_are_ready_is_no_less_than_nothing_also_where_they_compute_at_the_same_time()
+     {
+        let side = json!({
+            "seconds_computing": 9.0,
+            "seconds_recording": 0.5,
+            "seconds_checkpointing": 0.0,
+            "seconds_exchanging": 0.1,
+        });
+        let whole = json!({ "wall_seconds": 10.0, "coupling": { "fluid": side, "solid": side } });
+        let whole = whole.as_object().expect("an object");
+        assert!(exchange_share(whole).is_some_and(|share| share < -0.8));
+        assert!(exchange_wait_share(whole).is_some_and(|share| (share - 0.02).abs() < 1e-15));
+    }
 }

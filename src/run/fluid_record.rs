@@ -15,12 +15,15 @@ use crate::case::{Case, FLUID_FIELDS, Medium};
 use crate::output::run_directory::{FLUID_FIELDS as FIELDS_FILE, FLUID_HISTORY};
 use crate::output::{Column, FieldSpec, HistoryFile, OutputError, RunDirectory, SeriesId, Storage};
 
+mod fixups;
 pub mod saved;
 
 /// Everything that the fluid's side writes.
 pub struct FluidRecord {
     files: SideFiles,
     steps: SeriesId,
+    /// How often bounds acted, every step.
+    clips: SeriesId,
     /// One row for each bubble side by side; absent with less than two.
     bubbles: Option<SeriesId>,
     interface: Option<InterfaceHistory>,
@@ -75,6 +78,7 @@ impl FluidRecord {
         let history = &mut files.history;
         let cuts = case.fluid.as_ref().map(|fluid| BubbleCuts::of(&fluid.initial)).unwrap_or_default();
         let steps = history.add_series("", &STEP_COLUMNS)?;
+        let clips = history.add_series("", &fixups::CLIP_COLUMNS)?;
         let bubbles = bubble_series(&cuts, history)?;
         let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.wall_edges());
         let mut wall_pressures = Vec::new();
@@ -97,6 +101,7 @@ impl FluidRecord {
         Ok(Self {
             files,
             steps,
+            clips,
             interface,
             conservation,
             ticker: Ticker::of(case),
@@ -186,8 +191,11 @@ impl FluidRecord {
                 fixups.floored as f64,
                 fixups.floored_volume,
                 fixups.floor_energy,
+                fixups.gas_mass_added,
+                fixups.liquid_mass_added,
             ],
         )?;
+        history.push(self.clips, &fixups.clips.counts().map(|count| count as f64))?;
         if let Some(series) = self.bubbles {
             self.cuts.follow(solver);
             let numbers = |b: Bubble| [b.volume, b.equivalent_radius, b.centroid_z, b.gas_mass];
@@ -269,11 +277,9 @@ impl FluidRecord {
             Geometry::Planar => (volume / std::f64::consts::PI).sqrt(),
         };
         let collapse = self.collapse.found();
-        let fixups = solver.fixups();
         let with_wall = self.interface.is_some();
         let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
         let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
-        let share = |energy: f64| (self.collapse_energy > 0.0).then_some(energy / self.collapse_energy);
         let value = json!({
             "collapse_time": collapse.map(|c| c.time),
             "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
@@ -289,15 +295,7 @@ impl FluidRecord {
             "wall_pressure_peak_anywhere_time": peak_time(self.peaks.wall_anywhere),
             "jet_velocity_peak": self.peaks.jet[0],
             "jet_velocity_peak_time": self.peaks.jet[1],
-            "fixups": {
-                "first_order": fixups.first_order,
-                "redone": fixups.redone,
-                "redone_volume": fixups.redone_volume,
-                "floored": fixups.floored,
-                "floored_volume": fixups.floored_volume,
-                "floor_energy": fixups.floor_energy,
-                "floor_energy_share": share(fixups.floor_energy),
-            },
+            "fixups": fixups::summary(solver.fixups(), self.collapse_energy),
         });
         match value {
             Value::Object(mut map) => {
@@ -333,7 +331,7 @@ const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
     ("gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
 ];
 
-const STEP_COLUMNS: [Column<'static>; 18] = [
+const STEP_COLUMNS: [Column<'static>; 20] = [
     column("time", "s", "time after the step"),
     column("time_step", "s", "length of the step"),
     column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
@@ -356,6 +354,12 @@ const STEP_COLUMNS: [Column<'static>; 18] = [
     column("fixups/floored", "1", "cell-steps lifted to the pressure floor so far"),
     column("fixups/floored_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
     column("fixups/floor_energy", "J/rad", "energy that the floor added so far (planar: J/m)"),
+    column(
+        "fixups/gas_mass_added",
+        "kg/rad",
+        "mass that the gas got from the liquid where it had less than none",
+    ),
+    column("fixups/liquid_mass_added", "kg/rad", "mass that the liquid got from the gas, likewise"),
 ];
 
 const CONSERVATION_COLUMNS: [Column<'static>; 19] = [

@@ -3,6 +3,7 @@
 use mesh::{Field, Mesh};
 
 use crate::analysis::Analysis;
+use crate::clips::CountedAnalysis;
 use crate::solver::{AsksForFiner, InitialState};
 use crate::{FluidError, FluidSetup, FluidSolver};
 
@@ -56,7 +57,9 @@ impl<const N: usize> FluidSolver<N> {
         let adapted =
             self.mesh.adapted(&self.state, &self.analysis, adaptation, &self.patches, travel, |_| 0);
         let Some(adapted) = adapted else { return false };
-        adapted.remap_into(&self.mesh, &self.state, &self.analysis, &self.patches, &mut self.next);
+        let analysis = CountedAnalysis::new(&self.analysis);
+        adapted.remap_into(&self.mesh, &self.state, &analysis, &self.patches, &mut self.next);
+        self.fixups.clips.limited_predictions += analysis.limited();
         std::mem::swap(&mut self.state, &mut self.next);
         self.next.resize(adapted.mesh.blocks());
         self.register.resize(adapted.mesh.blocks());

@@ -4,6 +4,7 @@ use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, limited_differ
 
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, WallState};
+use crate::clips::{Clips, CountedAnalysis};
 use crate::curvature::AlongFaces;
 use crate::even::{even_slopes, predict_beside_mirrors};
 use crate::exact_rows::exact_faces;
@@ -13,7 +14,7 @@ use crate::five_equation::{GasBlock, GasScratch, may_have_gas};
 use crate::options::TwoPhaseOptions;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
-use crate::report::{BlockReport, boundary_inflow, count_fallbacks, far_field_gains};
+use crate::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};
 use crate::rows::{self, Reconstruction};
 use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::update::{Extremes, Metric, update};
@@ -127,24 +128,27 @@ impl<const N: usize> BlockScratch<N> {
 /// Assembles a block with its ghosts: primitive variables in `cells`.
 ///
 /// - `with_gas`: whether the gas is looked at; else there is none, neither in the block nor in its neighbours.
+/// - returns: how many predictions of ghosts were limited.
 fn assemble<const N: usize>(
     ctx: &StepContext<'_, N>,
     slot: usize,
     with_gas: bool,
     scratch: &mut BlockScratch<N>,
-) {
+) -> u64 {
     if !with_gas {
         scratch.without_gas();
     }
     scratch.has_gas = with_gas;
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
     let components = if with_gas { ctx.old.components() } else { PHI };
-    cells.assemble_first(components, ctx.mesh, ctx.old, slot, ctx.analysis, patch);
+    let analysis = CountedAnalysis::new(ctx.analysis);
+    cells.assemble_first(components, ctx.mesh, ctx.old, slot, &analysis, patch);
     debug_assert!(with_gas || cells.component(PHI).iter().all(|phi| *phi == 0.0), "neighbours have no gas");
     rows::to_primitive(cells.split_mut(), with_gas, ctx.mixture);
     ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     let id = ctx.mesh.tree().leaves()[slot];
     ctx.mesh.inverse_radii(id, inverse_r);
+    analysis.limited()
 }
 
 /// Assembles a block with its ghosts and reconstructs it: primitive variables in `cells`, limited
@@ -182,7 +186,7 @@ pub(crate) fn step_block<const N: usize>(
     let inverse_h = [1.0 / h_z, 1.0 / h_r];
 
     let may_have_gas = may_have_gas(ctx, slot);
-    assemble(ctx, slot, may_have_gas, scratch);
+    let limited_predictions = assemble(ctx, slot, may_have_gas, scratch);
     let gas_block = if may_have_gas { GasBlock::of(ctx, slot, &scratch.cells) } else { None };
     let with_gas = ctx.two_phase.is_none() || gas_block.is_some();
     if !with_gas {
@@ -233,11 +237,14 @@ pub(crate) fn step_block<const N: usize>(
         along_faces: AlongFaces::new([1, 3].map(|c| scratch.s_r.component(c)), stride),
     };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
-    faces(ctx, &along_z, 1, z_range, &mut scratch.z_faces);
+    let has_wall =
+        ctx.boundaries.kind(Side::ZMin) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMin);
+    let replaced = if has_wall { Some(mesh::GHOSTS - 1) } else { None };
+    let mut clipped_roots = faces(ctx, &along_z, 1, z_range, replaced, &mut scratch.z_faces);
     if let Some(block) = &gas_block {
         block.solve_faces(0, &along_z, &scratch.inverse_r, &mut scratch.gas, &mut scratch.z_faces);
     }
-    if ctx.boundaries.kind(Side::ZMin) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMin) {
+    if has_wall {
         let first = ctx.wall_first[slot];
         Boundaries::impose_wall::<N>(
             &ctx.wall[first..first + N],
@@ -258,7 +265,7 @@ pub(crate) fn step_block<const N: usize>(
         along_faces: AlongFaces::new([2, 3].map(|c| scratch.s_z.component(c)), 1),
     };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
-    faces(ctx, &along_r, stride, r_range, &mut scratch.r_faces);
+    clipped_roots += faces(ctx, &along_r, stride, r_range, None, &mut scratch.r_faces);
     if let Some(block) = &gas_block {
         block.solve_faces(1, &along_r, &scratch.inverse_r, &mut scratch.gas, &mut scratch.r_faces);
         block.gas_fluxes(&mut scratch.gas, [&mut scratch.z_faces, &mut scratch.r_faces]);
@@ -295,7 +302,10 @@ pub(crate) fn step_block<const N: usize>(
         [speed_z, speed_r, floor],
     );
 
-    let mut report = BlockReport { fallbacks: count_fallbacks::<N>(&scratch.keep), ..BlockReport::default() };
+    let [fallbacks, halved] = count_kept::<N>(&scratch.keep);
+    let clips =
+        Clips { halved_slopes: u64::from(halved), limited_predictions, clipped_roots, ..Clips::default() };
+    let mut report = BlockReport { fallbacks, clips, ..BlockReport::default() };
     if let Some(block) = &gas_block {
         let faces = [&scratch.z_faces, &scratch.r_faces];
         let pressure = scratch.cells.component(3);
@@ -351,18 +361,38 @@ pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COU
     std::array::from_fn(|_| rows.next().expect("a block has that many components"))
 }
 
+/// Solves the faces of a block along z (`step` 1) or r.
+///
+/// - `replaced`: the column of padded cells whose upper faces get other fluxes.
+/// - returns: at how many of the faces that count HLLC's sound speed was bounded.
 fn faces<const N: usize>(
     ctx: &StepContext<'_, N>,
     cells: &Reconstruction<'_>,
     step: usize,
     range: std::ops::Range<usize>,
+    replaced: Option<usize>,
     faces: &mut FaceRows,
-) {
+) -> u64 {
     match ctx.riemann {
-        RiemannSolver::Hllc => rows::hllc_faces(cells, step, Padded::<N>::STRIDE, range, ctx.mixture, faces),
+        RiemannSolver::Hllc => {
+            let has_all =
+                rows::hllc_faces(cells, step, Padded::<N>::STRIDE, range.clone(), ctx.mixture, faces);
+            if has_all {
+                return 0;
+            }
+            // Mixed cells of the five-equation model have states and fluxes of their own: their share is −0.
+            let is_own = |k: usize| cells.keep[k].to_bits() >> 63 == 1;
+            let counts = |k: &usize| {
+                used_face::<N>(*k, step)
+                    && replaced != Some(*k % Padded::<N>::STRIDE)
+                    && !(is_own(*k) || is_own(*k + step))
+            };
+            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, ctx.mixture)).count() as u64
+        }
         RiemannSolver::Exact => {
             let stride = Padded::<N>::STRIDE;
             exact_faces(cells, step, stride, range, used_face::<N>, ctx.mixture, faces);
+            0
         }
     }
 }

@@ -35,6 +35,13 @@ pub struct Face {
 /// - exact for isolated contacts; tested by: consistency, mirror symmetry, supersonic upwinding, contact at rest.
 #[inline(always)]
 pub fn flux_hllc(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
+    flux_and_roots(left, right, mixture).0
+}
+
+/// [`flux_hllc`], and whether both sides have a sound speed; one that has none counts as if it were 0. Of what has no density
+/// either, as beyond the corners of a block, that is not said.
+#[inline(always)]
+pub(crate) fn flux_and_roots(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> (Face, bool) {
     let [rho_l, u_l, v_l, p_l, phi_l] = left;
     let [rho_r, u_r, v_r, p_r, phi_r] = right;
     // c² = ((1 + β₁) p + β₂)/(β₁ρ): one division serves both sides, and two square roots wait for it.
@@ -45,7 +52,8 @@ pub fn flux_hllc(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
     let ((over_l, under_l), (over_r, under_r)) = (law(rho_l, p_l, phi_l), law(rho_r, p_r, phi_r));
     let inverse = 1.0 / (under_l * under_r);
     let root = |squared: f64| (if squared > 0.0 { squared } else { 0.0 }).sqrt();
-    let (c_l, c_r) = (root((over_l * under_r) * inverse), root((over_r * under_l) * inverse));
+    let (squared_l, squared_r) = ((over_l * under_r) * inverse, (over_r * under_l) * inverse);
+    let (c_l, c_r) = (root(squared_l), root(squared_r));
     let s_l = smaller(u_l - c_l, u_r - c_r);
     let s_r = larger(u_l + c_l, u_r + c_r);
     // Mass swept by the outer waves: m_l < 0 < m_r.
@@ -73,7 +81,7 @@ pub fn flux_hllc(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
     let total = if supersonic { energy } else { energy_star };
     let compression = if supersonic { 1.0 } else { compression };
     let mass = density * velocity;
-    Face {
+    let face = Face {
         mass,
         velocity,
         pressure,
@@ -81,7 +89,9 @@ pub fn flux_hllc(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
         energy: velocity * (total + pressure),
         phi,
         compression,
-    }
+    };
+    let are_dense = (rho_l > 0.0) & (rho_r > 0.0);
+    (face, !are_dense | ((squared_l > 0.0) & (squared_r > 0.0)))
 }
 
 /// By comparison, without the NaN rules of `f64::min`, so that a row of faces vectorises.
@@ -157,6 +167,16 @@ mod tests {
         let wall = flux_hllc(l, mirror(l), &mixture());
         assert_eq!((wall.mass, wall.velocity, wall.energy), (0.0, 0.0, 0.0));
         assert!(wall.pressure > l[3]);
+    }
+
+    #[test]
+    fn a_side_without_a_sound_speed_is_told() {
+        let (state, no_state) = ([1000.0, 1.0, 0.0, 1e5, 0.0], [1000.0, 1.0, 0.0, -3.1e8, 0.0]);
+        for (left, right, is) in [(state, state, true), (no_state, state, false), (state, no_state, false)] {
+            let (face, has_roots) = flux_and_roots(left, right, &mixture());
+            assert_eq!(has_roots, is);
+            assert!(face.energy.is_finite(), "{face:?}");
+        }
     }
 
     #[test]

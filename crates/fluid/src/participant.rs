@@ -7,7 +7,7 @@ use crate::block::{BlockScratch, reconstruct};
 use crate::five_equation::{Cells, FaceStates, Stencil, Window, face_states};
 use crate::rows::{half_step, rates};
 use crate::wall_trace::Trace;
-use crate::{FluidSolver, Mixture, WallState};
+use crate::{FluidSolver, Mixture, TRACE_GAS, WallState};
 
 impl<const N: usize> FluidSolver<N> {
     /// Number of faces on the wall to the solid; 0 without one.
@@ -55,6 +55,7 @@ impl<const N: usize> FluidSolver<N> {
         mut put: impl FnMut(TraceRow, usize, f64),
     ) {
         let context = self.context(dt);
+        let mut scaled = 0;
         for slot in self.wall_blocks.iter().copied().filter(|slot| is_due(*slot)) {
             let first = self.wall_first[slot];
             let id = self.mesh.tree().leaves()[slot];
@@ -96,14 +97,18 @@ impl<const N: usize> FluidSolver<N> {
                     state[3] += more(1, 3);
                     // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
                     // mixture's β₁ soon has the wrong sign, and γ with it.
-                    state[4] = state[4].clamp(0.0, 1.0);
-                    let trace = Trace { state, rate, slope };
+                    let phi = state[4];
+                    state[4] = phi.clamp(0.0, 1.0);
+                    let whole = Trace { state, rate, slope };
                     let reach = [0.5 * dt, 0.5 / inverse_h[1]];
-                    let trace = trace.admissible(w, reach, &self.mixture);
+                    let trace = whole.admissible(w, reach, &self.mixture);
+                    let is_bounded = (phi - state[4]).abs() > TRACE_GAS;
+                    scaled += u64::from(is_bounded || trace != whole);
                     put_rows(trace, &self.mixture, first + j, &mut put);
                 }
             });
         }
+        self.scaled_traces.add(scaled);
     }
 
     /// The fluid's own states on the wall in the middle of a step of length `dt`, face by face.

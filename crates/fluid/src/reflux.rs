@@ -5,9 +5,9 @@ use mesh::{CorrectedFace, FluxRegister, Mesh, Side};
 use crate::Mixture;
 use crate::block::StepContext;
 use crate::face_rows::FaceRows;
-use crate::five_equation::{Compression, is_mixed};
+use crate::five_equation::{Compression, is_mixed, missing_mass};
 use crate::report::BlockReport;
-use crate::state::conserved::{COUNT, ENERGY, GAS, PHI};
+use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
 use crate::state::primitive;
 
 /// What is registered of a face: mass flux, normal momentum it carries, pressure, tangential momentum flux, energy
@@ -49,7 +49,8 @@ pub(crate) fn register_fluxes<const N: usize>(
 ///
 /// - `finer`: what those neighbours have passed in the meantime.
 ///
-/// The formulas are those of `update.rs` for one face; the pressure floor holds for the corrected cells, too.
+/// The formulas are those of `update.rs` for one face; the floors of pressure and of the phases' masses hold for the corrected cells,
+/// too.
 pub(crate) fn correct<const N: usize>(
     ctx: &StepContext<'_, N>,
     register: &Register<N>,
@@ -89,6 +90,11 @@ pub(crate) fn correct<const N: usize>(
         }
         if ctx.two_phase.is_some() {
             new[cell(GAS)] -= changes[GAS];
+            let [of_gas, of_liquid] = missing_mass(new[cell(RHO)], new[cell(GAS)]);
+            if of_gas + of_liquid > 0.0 {
+                report.lift_phase([of_gas, of_liquid], ctx.mesh.volume(id, j));
+                new[cell(GAS)] += of_gas - of_liquid;
+            }
             report.has_gas |= new[cell(GAS)] != 0.0 || new[cell(PHI)] != 0.0;
         }
     });

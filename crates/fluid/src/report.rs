@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::block::StepContext;
 use crate::boundary::{beside, normal};
+use crate::clips::Clips;
 use crate::face_rows::FaceRows;
 use crate::far_field::{face_centre, first_face};
 use crate::update::Extremes;
@@ -22,6 +23,10 @@ pub(crate) struct BlockReport<const N: usize> {
     pub redone_volume: f64,
     /// Cells that fell back to first order.
     pub fallbacks: u32,
+    /// How often other bounds acted.
+    pub clips: Clips,
+    /// Mass that the gas and the liquid got where they had less than none, kg (per radian in axial symmetry).
+    pub phase_mass_added: [f64; 2],
     /// Cells lifted to the pressure floor, their volume and the energy that took (per radian in axial symmetry), J.
     pub floored: u32,
     pub floored_volume: f64,
@@ -76,6 +81,8 @@ impl<const N: usize> Default for BlockReport<N> {
             redone: 0,
             redone_volume: 0.0,
             fallbacks: 0,
+            clips: Clips::default(),
+            phase_mass_added: [0.0; 2],
             floored: 0,
             floored_volume: 0.0,
             floor_energy: 0.0,
@@ -86,16 +93,30 @@ impl<const N: usize> Default for BlockReport<N> {
     }
 }
 
-/// Cells of the block that keep none of their slopes, for want of admissible face states.
-pub(crate) fn count_fallbacks<const N: usize>(keep: &[f64]) -> u32 {
-    let mut dropped = 0;
+impl<const N: usize> BlockReport<N> {
+    /// Takes down that a phase of a cell had less than no mass.
+    ///
+    /// - `missing`: of the gas and of the liquid, kg/m³; `volume`: the cell's.
+    pub fn lift_phase(&mut self, missing: [f64; 2], volume: f64) {
+        self.clips.lifted_phases += 1;
+        for (added, missing) in self.phase_mass_added.iter_mut().zip(missing) {
+            *added += missing * volume;
+        }
+    }
+}
+
+/// Cells of the block that keep none of their slopes, and those that keep half, for want of admissible face states.
+pub(crate) fn count_kept<const N: usize>(keep: &[f64]) -> [u32; 2] {
+    let (mut dropped, mut halved) = (0, 0);
     for j in 0..N {
         let at = Padded::<N>::index(0, j as isize);
-        // Mixed cells of the five-equation model hold −0: they have face states of their own.
-        let is_dropped = |share: &&f64| **share == 0.0 && share.is_sign_positive();
-        dropped += keep[at..at + N].iter().filter(is_dropped).count() as u32;
+        for share in &keep[at..at + N] {
+            // Mixed cells of the five-equation model hold −0: they have face states of their own.
+            dropped += u32::from(share.to_bits() == 0);
+            halved += u32::from(*share == 0.5);
+        }
     }
-    dropped
+    [dropped, halved]
 }
 
 /// What the far field's impulses gain on the faces of a block.

@@ -11,7 +11,7 @@ use mesh::whole_lines;
 use crate::Mixture;
 use crate::curvature::{AlongFaces, Curvature, states_at_face};
 use crate::face_rows::FaceRows;
-use crate::hllc::flux_hllc;
+use crate::hllc::flux_and_roots;
 use crate::state::primitive;
 
 /// Slices of the five primitive variables ρ, v_z, v_r, p, φ.
@@ -301,6 +301,8 @@ impl<'a> Reconstruction<'a> {
 
 /// HLLC at the faces between cells `k` and `k + step`, for `k` in `range` and in whatever completes its lines;
 /// `stride` is that of the rows. Without gas the gas fractions on the faces are left alone.
+///
+/// - returns: whether all of them have sound speeds on both sides, also those of which nothing is used.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn hllc_faces(
     cells: &Reconstruction<'_>,
@@ -309,7 +311,7 @@ pub(crate) fn hllc_faces(
     range: Range<usize>,
     mixture: &Mixture,
     faces: &mut FaceRows,
-) {
+) -> bool {
     let range = whole_lines(range, cells.lines(step, stride));
     let (first, n) = (range.start, range.len());
     let mixture = *mixture;
@@ -319,9 +321,9 @@ pub(crate) fn hllc_faces(
         (&mut mass[first..][..n], &mut velocity[first..][..n], &mut pressure[first..][..n]);
     let (shear, energy, phi) = (&mut shear[first..][..n], &mut energy[first..][..n], &mut phi[first..][..n]);
     if cells.with_gas {
-        hllc_body::<true>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi);
+        hllc_body::<true>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi)
     } else {
-        hllc_body::<false>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi);
+        hllc_body::<false>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi)
     }
 }
 
@@ -337,10 +339,12 @@ fn hllc_body<const WITH_GAS: bool>(
     shear: &mut [f64],
     energy: &mut [f64],
     phi: &mut [f64],
-) {
+) -> bool {
+    let mut without = 0;
     for k in 0..n {
         let [left, right] = states_at_face::<WITH_GAS>(&lower, &upper, k);
-        let face = flux_hllc(left, right, mixture);
+        let (face, has_roots) = flux_and_roots(left, right, mixture);
+        without |= u64::from(!has_roots);
         mass[k] = face.mass;
         velocity[k] = face.velocity;
         pressure[k] = face.pressure;
@@ -350,6 +354,13 @@ fn hllc_body<const WITH_GAS: bool>(
             phi[k] = face.phi;
         }
     }
+    without == 0
+}
+
+/// Whether both sides of the face above cell `k` have a sound speed, see [`flux_and_roots`].
+pub(crate) fn has_roots(cells: &Reconstruction<'_>, k: usize, step: usize, mixture: &Mixture) -> bool {
+    let [left, right] = states_at_face::<true>(&cells.cut(k, 1), &cells.cut(k + step, 1), 0);
+    flux_and_roots(left, right, mixture).1
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use mesh::{BlockId, Field, Horizon, Misfit};
 use serde::{Deserialize, Serialize};
 
+use crate::clips::SharedCount;
 use crate::far_field::{SideImpulses, SourceHistory};
 use crate::report::BlockReport;
 use crate::{BoundaryLedger, Fixups, FluidSolver, WallState};
@@ -67,7 +68,8 @@ impl<const N: usize> FluidSolver<N> {
             steps,
             cell_updates,
             common_updates,
-            fixups,
+            fixups: _,
+            scaled_traces: _,
             ledger,
         } = self;
         FluidState {
@@ -85,7 +87,8 @@ impl<const N: usize> FluidSolver<N> {
             steps: *steps,
             cell_updates: *cell_updates,
             common_updates: *common_updates,
-            fixups: *fixups,
+            // Those of the traces shown are among them.
+            fixups: self.fixups(),
             ledger: *ledger,
         }
     }
@@ -141,6 +144,7 @@ impl<const N: usize> FluidSolver<N> {
         (self.time, self.steps) = (time, steps);
         (self.cell_updates, self.common_updates) = (cell_updates, common_updates);
         (self.fixups, self.ledger) = (fixups, ledger);
+        self.scaled_traces = SharedCount::default();
         Ok(())
     }
 }

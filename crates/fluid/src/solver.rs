@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::analysis::{Analysis, Scales};
 use crate::block::{BlockScratch, Marks};
 use crate::boundary::{Boundaries, PressureHistory, WallState};
+use crate::clips::{Clips, SharedCount};
 use crate::far_field::{SideImpulses, SourceHistory};
 use crate::options::TwoPhaseOptions;
 use crate::reflux::{QUANTITIES, Register};
@@ -77,6 +78,12 @@ pub struct Fixups {
     pub floored_volume: f64,
     /// Energy that the floor added, J (per radian in axial symmetry, per metre of depth in planar geometry).
     pub floor_energy: f64,
+    /// Mass that the gas got from the liquid in cells where it had less than none, kg (likewise).
+    pub gas_mass_added: f64,
+    /// Mass that the liquid got from the gas, likewise.
+    pub liquid_mass_added: f64,
+    /// How often other bounds acted.
+    pub clips: Clips,
 }
 
 /// What crossed the sides of the domain since the start, inwards, in the order of [`Side::ALL`].
@@ -134,6 +141,8 @@ pub struct FluidSolver<const N: usize> {
     pub(crate) cell_updates: u64,
     pub(crate) common_updates: u64,
     pub(crate) fixups: Fixups,
+    /// Traces of the wall that were scaled since the fluid was made or taken up again; they are shown, not made, in a step.
+    pub(crate) scaled_traces: SharedCount,
     pub(crate) ledger: BoundaryLedger,
 }
 
@@ -220,6 +229,7 @@ impl<const N: usize> FluidSolver<N> {
             cell_updates: 0,
             common_updates: 0,
             fixups: Fixups::default(),
+            scaled_traces: SharedCount::default(),
             ledger: BoundaryLedger::default(),
             mixture,
             mesh,
@@ -287,7 +297,9 @@ impl<const N: usize> FluidSolver<N> {
 
     /// Corrections made so far.
     pub fn fixups(&self) -> Fixups {
-        self.fixups
+        let mut fixups = self.fixups;
+        fixups.clips.scaled_traces += self.scaled_traces.get();
+        fixups
     }
 
     /// What crossed the domain's sides so far.

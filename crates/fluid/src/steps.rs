@@ -269,6 +269,9 @@ impl<const N: usize> FluidSolver<N> {
         self.fixups.floored_volume += report.floored_volume;
         self.fixups.floored += u64::from(report.floored);
         self.fixups.floor_energy += report.floor_energy;
+        self.fixups.gas_mass_added += report.phase_mass_added[0];
+        self.fixups.liquid_mass_added += report.phase_mass_added[1];
+        self.fixups.clips += report.clips;
         for (side, [mass, momentum, energy]) in report.inflow.into_iter().enumerate() {
             self.ledger.mass[side] += mass;
             self.ledger.momentum[side] += momentum;

@@ -79,6 +79,7 @@ impl FluidRecord {
         let Self {
             files,
             steps: _,
+            clips: _,
             bubbles: _,
             interface,
             conservation: _,

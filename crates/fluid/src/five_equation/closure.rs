@@ -17,7 +17,8 @@ pub(crate) fn is_mixed(phi: f64) -> bool {
 /// Gas fractions nearer than this to 0 or 1 may count as pure, see [`is_compliant`]; there is no step in them, either.
 pub(crate) const THIN: f64 = 1e-4;
 
-/// The relative difference of the moduli below which a thin cell counts as pure.
+/// The relative difference of the moduli below which a thin cell counts as pure: its sound speed is then off by half as much, in the
+/// few cells that traces make soft. Half and twice of it: `docs/verification.md`, "Constants".
 const SAME_MODULUS: f64 = 1e-2;
 
 /// Whether a cell holds both phases and gives way under compression as neither of them does, nor the frozen mixture.
@@ -46,6 +47,12 @@ fn moduli(p: f64, mixture: &Mixture) -> (f64, f64) {
 #[inline(always)]
 pub(crate) fn bounded(phi: f64) -> f64 {
     phi.clamp(-PURE, 1.0 + PURE)
+}
+
+/// Whether a gas fraction is one of [`bounded`]'s bounds.
+#[inline(always)]
+pub(crate) fn is_bound(phi: f64) -> bool {
+    (phi == -PURE) | (phi == 1.0 + PURE)
 }
 
 /// What the phases of a mixture at one pressure do under compression.

@@ -6,22 +6,34 @@ use super::windows::{LANES, Lane};
 /// ρ, v_z, v_r, p, φ and the gas's part of the mass.
 type Rows = [Lane; 6];
 
+/// Lanes whose cells were bounded, bit by bit: phase densities, pressure, gas fraction; and those that kept half, and none, of
+/// their slopes.
+pub(crate) type Bounded = [u8; 5];
+
 const EMPTY: [Rows; 4] = [[[0.0; LANES]; 6]; 4];
 
 /// The states on the four faces of cells, in the lanes of the windows that they were made in.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FaceStates {
     windows: Vec<[Rows; 4]>,
+    /// Of each window but those that were pushed.
+    bounded: Vec<Bounded>,
     /// How many cells were put behind those of the windows.
     pushed: usize,
 }
 
 impl FaceStates {
-    /// Room for the states of so many windows, all to be written over; what was pushed goes.
-    pub fn of_windows(&mut self, count: usize) -> &mut [[Rows; 4]] {
+    /// Room for the states of so many windows, and for what was bounded in them, all to be written over; what was pushed goes.
+    pub fn of_windows(&mut self, count: usize) -> impl Iterator<Item = (&mut [Rows; 4], &mut Bounded)> {
         self.pushed = 0;
         self.windows.resize(count, EMPTY);
-        &mut self.windows
+        self.bounded.resize(count, Bounded::default());
+        self.windows.iter_mut().zip(&mut self.bounded)
+    }
+
+    /// What was bounded in each window.
+    pub fn bounded(&self) -> &[Bounded] {
+        &self.bounded
     }
 
     /// What the cell in a place has on one of its faces.
@@ -66,7 +78,7 @@ mod tests {
             |n: usize| FaceState { w: [0.0, 1.0, 2.0, 3.0, 4.0].map(|c| c + n as f64), gas_share: n as f64 };
         let mut states = FaceStates::default();
         for windows in [2, 1] {
-            states.of_windows(windows)[0] = [[[7.0; LANES]; 6]; 4];
+            states.of_windows(windows).for_each(|(faces, _)| *faces = [[[7.0; LANES]; 6]; 4]);
             let places: Vec<usize> =
                 (0..10).map(|n| states.push([0, 1, 2, 3].map(|face| state(4 * n + face)))).collect();
             assert_eq!(places, Vec::from_iter(windows * LANES..windows * LANES + 10));

@@ -5,8 +5,9 @@ use mesh::{AlignedRow, Mesh, Padded, Side};
 use super::cells::Cells;
 use super::mixed::{MixedCells, Outer};
 use super::reconstruction::Stencil;
-use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
+use super::update::{gas_fluxes, gas_shares, is_zero, missing_mass, settle_gas, update_gas, update_mixed};
 use crate::block::{BlockScratch, Marks, StepContext, split_block};
+use crate::clips::Clips;
 use crate::face_rows::FaceRows;
 use crate::options::TwoPhaseOptions;
 use crate::report::BlockReport;
@@ -190,7 +191,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let (first, new_gas) = new.split_at_mut(GAS * N * N);
         update_gas::<N>(old_gas, faces[0], faces[1], self.ctx.dt, metric, new_gas);
         let mut rows = split_block::<N>(first);
-        update_mixed::<N>(
+        let mut clipped = update_mixed::<N>(
             &gas.mixed,
             old,
             pressure,
@@ -203,7 +204,29 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             &mut gas.marked,
         );
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
-        report.has_gas = settle_gas(rows[PHI], new_gas);
+        let [density, _, _, _, phi] = rows;
+        let settled = settle_gas(phi, density, new_gas);
+        clipped += settled.clipped;
+        let (clips, dropped) = gas.mixed.clips();
+        report.clips += Clips { clipped_fractions: clipped, removed_traces: settled.removed, ..clips };
+        report.fallbacks += dropped;
+        report.has_gas = settled.is_left;
+        if settled.has_missing {
+            self.lift_phases(density, new_gas, report);
+        }
+    }
+
+    /// Gives phases that have less than no mass what they lack, from the other phase: ρ stays.
+    fn lift_phases(&self, density: &[f64], gas: &mut [f64], report: &mut BlockReport<N>) {
+        let id = self.ctx.mesh.tree().leaves()[self.slot];
+        for (cell, (gas, density)) in gas.iter_mut().zip(density).enumerate() {
+            let [of_gas, of_liquid] = missing_mass(*density, *gas);
+            if of_gas + of_liquid > 0.0 {
+                let volume = self.ctx.mesh.volume(id, cell / N);
+                report.lift_phase([of_gas, of_liquid], volume);
+                *gas += of_gas - of_liquid;
+            }
+        }
     }
 }
 
@@ -211,6 +234,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
 mod tests {
     use mesh::{Adaptation, Domain, Geometry, Limiter};
 
+    use crate::state::conserved::{GAS, PHI};
     use crate::{
         Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState,
         Region, RiemannSolver, Scales, Shape, Sharpening, StiffenedGas,
@@ -244,6 +268,46 @@ mod tests {
             pulses: vec![],
         };
         FluidSolver::new(&setup, &initial).expect("a fluid")
+    }
+
+    /// Neither phase's mass is left below zero; what it lacked comes from the other one, and is told.
+    #[test]
+    fn a_phase_with_less_than_no_mass_is_lifted_and_counted() {
+        let mut fluid = collapsing_bubble();
+        let dt = fluid.time_step_limit(0.45);
+        let (mut added, before) = ([0.0; 2], fluid.totals());
+        let mut changed = [0_u64; 2];
+        for slot in 0..fluid.mesh().blocks() {
+            let id = fluid.mesh.tree().leaves()[slot];
+            let block = fluid.state.block_mut(slot);
+            // In the middle of blocks all around holds the same phase, and nothing moves.
+            let (cell, cells) = (8 * 4 + 4, 64);
+            let near = [cell - 17, cell - 2, cell + 2, cell + 17].map(|k| block[PHI * cells + k]);
+            if near == [0.0; 4] {
+                block[GAS * cells + cell] = -1e-7;
+                added[0] += 1e-7 * fluid.mesh.volume(id, 4);
+                changed[0] += 1;
+            } else if near == [1.0; 4] {
+                let more = 1e-3 * block[cell];
+                block[GAS * cells + cell] = block[cell] + more;
+                added[1] += more * fluid.mesh.volume(id, 4);
+                changed[1] += 1;
+            }
+        }
+        assert!(changed.iter().all(|blocks| *blocks > 0), "there are blocks of both phases: {changed:?}");
+        fluid.has_gas.fill(true);
+        fluid.step(dt).expect("a step");
+        let fixups = fluid.fixups();
+        assert!(fixups.clips.lifted_phases >= changed[0] + changed[1], "{fixups:?}");
+        approx::assert_relative_eq!(fixups.gas_mass_added, added[0], max_relative = 1e-2);
+        approx::assert_relative_eq!(fixups.liquid_mass_added, added[1], max_relative = 1e-2);
+        for slot in 0..fluid.mesh().blocks() {
+            for (rho, gas) in fluid.state.component(slot, 0).iter().zip(fluid.state.component(slot, GAS)) {
+                assert!(*gas >= 0.0 && *gas <= rho * (1.0 + 1e-12), "{gas} of {rho}");
+            }
+        }
+        let into: f64 = fluid.ledger().mass.iter().sum();
+        assert!((fluid.totals().mass - before.mass - into).abs() < 1e-13 * before.mass);
     }
 
     #[test]

@@ -12,6 +12,7 @@ use super::reconstruction::{Stencil, face_states};
 use super::windows::{LANES, Window, lanes, windows};
 use crate::block::used_face;
 use crate::boundary::beside;
+use crate::clips::Clips;
 use crate::exact_rows::{ListedFaces, exact_fluxes};
 use crate::face_rows::{FaceRows, set_face};
 use crate::hllc::Face;
@@ -37,6 +38,9 @@ pub(crate) struct MixedCells {
     /// The block's own cells that hold both phases, in windows along z.
     mixed: Vec<Window>,
     problems: Vec<Problem>,
+    /// What was bounded in the block's own cells, and how many of them kept none of their slopes.
+    clips: Clips,
+    dropped: u32,
     /// Whether the faces above the padded cells bound cells of the block: bit 0 along z, bit 1 along r.
     is_used: Vec<u8>,
 }
@@ -63,6 +67,8 @@ impl MixedCells {
             windows: Vec::with_capacity(len),
             mixed: Vec::with_capacity(len),
             problems: Vec::with_capacity(len),
+            clips: Clips::default(),
+            dropped: 0,
         }
     }
 
@@ -72,6 +78,12 @@ impl MixedCells {
             self.index[k] = NONE;
         }
         self.shares.iter_mut().for_each(Vec::clear);
+        (self.clips, self.dropped) = (Clips::default(), 0);
+    }
+
+    /// What was bounded in the block's own cells and on their faces, and how many of the cells kept none of their slopes.
+    pub fn clips(&self) -> (Clips, u32) {
+        (self.clips, self.dropped)
     }
 
     /// The block's own cells that hold both phases, listed or not, in windows along z.
@@ -118,6 +130,7 @@ impl MixedCells {
             windows::<N>(first, 1, listed, |window| self.windows.push(window));
             windows::<N>(first, 1, mixed, |window| self.mixed.push(window));
         }
+        let own_windows = self.windows.len();
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Block) {
             let ghost = |along: usize| {
                 let [_, (i, j)] = beside(side, N, along as isize);
@@ -134,6 +147,7 @@ impl MixedCells {
         }
         self.windows = windows;
         face_states(cells, &self.windows, stencil, &mut self.states);
+        self.count_bounded(own_windows, is_marked);
         if let Some(is_marked) = is_marked {
             for (k, place) in self.cells.iter().filter(|(k, _)| is_marked[*k]) {
                 (0..4).for_each(|face| self.states.set(*place as usize, face, cells.mean(*k)));
@@ -148,6 +162,24 @@ impl MixedCells {
                     self.list(ghost, place);
                 }
             }
+        }
+    }
+
+    /// Counts what was bounded in the cells of the first windows, which are the block's own; marked ones have other states.
+    fn count_bounded(&mut self, own_windows: usize, is_marked: Option<&[bool]>) {
+        for (window, bounded) in self.windows.iter().zip(self.states.bounded()).take(own_windows) {
+            if bounded.iter().all(|lanes| lanes & window.listed == 0) {
+                continue;
+            }
+            let is_own = |lane: &usize| is_marked.is_none_or(|is_marked| !is_marked[window.cell(*lane)]);
+            let own = lanes(window.listed).filter(is_own).fold(0, |own, lane| own | 1 << lane);
+            let [densities, pressures, fractions, halved, dropped] =
+                bounded.map(|lanes| (lanes & own).count_ones());
+            self.clips.bounded_densities += u64::from(densities);
+            self.clips.bounded_pressures += u64::from(pressures);
+            self.clips.bounded_fractions += u64::from(fractions);
+            self.clips.halved_slopes += u64::from(halved);
+            self.dropped += dropped;
         }
     }
 
@@ -190,8 +222,10 @@ impl MixedCells {
         }
         let shares = &mut self.shares[AXIS];
         let fluxes = faces.fluxes_mut();
-        let mut listed = Along::<AXIS> { states: &self.states, cells, stencil, step, shares, fluxes };
+        let states = &self.states;
+        let mut listed = Along::<AXIS> { states, cells, stencil, step, shares, fluxes, emptied: 0 };
         exact_fluxes(&problems, &mut listed, stencil.mixture);
+        self.clips.emptied_faces += listed.emptied;
         self.problems = problems;
     }
 
@@ -213,6 +247,8 @@ struct Along<'a, const AXIS: usize> {
     step: usize,
     shares: &'a mut Vec<(usize, f64)>,
     fluxes: [&'a mut [f64]; 6],
+    /// Faces behind whose wave the liquid takes all the volume, though gas crosses.
+    emptied: u64,
 }
 
 impl<const AXIS: usize> Along<'_, AXIS> {
@@ -244,6 +280,7 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
     #[inline(always)]
     fn put(&mut self, face: &Problem, solution: Face, gas_share: f64) {
         set_face(&mut self.fluxes, face.face, solution);
+        self.emptied += u64::from((solution.phi == 0.0) & (gas_share > 0.0));
         if !gas_share.is_nan() {
             self.shares.push((face.face, gas_share));
         }

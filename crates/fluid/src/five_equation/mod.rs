@@ -24,4 +24,5 @@ pub(crate) use face_states::FaceStates;
 pub(crate) use gas_block::{GasBlock, GasScratch, may_have_gas};
 pub(crate) use marks::marked_blocks;
 pub(crate) use reconstruction::{Stencil, face_states};
+pub(crate) use update::missing_mass;
 pub(crate) use windows::Window;

@@ -4,9 +4,9 @@ use mesh::Limiter;
 
 use super::cells::Cells;
 use super::closure::{Compression, PURE};
-use super::face_states::FaceStates;
+use super::face_states::{Bounded, FaceStates};
 use super::thinc;
-use super::windows::{LANES, Lane, Window, lanes};
+use super::windows::{LANES, Lane, Window, bits, lanes};
 use crate::Mixture;
 use crate::options::TwoPhaseOptions;
 
@@ -72,8 +72,8 @@ fn states_of(
     stencil: &Stencil<'_>,
     states: &mut FaceStates,
 ) {
-    for (window, faces) in windows.iter().zip(states.of_windows(windows.len())) {
-        window_states(limit, limit_fraction, cells, *window, stencil, faces);
+    for (window, (faces, bounded)) in windows.iter().zip(states.of_windows(windows.len())) {
+        *bounded = window_states(limit, limit_fraction, cells, *window, stencil, faces);
     }
 }
 
@@ -85,7 +85,7 @@ fn window_states(
     at: Window,
     stencil: &Stencil<'_>,
     faces: &mut [[Lane; 6]; 4],
-) {
+) -> Bounded {
     let w = phases(cells, at, 0, [&[0.0; LANES]; 2]);
     let own = [&w[RHO_G], &w[RHO_L]];
     let along_r = cells.stride as isize;
@@ -104,8 +104,8 @@ fn window_states(
         }
     }
     let mut half = half_step(&w, &differences, &at.load(stencil.inverse_r, 0), stencil);
+    let mut shares = [1.0; LANES];
     if !stencil.options.has_closure {
-        let mut shares = [1.0; LANES];
         for (lane, k) in lanes(at.listed).zip(at.cells()) {
             shares[lane] = kept_share(cells, k, stencil);
         }
@@ -130,9 +130,13 @@ fn window_states(
         let normals = normals(&around, stencil.inverse_h);
         sharpen(&w, &around, &normals, stencil.inverse_h.map(|inverse_h| stencil.dt * inverse_h), &mut ends);
     }
+    let mut is_bounded = [[0; LANES]; 3];
     for (phases, face) in ends.as_flattened().iter().zip(faces) {
-        admissible(phases, &w, face);
+        admissible(phases, &w, face, &mut is_bounded);
     }
+    let [densities, pressures, fractions] = is_bounded.map(|lanes| bits(lanes.map(|lane| lane != 0)));
+    let [halved, dropped] = [0.5, 0.0].map(|kept| bits(shares.map(|share| share == kept)));
+    [densities, pressures, fractions, halved, dropped]
 }
 
 /// The cells `by` after some by phases; a phase that is as good as absent has the density `else_densities`.
@@ -253,17 +257,25 @@ const DENSITIES: [f64; 2] = [0.2, 5.0];
 const LEAST_PRESSURE: f64 = 0.1;
 
 /// From phases to ρ, v_z, v_r, p, φ and the gas's part of the mass, within the bounds.
+///
+/// - `is_bounded`: becomes 1 in lanes where the bounds of densities, pressure or gas fraction act; of the last by more than what
+///   counts as pure.
 #[inline(always)]
-fn admissible(phases: &Phases, w: &Phases, face: &mut [Lane; 6]) {
+fn admissible(phases: &Phases, w: &Phases, face: &mut [Lane; 6], is_bounded: &mut [[u64; LANES]; 3]) {
     let lower = |a: f64, b: f64| if a < b { a } else { b };
     let upper = |a: f64, b: f64| if a > b { a } else { b };
     for k in 0..LANES {
         let within = |rho: f64, own: f64| lower(upper(rho, DENSITIES[0] * own), DENSITIES[1] * own);
         let phi = lower(upper(phases[PHI][k], 0.0), 1.0);
-        let (p, own) = (phases[PRESSURE][k], w[PRESSURE][k]);
-        let p = if own > 0.0 { upper(p, LEAST_PRESSURE * own) } else { p };
-        let gas = phi * within(phases[RHO_G][k], w[RHO_G][k]);
-        let rho = gas + (1.0 - phi) * within(phases[RHO_L][k], w[RHO_L][k]);
+        let (unbounded, own) = (phases[PRESSURE][k], w[PRESSURE][k]);
+        let p = if own > 0.0 { upper(unbounded, LEAST_PRESSURE * own) } else { unbounded };
+        let (rho_g, rho_l) = (phases[RHO_G][k], phases[RHO_L][k]);
+        let (within_g, within_l) = (within(rho_g, w[RHO_G][k]), within(rho_l, w[RHO_L][k]));
+        is_bounded[0][k] |= u64::from((within_g != rho_g) | (within_l != rho_l));
+        is_bounded[1][k] |= u64::from(p != unbounded);
+        is_bounded[2][k] |= u64::from((phases[PHI][k] - phi).abs() > PURE);
+        let gas = phi * within_g;
+        let rho = gas + (1.0 - phi) * within_l;
         face[0][k] = rho;
         face[1][k] = phases[V_Z][k];
         face[2][k] = phases[V_R][k];
@@ -356,6 +368,37 @@ mod tests {
                 approx::assert_relative_eq!(state.gas_share, phi * 1.2 / rho, max_relative = 1e-13);
             }
         }
+    }
+
+    #[test]
+    fn what_is_bounded_is_told() {
+        let options = TwoPhaseOptions { has_closure: true, is_sharp: false };
+        let bounded = |cell: &dyn Fn(f64) -> [f64; 6]| {
+            let rows = rows(|z, _| cell(z));
+            let mixture =
+                Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+            let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
+            let stencil = Stencil {
+                limiter: Limiter::None,
+                inverse_h: [1e4, 1e4],
+                inverse_r: &[0.0; 5 * STRIDE],
+                dt: 1e-12,
+                mixture: &mixture,
+                options,
+            };
+            let mut states = FaceStates::default();
+            let window = Window { first: 2 * STRIDE + 2, step: 1, listed: 1 };
+            face_states(&cells, &[window], &stencil, &mut states);
+            states.bounded()[0].map(|lanes| lanes & 1)
+        };
+        let of = |rho_g: f64, p: f64, phi: f64| {
+            [phi * rho_g + (1.0 - phi) * 1000.0, 0.0, 0.0, p, phi, phi * rho_g]
+        };
+        assert_eq!(bounded(&|_| of(1.2, 1e5, 0.4)), [0; 5]);
+        // The central slope takes the face beyond the bound.
+        assert_eq!(bounded(&|z| of(if z > 0.0 { 20.0 } else { 1.0 }, 1e5, 0.4)), [1, 0, 0, 0, 0]);
+        assert_eq!(bounded(&|z| of(1.2, if z > 0.0 { 5e5 } else { 1e5 }, 0.4)), [0, 1, 0, 0, 0]);
+        assert_eq!(bounded(&|z| of(1.2, 1e5, if z > 0.0 { 0.9 } else { 0.1 })), [0, 0, 1, 0, 0]);
     }
 
     #[test]

@@ -215,6 +215,26 @@ mod tests {
         }
     }
 
+    /// The iteration's last step bounds the fraction to [0, 1]; a fraction at a bound would say that this had lost a phase.
+    #[test]
+    fn no_phase_is_lost_in_a_million_states() {
+        let mut random = 1_u64;
+        let mut within = |low: f64, high: f64| {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (low.ln() + (high / low).ln() * (random >> 11) as f64 / (1_u64 << 53) as f64).exp()
+        };
+        for _ in 0..125_000 {
+            let mut cells = Relaxation::<8>::none();
+            cells.gas = std::array::from_fn(|_| within(PURE, 2.0));
+            cells.liquid = std::array::from_fn(|_| within(PURE, 2.0));
+            cells.p = std::array::from_fn(|_| within(LOWEST, 1e11));
+            cells.fraction = [f64::NAN; 8];
+            cells.run(&mixture());
+            let is_kept = |fraction: &f64| *fraction > 0.0 && *fraction < 1.0;
+            assert!(cells.fraction.iter().all(is_kept), "{:?} {:?} {:?}", cells.gas, cells.liquid, cells.p);
+        }
+    }
+
     #[test]
     fn a_cell_does_not_depend_on_those_beside_it() {
         let cells: Vec<[f64; 4]> = (0..8)

@@ -2,7 +2,7 @@
 
 use std::hint::select_unpredictable;
 
-use super::closure::bounded;
+use super::closure::{bounded, is_bound};
 use super::mixed::MixedCells;
 use super::reconstruction::Stencil;
 use super::relaxation::{Advected, relaxed_fractions};
@@ -63,24 +63,61 @@ pub(crate) fn update_gas<const N: usize>(
     }
 }
 
-/// Bounds the gas fraction, takes out of it and of the gas's mass what means nothing any more, and tells whether any gas is left.
+/// What settling a block's gas came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct SettledGas {
+    /// Whether any is left.
+    pub is_left: bool,
+    /// Gas fractions that were bounded.
+    pub clipped: u64,
+    /// Traces that were set to zero.
+    pub removed: u64,
+    /// Whether a phase has less than no mass somewhere, see [`missing_mass`].
+    pub has_missing: bool,
+}
+
+/// Bounds the gas fraction, takes out of it and of the gas's mass what means nothing any more, and tells what is left.
+///
+/// - `density`: ρ; `gas`: m_g.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn settle_gas(phi: &mut [f64], gas: &mut [f64]) -> bool {
+pub(crate) fn settle_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> SettledGas {
     // Without an early end these are a few operations on whole lines.
-    let mut is_left = false;
+    let (mut is_left, mut has_missing) = (false, false);
+    let (mut clipped, mut removed) = (0, 0);
     for value in phi.iter_mut() {
-        *value = bounded(without_trace(*value));
-        is_left |= *value != 0.0;
+        let kept = without_trace(*value);
+        let settled = bounded(kept);
+        removed += u64::from(kept != *value);
+        clipped += u64::from(settled != kept);
+        *value = settled;
+        is_left |= settled != 0.0;
     }
-    for value in gas.iter_mut() {
-        *value = without_trace(*value);
-        is_left |= *value != 0.0;
+    for (value, density) in gas.iter_mut().zip(density) {
+        let kept = without_trace(*value);
+        removed += u64::from(kept != *value);
+        has_missing |= missing_mass(*density, kept) != [0.0; 2];
+        *value = kept;
+        is_left |= kept != 0.0;
     }
-    is_left
+    SettledGas { is_left, clipped, removed, has_missing }
+}
+
+/// What the gas and the liquid of a cell lack of a mass of zero, kg/m³; at most one of them does.
+///
+/// In first order, with face velocities that let less out of a cell than it holds, no phase's mass falls below zero. Second order
+/// is done again at first where it takes too much ([`update_mixed`]); what is left is the little that prediction on a finer grid
+/// may take a pure cell below. The liquid's mass is a difference, so that what is lost of its digits is none that it lacks.
+#[inline(always)]
+pub(crate) fn missing_mass(density: f64, gas: f64) -> [f64; 2] {
+    const ROUND_OFF: f64 = 1e-12;
+    let of_gas = if gas < 0.0 { -gas } else { 0.0 };
+    let of_liquid = if gas > density * (1.0 + ROUND_OFF) { gas - density } else { 0.0 };
+    [of_gas, of_liquid]
 }
 
 /// Zero in the place of a trace of gas, φ or kg/m³, that nothing can feel: no cell's law changes by a bit, nor, after all
-/// steps of a run, the mass of the gas. Else advection would leave none of the liquid without.
+/// steps of a run, the mass of the gas: 10¹² of them amount to 10⁻⁸ kg/m³ in one cell. Else advection would leave none of the
+/// liquid without. They are counted.
 #[inline(always)]
 fn without_trace(value: f64) -> f64 {
     const NOTHING: f64 = 1e-20;
@@ -100,6 +137,7 @@ const LARGEST_CHANGE: f64 = 0.5;
 /// - `old`: conserved variables of the block; `pressure`: of its padded cells at the beginning of the step.
 /// - `gas`: m_g before and after the step.
 /// - `marked`: the indices of the cells that should be done again at first order, written.
+/// - returns: how many cells' gas fractions were bounded.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update_mixed<const N: usize>(
     mixed: &MixedCells,
@@ -112,9 +150,10 @@ pub(crate) fn update_mixed<const N: usize>(
     new: &mut [&mut [f64]; COUNT],
     speeds: &mut [&mut [f64]; 3],
     marked: &mut Vec<usize>,
-) {
+) -> u64 {
     let Stencil { mixture, options, dt, .. } = *stencil;
     marked.clear();
+    let mut clipped = 0;
     let faces = faces.map(FaceRows::fluxes);
     // A loop of eight that the compiler knows to be of eight it unrolls, and then finds no vectors in it.
     let eight = std::hint::black_box(LANES);
@@ -151,8 +190,10 @@ pub(crate) fn update_mixed<const N: usize>(
         };
         let mut after = [[0.0; LANES]; COUNT + 3];
         settle(eight, &u, mixture, &mut after);
-        let mut is_marked = [false; LANES];
+        let (mut is_marked, mut is_clipped) = ([false; LANES], [false; LANES]);
         for k in 0..LANES {
+            // No other cell ends just there.
+            is_clipped[k] = is_bound(u[PHI][k]);
             let (rho, gas, change) = (before[0][k], gas_before[k], cells.volume[k]);
             let falls =
                 |before: f64, after: f64| after < LEAST_SHARE * if before > 0.0 { before } else { 0.0 };
@@ -174,7 +215,9 @@ pub(crate) fn update_mixed<const N: usize>(
         new.iter_mut().zip(new_values).for_each(|(row, values)| put(row, values));
         speeds.iter_mut().zip(new_speeds).for_each(|(row, values)| put(row, values));
         marked.extend(lanes(window.listed & bits(is_marked)).map(|lane| at + lane));
+        clipped += u64::from((window.listed & bits(is_clipped)).count_ones());
     }
+    clipped
 }
 
 /// [`settled`] of the first `n` lanes: what is conserved, and the two speeds and the floor's energy.

@@ -64,8 +64,9 @@ def health(result: Result) -> Rows:
             yield label, f"{fixups[key]:,}", ""
     if fixups.get("floor_energy_share") is not None:
         yield "energy that the floor added", f"{100 * fixups['floor_energy_share']:.3g} %", "of the collapse's"
-    if "exchange_share" in summary.get("coupling", {}):
-        yield "share of the exchange", f"{100 * summary['coupling']['exchange_share']:.2g} %", "of the wall time"
+    if "exchange_wait_share" in summary.get("coupling", {}):
+        share = summary["coupling"]["exchange_wait_share"]
+        yield "waits for frames that were ready", f"{100 * share:.2g} %", "of the wall time"
 
 
 def jumps(result: Result) -> tuple[Floats, Floats, Floats]:
