@@ -4,6 +4,7 @@ use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, curvature_share, limited_d
 use serde::{Deserialize, Serialize};
 
 use crate::Boundary;
+use crate::absorbing::{SideMemory, SideRow};
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, SurfaceState};
 use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
@@ -25,6 +26,8 @@ pub(crate) struct StepContext<'a, const N: usize> {
     /// The faces of the surface under the fluid in the order of r, and each block's first one.
     pub surface: &'a [SurfaceState],
     pub surface_first: &'a [usize],
+    /// What absorbing sides remember.
+    pub sides: &'a SideMemory,
     /// Squared yield strength, Pa².
     pub yield_squared: f64,
 }
@@ -68,13 +71,16 @@ impl<const N: usize> BlockScratch<N> {
 
 /// What one block tells of its step.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct BlockReport {
+pub(crate) struct BlockReport<const N: usize> {
     /// Largest squared von Mises stress, Pa²; infinite if a number is not finite.
     pub mises_squared: f64,
     /// Volume in which the yield strength is exceeded (per radian).
     pub yielded: f64,
     /// What came in through each side of the domain: axial momentum, energy (per radian).
     pub inflow: [[f64; 2]; 4],
+    /// What absorbing sides are to remember of it; nobody asks after the step.
+    #[serde(skip)]
+    pub followed: [SideRow<N>; 4],
 }
 
 /// Assembles a block with its ghosts: the state in `cells`.
@@ -113,7 +119,7 @@ pub(crate) fn step_block<const N: usize>(
     new: &mut [f64],
     stars: &mut [f64],
     scratch: &mut BlockScratch<N>,
-) -> BlockReport {
+) -> BlockReport<N> {
     let stride = Padded::<N>::STRIDE;
     let id = ctx.mesh.tree().leaves()[slot];
     let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
@@ -137,7 +143,8 @@ pub(crate) fn step_block<const N: usize>(
         scratch.half.split_mut(),
     );
     ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
-    ctx.boundaries.impose_outer(ctx.mesh, slot, &mut scratch.half, &mut scratch.s_z, &mut scratch.s_r);
+    let BlockScratch { half, s_z, s_r, .. } = scratch;
+    let followed = ctx.boundaries.impose_outer(ctx, slot, half, s_z, s_r);
     let has_surface =
         ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax);
     if has_surface {
@@ -185,6 +192,7 @@ pub(crate) fn step_block<const N: usize>(
         mises_squared: largest,
         yielded: if largest > ctx.yield_squared { yielded_volume(ctx, slot, new) } else { 0.0 },
         inflow: boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces),
+        followed,
     }
 }
 
@@ -193,7 +201,7 @@ pub(crate) fn report_stresses<const N: usize>(
     ctx: &StepContext<'_, N>,
     slot: usize,
     block: &[f64],
-    report: &mut BlockReport,
+    report: &mut BlockReport<N>,
 ) {
     report.mises_squared = largest_mises::<N>(block);
     report.yielded =

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use mesh::{BlockId, Field, Horizon, Misfit};
 use serde::{Deserialize, Serialize};
 
+use crate::absorbing::SideMemory;
 use crate::block::BlockReport;
 use crate::state::component::COUNT;
 use crate::{BoundaryLedger, SolidSolver, SurfaceState};
@@ -13,14 +14,15 @@ use crate::{BoundaryLedger, SolidSolver, SurfaceState};
 ///
 /// Then all levels are at the same time, and what they keep for each other within a step has done its service.
 #[derive(Serialize, Deserialize)]
-pub struct SolidState<'a> {
+pub struct SolidState<'a, const N: usize> {
     leaves: Cow<'a, [BlockId]>,
     generation: u64,
     state: Cow<'a, Field>,
-    reports: Cow<'a, [BlockReport]>,
-    pending: Cow<'a, [BlockReport]>,
+    reports: Cow<'a, [BlockReport<N>]>,
+    pending: Cow<'a, [BlockReport<N>]>,
     horizon: Horizon,
     surface: Cow<'a, [SurfaceState]>,
+    sides: Cow<'a, SideMemory>,
     time: f64,
     steps: u64,
     cell_updates: u64,
@@ -30,7 +32,7 @@ pub struct SolidState<'a> {
 
 impl<const N: usize> SolidSolver<N> {
     /// What changes in time, to be kept. Only between two steps of the whole.
-    pub fn saved(&self) -> SolidState<'_> {
+    pub fn saved(&self) -> SolidState<'_, N> {
         debug_assert!(self.clock().is_over(), "no step is under way");
         // Field by field, so that a new one cannot be forgotten here.
         let Self {
@@ -38,6 +40,7 @@ impl<const N: usize> SolidSolver<N> {
             setup: _,
             elasticity: _,
             boundaries: _,
+            sides,
             state,
             next: _,
             register: _,
@@ -65,6 +68,7 @@ impl<const N: usize> SolidSolver<N> {
             pending: Cow::Borrowed(pending),
             horizon: *horizon,
             surface: Cow::Borrowed(surface),
+            sides: Cow::Borrowed(sides),
             time: *time,
             steps: *steps,
             cell_updates: *cell_updates,
@@ -76,7 +80,7 @@ impl<const N: usize> SolidSolver<N> {
     /// Takes up what was kept of a solid with the same setup and initial state; it then goes on as that one did.
     ///
     /// - errors: the state is not one of such a solid; this one is then not to be used.
-    pub fn restore(&mut self, saved: SolidState<'_>) -> Result<(), Misfit> {
+    pub fn restore(&mut self, saved: SolidState<'_, N>) -> Result<(), Misfit> {
         let SolidState {
             leaves,
             generation,
@@ -85,6 +89,7 @@ impl<const N: usize> SolidSolver<N> {
             pending,
             horizon,
             surface,
+            sides,
             time,
             steps,
             cell_updates,
@@ -104,6 +109,10 @@ impl<const N: usize> SolidSolver<N> {
         if self.surface.len() != surface.len() {
             return Err(Misfit(format!("{} faces of the surface are not the grid's", surface.len())));
         }
+        if !sides.fits(&self.mesh, self.setup.boundaries) {
+            return Err(Misfit("what absorbing sides remember is not of the solid's sides".to_owned()));
+        }
+        self.sides = sides.into_owned();
         self.state = state.into_owned();
         self.next = self.state.clone();
         self.register.resize(blocks);

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use coupler::{KappaFactor, LinkCounters, Meeting, Participant};
+use mesh::BLOCK;
 use serde::{Deserialize, Serialize};
 use solid::SolidState;
 
@@ -19,7 +20,7 @@ use crate::run::timed::Clock;
 /// What of the solid's side changes in time, between two steps of the whole.
 #[derive(Serialize, Deserialize)]
 pub struct SolidSideState<'a> {
-    solver: SolidState<'a>,
+    solver: SolidState<'a, BLOCK>,
     record: Option<SolidRecordState>,
     schedule: Progressed,
     floored: u64,
