@@ -4,7 +4,7 @@ use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, curvature_share, limited_d
 use serde::{Deserialize, Serialize};
 
 use crate::Boundary;
-use crate::absorbing::{SideMemory, SideRow};
+use crate::absorbing::SideMemory;
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, SurfaceState};
 use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
@@ -71,16 +71,13 @@ impl<const N: usize> BlockScratch<N> {
 
 /// What one block tells of its step.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct BlockReport<const N: usize> {
+pub(crate) struct BlockReport {
     /// Largest squared von Mises stress, Pa²; infinite if a number is not finite.
     pub mises_squared: f64,
     /// Volume in which the yield strength is exceeded (per radian).
     pub yielded: f64,
     /// What came in through each side of the domain: axial momentum, energy (per radian).
     pub inflow: [[f64; 2]; 4],
-    /// What absorbing sides are to remember of it; nobody asks after the step.
-    #[serde(skip)]
-    pub followed: [SideRow<N>; 4],
 }
 
 /// Assembles a block with its ghosts: the state in `cells`.
@@ -119,7 +116,7 @@ pub(crate) fn step_block<const N: usize>(
     new: &mut [f64],
     stars: &mut [f64],
     scratch: &mut BlockScratch<N>,
-) -> BlockReport<N> {
+) -> BlockReport {
     let stride = Padded::<N>::STRIDE;
     let id = ctx.mesh.tree().leaves()[slot];
     let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
@@ -143,8 +140,8 @@ pub(crate) fn step_block<const N: usize>(
         scratch.half.split_mut(),
     );
     ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
-    let BlockScratch { half, s_z, s_r, .. } = scratch;
-    let followed = ctx.boundaries.impose_outer(ctx, slot, half, s_z, s_r);
+    let BlockScratch { cells, half, s_z, s_r, .. } = scratch;
+    ctx.boundaries.impose_outer(ctx, slot, cells, half, s_z, s_r);
     let has_surface =
         ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax);
     if has_surface {
@@ -192,7 +189,6 @@ pub(crate) fn step_block<const N: usize>(
         mises_squared: largest,
         yielded: if largest > ctx.yield_squared { yielded_volume(ctx, slot, new) } else { 0.0 },
         inflow: boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces),
-        followed,
     }
 }
 
@@ -201,7 +197,7 @@ pub(crate) fn report_stresses<const N: usize>(
     ctx: &StepContext<'_, N>,
     slot: usize,
     block: &[f64],
-    report: &mut BlockReport<N>,
+    report: &mut BlockReport,
 ) {
     report.mises_squared = largest_mises::<N>(block);
     report.yielded =

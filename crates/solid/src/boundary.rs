@@ -3,7 +3,7 @@
 use mesh::{Limiter, Mesh, Padded, Side, SideStates};
 use serde::{Deserialize, Serialize};
 
-use crate::absorbing::{Absorption, SideRow, axis_across, first_face};
+use crate::absorbing::{Absorption, axis_across, first_face};
 use crate::block::StepContext;
 use crate::riemann::{Outward, star_interface};
 use crate::rows::{Elasticity, FaceRows, Reconstruction};
@@ -59,17 +59,17 @@ impl Boundaries {
     /// the slope of the cell within, elsewhere the reflected inner ones, so that what the side holds at zero is zero to
     /// the last bit.
     ///
-    /// - returns: what absorbing sides are to remember of this step.
+    /// - `cells`: the state at the beginning of the step.
     pub fn impose_outer<const N: usize>(
         &self,
         ctx: &StepContext<'_, N>,
         slot: usize,
+        cells: &Padded<N>,
         half: &mut Padded<N>,
         s_z: &mut Padded<N>,
         s_r: &mut Padded<N>,
-    ) -> [SideRow<N>; 4] {
+    ) {
         let mesh = ctx.mesh;
-        let mut followed = [SideRow::default(); 4];
         let id = mesh.tree().leaves()[slot];
         for side in Side::ALL {
             let kind = self.kind(side);
@@ -78,8 +78,9 @@ impl Boundaries {
             }
             let across_z = axis_across(side) == 0;
             let first = first_face::<N>(id, side);
-            let absorption = (kind == Boundary::Absorbing)
-                .then(|| Absorption::new(mesh, side, id.level, ctx.dt, ctx.elasticity));
+            let mut absorption = (kind == Boundary::Absorbing).then(|| {
+                (Absorption::new(mesh, side, id.level, ctx.dt, ctx.elasticity), ctx.sides.follow(side))
+            });
             for along in 0..N {
                 let (n, a) = (N as isize, along as isize);
                 let (i, j) = match side {
@@ -99,10 +100,14 @@ impl Boundaries {
                 }
                 let mut outer = *self.initial.at(side, id.level, first + along);
                 let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
-                if let Some(absorption) = &absorption {
+                if let Some((absorption, followed)) = &mut absorption {
                     let before = ctx.sides.at(side, id.level, first + along);
-                    let after = absorption.follow(before, |c| half.component(c)[inner], outer);
-                    followed[side as usize].0[along] = after;
+                    let (di, dj) = (i - i.clamp(0, n - 1), j - j.clamp(0, n - 1));
+                    let within =
+                        |depth: isize| Padded::<N>::index(i - (1 + depth) * di, j - (1 + depth) * dj);
+                    let cell = |depth: isize, c: usize| cells.component(c)[within(depth)];
+                    let after = absorption.follow(before, cell, outer);
+                    followed.set(id.level, first + along, after);
                     outer = absorption.outer(after, outer);
                 }
                 let inwards = if matches!(side, Side::ZMin | Side::RMin) { 0.5 } else { -0.5 };
@@ -114,7 +119,6 @@ impl Boundaries {
                 }
             }
         }
-        followed
     }
 
     /// Makes the differences of v_r and σ_zr across the cells on the surface (z_max) as accurate as those of the cells below,

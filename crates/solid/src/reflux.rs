@@ -35,7 +35,7 @@ pub(crate) fn correct<const N: usize>(
     finer: &Register<N>,
     slot: usize,
     new: &mut [f64],
-    report: &mut BlockReport<N>,
+    report: &mut BlockReport,
 ) {
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use mesh::{BlockId, Field, Horizon, Misfit};
 use serde::{Deserialize, Serialize};
 
-use crate::absorbing::SideMemory;
+use crate::absorbing::SideFilters;
 use crate::block::BlockReport;
 use crate::state::component::COUNT;
 use crate::{BoundaryLedger, SolidSolver, SurfaceState};
@@ -14,15 +14,15 @@ use crate::{BoundaryLedger, SolidSolver, SurfaceState};
 ///
 /// Then all levels are at the same time, and what they keep for each other within a step has done its service.
 #[derive(Serialize, Deserialize)]
-pub struct SolidState<'a, const N: usize> {
+pub struct SolidState<'a> {
     leaves: Cow<'a, [BlockId]>,
     generation: u64,
     state: Cow<'a, Field>,
-    reports: Cow<'a, [BlockReport<N>]>,
-    pending: Cow<'a, [BlockReport<N>]>,
+    reports: Cow<'a, [BlockReport]>,
+    pending: Cow<'a, [BlockReport]>,
     horizon: Horizon,
     surface: Cow<'a, [SurfaceState]>,
-    sides: Cow<'a, SideMemory>,
+    sides: Cow<'a, [SideFilters; 4]>,
     time: f64,
     steps: u64,
     cell_updates: u64,
@@ -32,7 +32,7 @@ pub struct SolidState<'a, const N: usize> {
 
 impl<const N: usize> SolidSolver<N> {
     /// What changes in time, to be kept. Only between two steps of the whole.
-    pub fn saved(&self) -> SolidState<'_, N> {
+    pub fn saved(&self) -> SolidState<'_> {
         debug_assert!(self.clock().is_over(), "no step is under way");
         // Field by field, so that a new one cannot be forgotten here.
         let Self {
@@ -68,7 +68,7 @@ impl<const N: usize> SolidSolver<N> {
             pending: Cow::Borrowed(pending),
             horizon: *horizon,
             surface: Cow::Borrowed(surface),
-            sides: Cow::Borrowed(sides),
+            sides: Cow::Borrowed(sides.kept()),
             time: *time,
             steps: *steps,
             cell_updates: *cell_updates,
@@ -80,7 +80,7 @@ impl<const N: usize> SolidSolver<N> {
     /// Takes up what was kept of a solid with the same setup and initial state; it then goes on as that one did.
     ///
     /// - errors: the state is not one of such a solid; this one is then not to be used.
-    pub fn restore(&mut self, saved: SolidState<'_, N>) -> Result<(), Misfit> {
+    pub fn restore(&mut self, saved: SolidState<'_>) -> Result<(), Misfit> {
         let SolidState {
             leaves,
             generation,
@@ -109,10 +109,9 @@ impl<const N: usize> SolidSolver<N> {
         if self.surface.len() != surface.len() {
             return Err(Misfit(format!("{} faces of the surface are not the grid's", surface.len())));
         }
-        if !sides.fits(&self.mesh, self.setup.boundaries) {
+        if !self.sides.restore(sides.into_owned()) {
             return Err(Misfit("what absorbing sides remember is not of the solid's sides".to_owned()));
         }
-        self.sides = sides.into_owned();
         self.state = state.into_owned();
         self.next = self.state.clone();
         self.register.resize(blocks);

@@ -64,8 +64,8 @@ pub struct SolidSolver<const N: usize> {
     pub(crate) register: Register<N>,
     pub(crate) levels: LevelSteps<N, QUANTITIES>,
     /// Of each block's last finished step, and of the one it is in.
-    pub(crate) reports: Vec<BlockReport<N>>,
-    pub(crate) pending: Vec<BlockReport<N>>,
+    pub(crate) reports: Vec<BlockReport>,
+    pub(crate) pending: Vec<BlockReport>,
     pub(crate) analysis: Analysis,
     pub(crate) horizon: Horizon,
     pub(crate) patches: ScratchPool<Patch<N>>,

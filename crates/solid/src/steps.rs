@@ -3,13 +3,12 @@
 //! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
-use mesh::{Field, GroupStep, LevelClock, Mesh, Part, Side, for_each_block, for_some_blocks};
+use mesh::{Field, GroupStep, LevelClock, Mesh, Part, for_each_block, for_some_blocks};
 
-use crate::absorbing::first_face;
 use crate::block::{BlockReport, step_block};
 use crate::reflux::{self, Register};
 use crate::state::component::COUNT;
-use crate::{Boundary, SolidError, SolidSolver};
+use crate::{SolidError, SolidSolver};
 
 impl<const N: usize> SolidSolver<N> {
     /// The longest step of a level, s, with c₁ in both directions.
@@ -131,7 +130,7 @@ impl<const N: usize> SolidSolver<N> {
                     self.ledger.momentum[side] += momentum;
                     self.ledger.energy[side] += energy;
                 }
-                self.remember(slot, &report);
+                self.sides.take_over(&self.mesh, slot);
             }
         }
         self.levels.turn(&self.mesh, &mut self.state, &mut self.next);
@@ -139,18 +138,6 @@ impl<const N: usize> SolidSolver<N> {
         self.steps += 1;
         self.common_updates += self.mesh.cells() as u64;
         Ok(())
-    }
-
-    /// Keeps what absorbing sides have followed beside a block in its step.
-    fn remember(&mut self, slot: usize, report: &BlockReport<N>) {
-        let id = self.mesh.tree().leaves()[slot];
-        for side in Side::ALL {
-            if self.boundaries.kind(side) == Boundary::Absorbing && self.mesh.touches(slot, side) {
-                for (along, value) in report.followed[side as usize].0.into_iter().enumerate() {
-                    self.sides.set(side, id.level, first_face::<N>(id, side) + along, value);
-                }
-            }
-        }
     }
 
     /// Corrects the cells of a group along finer neighbours.
@@ -175,7 +162,7 @@ impl<const N: usize> SolidSolver<N> {
 pub(crate) fn check<const N: usize>(
     mesh: &Mesh<N>,
     state: &Field,
-    reports: &[BlockReport<N>],
+    reports: &[BlockReport],
     time: f64,
     step: u64,
 ) -> Result<(), SolidError> {

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use coupler::{KappaFactor, LinkCounters, Meeting, Participant};
-use mesh::BLOCK;
 use serde::{Deserialize, Serialize};
 use solid::SolidState;
 
@@ -20,7 +19,7 @@ use crate::run::timed::Clock;
 /// What of the solid's side changes in time, between two steps of the whole.
 #[derive(Serialize, Deserialize)]
 pub struct SolidSideState<'a> {
-    solver: SolidState<'a, BLOCK>,
+    solver: SolidState<'a>,
     record: Option<SolidRecordState>,
     schedule: Progressed,
     floored: u64,
