@@ -420,7 +420,7 @@ fn every_kind_of_value_survives_being_written_out() {
     let planar = Case::from_toml(planar, "planar", &[]).unwrap_or_else(|errors| panic!("{errors}"));
     let sides = planar.solid.as_ref().map(|solid| solid.boundary);
     let periodic = solid::Boundary::Periodic;
-    assert_eq!(sides, Some([periodic, periodic, solid::Boundary::Symmetry, solid::Boundary::NonReflecting]));
+    assert_eq!(sides, Some([periodic, periodic, solid::Boundary::Symmetry, solid::Boundary::Absorbing]));
     round_trip(&planar);
 }
 
@@ -520,10 +520,10 @@ fn sides_that_are_not_named_have_what_the_scheme_means() {
     assert_eq!(
         good().solid.map(|solid| solid.boundary),
         Some([
-            solid::Boundary::NonReflecting,
+            solid::Boundary::Absorbing,
             solid::Boundary::Interface,
             solid::Boundary::Axis,
-            solid::Boundary::NonReflecting
+            solid::Boundary::Absorbing
         ])
     );
     let rigid = with(&["coupling.scheme=rigid", "probe.0.medium=solid"]);

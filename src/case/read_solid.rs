@@ -202,7 +202,7 @@ fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Bound
         }
         _ => None,
     };
-    let default = [Boundary::NonReflecting, z_max, r_min, Boundary::NonReflecting];
+    let default = [Boundary::Absorbing, z_max, r_min, Boundary::Absorbing];
     let table = table.table("boundary", faults);
     boundaries(table, &Boundary::NAMES, fixed, default, Boundary::Periodic, faults)
 }

@@ -4,6 +4,7 @@ use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, curvature_share, limited_d
 use serde::{Deserialize, Serialize};
 
 use crate::Boundary;
+use crate::absorbing::SideMemory;
 use crate::analysis::Analysis;
 use crate::boundary::{Boundaries, SurfaceState};
 use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
@@ -25,6 +26,8 @@ pub(crate) struct StepContext<'a, const N: usize> {
     /// The faces of the surface under the fluid in the order of r, and each block's first one.
     pub surface: &'a [SurfaceState],
     pub surface_first: &'a [usize],
+    /// What absorbing sides remember.
+    pub sides: &'a SideMemory,
     /// Squared yield strength, Pa².
     pub yield_squared: f64,
 }
@@ -137,7 +140,8 @@ pub(crate) fn step_block<const N: usize>(
         scratch.half.split_mut(),
     );
     ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
-    ctx.boundaries.impose_outer(ctx.mesh, slot, &mut scratch.half, &mut scratch.s_z, &mut scratch.s_r);
+    let BlockScratch { cells, half, s_z, s_r, .. } = scratch;
+    ctx.boundaries.impose_outer(ctx, slot, cells, half, s_z, s_r);
     let has_surface =
         ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax);
     if has_surface {

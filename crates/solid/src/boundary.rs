@@ -3,6 +3,8 @@
 use mesh::{Limiter, Mesh, Padded, Side, SideStates};
 use serde::{Deserialize, Serialize};
 
+use crate::absorbing::{Absorption, axis_across, first_face};
+use crate::block::StepContext;
 use crate::riemann::{Outward, star_interface};
 use crate::rows::{Elasticity, FaceRows, Reconstruction};
 use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
@@ -56,22 +58,29 @@ impl Boundaries {
     /// Puts the outer states into the ghost cells at mid-step: on open sides so that the face has just that state, with
     /// the slope of the cell within, elsewhere the reflected inner ones, so that what the side holds at zero is zero to
     /// the last bit.
+    ///
+    /// - `cells`: the state at the beginning of the step.
     pub fn impose_outer<const N: usize>(
         &self,
-        mesh: &Mesh<N>,
+        ctx: &StepContext<'_, N>,
         slot: usize,
+        cells: &Padded<N>,
         half: &mut Padded<N>,
         s_z: &mut Padded<N>,
         s_r: &mut Padded<N>,
     ) {
+        let mesh = ctx.mesh;
         let id = mesh.tree().leaves()[slot];
         for side in Side::ALL {
             let kind = self.kind(side);
             if kind == Boundary::Interface || !mesh.touches(slot, side) {
                 continue;
             }
-            let across_z = matches!(side, Side::ZMin | Side::ZMax);
-            let first = if across_z { id.j } else { id.i } as usize * N;
+            let across_z = axis_across(side) == 0;
+            let first = first_face::<N>(id, side);
+            let mut absorption = (kind == Boundary::Absorbing).then(|| {
+                (Absorption::new(mesh, side, id.level, ctx.dt, ctx.elasticity), ctx.sides.follow(side))
+            });
             for along in 0..N {
                 let (n, a) = (N as isize, along as isize);
                 let (i, j) = match side {
@@ -81,7 +90,7 @@ impl Boundaries {
                     Side::RMax => (a, n),
                 };
                 let k = Padded::<N>::index(i, j);
-                if kind != Boundary::NonReflecting {
+                if !kind.is_open() {
                     let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
                     for component in 0..6 {
                         let row = half.component_mut(component);
@@ -89,10 +98,20 @@ impl Boundaries {
                     }
                     continue;
                 }
-                let state = self.initial.at(side, id.level, first + along).to_array();
+                let mut outer = *self.initial.at(side, id.level, first + along);
                 let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
+                if let Some((absorption, followed)) = &mut absorption {
+                    let before = ctx.sides.at(side, id.level, first + along);
+                    let (di, dj) = (i - i.clamp(0, n - 1), j - j.clamp(0, n - 1));
+                    let within =
+                        |depth: isize| Padded::<N>::index(i - (1 + depth) * di, j - (1 + depth) * dj);
+                    let cell = |depth: isize, c: usize| cells.component(c)[within(depth)];
+                    let after = absorption.follow(before, cell, outer);
+                    followed.set(id.level, first + along, after);
+                    outer = absorption.outer(after, outer);
+                }
                 let inwards = if matches!(side, Side::ZMin | Side::RMin) { 0.5 } else { -0.5 };
-                for (component, value) in state.into_iter().enumerate() {
+                for (component, value) in outer.to_array().into_iter().enumerate() {
                     let slopes = if across_z { &mut *s_z } else { &mut *s_r };
                     let slopes = slopes.component_mut(component);
                     slopes[k] = slopes[inner];
@@ -183,7 +202,7 @@ pub(crate) fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64
         Boundary::Axis | Boundary::Symmetry => component == v_normal || component == S_ZR,
         Boundary::Fixed => component == V_Z || component == V_R,
         Boundary::Free => component == s_normal || component == S_ZR,
-        Boundary::NonReflecting | Boundary::Interface => return None,
+        Boundary::Absorbing | Boundary::NonReflecting | Boundary::Interface => return None,
         Boundary::Periodic => unreachable!("a periodic side has neighbours"),
     };
     Some(if odd { -1.0 } else { 1.0 })

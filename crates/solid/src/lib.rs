@@ -4,6 +4,7 @@
 
 #![forbid(unsafe_code)]
 
+mod absorbing;
 mod adapt;
 mod analysis;
 mod block;

@@ -7,6 +7,9 @@ pub enum Boundary {
     Axis,
     /// Waves leave: the incoming characteristics are held at the initial state there.
     NonReflecting,
+    /// Waves leave, oblique ones and those along the surface too: the incoming characteristics are what has left over the side,
+    /// as it goes on beyond.
+    Absorbing,
     /// No traction.
     Free,
     /// No velocity.
@@ -21,13 +24,20 @@ pub enum Boundary {
 
 impl Boundary {
     /// Those a case file may name.
-    pub const NAMES: [(&'static str, Self); 5] = [
+    pub const NAMES: [(&'static str, Self); 6] = [
+        ("absorbing", Self::Absorbing),
         ("non-reflecting", Self::NonReflecting),
         ("free", Self::Free),
         ("fixed", Self::Fixed),
         ("symmetry", Self::Symmetry),
         ("periodic", Self::Periodic),
     ];
+
+    /// Whether waves leave over it.
+    #[must_use]
+    pub fn is_open(self) -> bool {
+        matches!(self, Self::Absorbing | Self::NonReflecting)
+    }
 }
 
 /// The stress that balances the fluid's ambient pressure p at t = 0.

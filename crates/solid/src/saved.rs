@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use mesh::{BlockId, Field, Horizon, Misfit};
 use serde::{Deserialize, Serialize};
 
+use crate::absorbing::SideFilters;
 use crate::block::BlockReport;
 use crate::state::component::COUNT;
 use crate::{BoundaryLedger, SolidSolver, SurfaceState};
@@ -21,6 +22,7 @@ pub struct SolidState<'a> {
     pending: Cow<'a, [BlockReport]>,
     horizon: Horizon,
     surface: Cow<'a, [SurfaceState]>,
+    sides: Cow<'a, [SideFilters; 4]>,
     time: f64,
     steps: u64,
     cell_updates: u64,
@@ -38,6 +40,7 @@ impl<const N: usize> SolidSolver<N> {
             setup: _,
             elasticity: _,
             boundaries: _,
+            sides,
             state,
             next: _,
             register: _,
@@ -65,6 +68,7 @@ impl<const N: usize> SolidSolver<N> {
             pending: Cow::Borrowed(pending),
             horizon: *horizon,
             surface: Cow::Borrowed(surface),
+            sides: Cow::Borrowed(sides.kept()),
             time: *time,
             steps: *steps,
             cell_updates: *cell_updates,
@@ -85,6 +89,7 @@ impl<const N: usize> SolidSolver<N> {
             pending,
             horizon,
             surface,
+            sides,
             time,
             steps,
             cell_updates,
@@ -103,6 +108,9 @@ impl<const N: usize> SolidSolver<N> {
         self.index_surface();
         if self.surface.len() != surface.len() {
             return Err(Misfit(format!("{} faces of the surface are not the grid's", surface.len())));
+        }
+        if !self.sides.restore(sides.into_owned()) {
+            return Err(Misfit("what absorbing sides remember is not of the solid's sides".to_owned()));
         }
         self.state = state.into_owned();
         self.next = self.state.clone();

@@ -6,6 +6,7 @@ use mesh::{
 
 use serde::{Deserialize, Serialize};
 
+use crate::absorbing::SideMemory;
 use crate::analysis::Analysis;
 use crate::block::{BlockReport, BlockScratch, StepContext, report_stresses};
 use crate::boundary::{Boundaries, SurfaceState};
@@ -57,6 +58,7 @@ pub struct SolidSolver<const N: usize> {
     pub(crate) setup: SolidSetup,
     pub(crate) elasticity: Elasticity,
     pub(crate) boundaries: Boundaries,
+    pub(crate) sides: SideMemory,
     pub(crate) state: Field,
     pub(crate) next: Field,
     pub(crate) register: Register<N>,
@@ -92,10 +94,11 @@ impl<const N: usize> SolidSolver<N> {
         let analysis =
             Analysis { boundaries: kinds, stress_scale: setup.stress_scale, impedance: setup.speeds.z1() };
         let (mesh, state) = crate::adapt::initial_mesh(&setup, &analysis, &initial)?;
-        let sides = SideStates::new(&mesh, |centre, _| initial(centre));
+        let initial_states = SideStates::new(&mesh, |centre, _| initial(centre));
         let mut solver = Self {
             elasticity: Elasticity::new(setup.speeds),
-            boundaries: Boundaries::new(kinds, sides),
+            boundaries: Boundaries::new(kinds, initial_states),
+            sides: SideMemory::new(&mesh, kinds),
             reports: vec![BlockReport::default(); mesh.blocks()],
             next: state.clone(),
             register: Register::new(mesh.blocks()),
@@ -197,6 +200,7 @@ impl<const N: usize> SolidSolver<N> {
             dt,
             surface: &self.surface,
             surface_first: &self.surface_first,
+            sides: &self.sides,
             yield_squared: self.setup.yield_strength * self.setup.yield_strength,
         }
     }

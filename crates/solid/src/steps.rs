@@ -130,6 +130,7 @@ impl<const N: usize> SolidSolver<N> {
                     self.ledger.momentum[side] += momentum;
                     self.ledger.energy[side] += energy;
                 }
+                self.sides.take_over(&self.mesh, slot);
             }
         }
         self.levels.turn(&self.mesh, &mut self.state, &mut self.next);

@@ -41,6 +41,7 @@ fn momentum_balances() {
         CYLINDER,
         [Boundary::Fixed, Boundary::Free, Boundary::Axis, Boundary::Fixed],
         [Boundary::NonReflecting, Boundary::NonReflecting, Boundary::Axis, Boundary::NonReflecting],
+        [Boundary::Absorbing, Boundary::Absorbing, Boundary::Axis, Boundary::Absorbing],
     ] {
         let mut solid = SolidSolver::<8>::new(setup(AXIAL, [32, 32], boundaries), lump).unwrap();
         assert!(imbalance(&mut solid, 300, rest).abs() < ROUND_OFF);

@@ -8,5 +8,6 @@ mod boundaries;
 mod helpers;
 mod ledgers;
 mod orders;
+mod sides;
 mod surface;
 mod symmetry;
