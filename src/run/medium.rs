@@ -11,7 +11,9 @@ use solid::SolidSolver;
 use super::RunError;
 use crate::case::{Case, SMALLEST_STEP};
 
-/// An exchange may take no more steps of the finest level than waves stay within the blocks that adaptation made for them.
+/// An exchange may take no more steps of the finest level than waves stay within the blocks that adaptation made for them: at Courant
+/// numbers of at most ½ they cross 12 of a block's 16 cells, and adaptation looks at most 14 ahead. Half and twice of it:
+/// `docs/verification.md`, "Constants".
 const LONGEST_EXCHANGE: f64 = 24.0;
 
 /// How long steps may be.

@@ -31,7 +31,7 @@ fn a_long_step_costs_one_trace_and_one_register() {
         while goes_on {
             goes_on = sides.round(|_, _| ());
             rounds += 1;
-            let round = sides.exchanged().since(last);
+            let round = sides.exchanged().since(&last);
             last = sides.exchanged();
             let faces = sides.fluid.solver().wall_faces().max(sides.solid.solver().surface_faces());
             let numbers = (TraceRow::COUNT + RegisterRow::COUNT) * faces;
@@ -40,7 +40,7 @@ fn a_long_step_costs_one_trace_and_one_register() {
             assert!(frames <= 3, "{sets:?}, round {rounds}: {frames} frames");
             assert!(round.bytes <= most as u64, "{sets:?}, round {rounds}: {} of {most} bytes", round.bytes);
         }
-        let all = last.since(start);
+        let all = last.since(&start);
         let steps = [sides.fluid.solver().steps(), sides.solid.solver().steps()];
         eprintln!("{sets:?}: {rounds} rounds, steps {steps:?}, {} sent, {} bytes", all.sent, all.bytes);
         assert!(steps[0] + steps[1] > least * rounds, "{sets:?}: {steps:?} in {rounds} rounds");

@@ -140,7 +140,7 @@ impl Pair {
         let limit = own.min(f64::from(ratio) * others) / 1.001;
         let steps = (end / limit).ceil();
         let dt = end / steps;
-        let rule = |cfl: f64| StepRule { cfl, local, ratio };
+        let rule = |cfl: f64| StepRule { cfl, local, ratio, smallest: 0.0 };
         // So that as many are made as asked for.
         let short = rule(cfl * dt / (f64::from(ratio) * others));
         for _ in 0..steps as usize {
