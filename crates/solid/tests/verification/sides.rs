@@ -59,7 +59,7 @@ const POINTS: [[f64; 2]; 4] = [[-0.2e-3, 13e-3], [-13e-3, 0.2e-3], [-13e-3, 13e-
 /// arrives at s, is doubled, and the water resists with its ρc.
 fn under_a_pulse(kind: Boundary, sides: usize, adapts: bool) -> Vec<[[f64; 2]; 4]> {
     const H: f64 = 0.4e-3;
-    let (water, impedance, height, width) = (1483.0, 1483e3, 4e-3, 1e-3);
+    let (water, impedance, height, width) = (1483.0_f64, 1483e3, 4e-3_f64, 1e-3);
     let uniform = half_space(AXIAL, ALUMINIUM, kind, [sides as f64 * H; 2], [sides; 2]);
     let setup = if adapts {
         let adaptation = Some(Adaptation { epsilon: 1e-4, every: 4, bounds: vec![] });
