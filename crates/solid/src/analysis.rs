@@ -24,7 +24,7 @@ impl Multiresolution for Analysis {
     }
 
     fn counts_beside(&self, side: Side) -> bool {
-        !self.boundaries[side as usize].is_open()
+        self.boundaries[side as usize] != Boundary::NonReflecting
     }
 
     /// All states are admissible.
