@@ -138,8 +138,11 @@ impl SolidSide {
 
     /// The first word: how long a step the solid allows. It is at rest; or it says at what time it goes on.
     pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
+        let promised = self.promised;
         link.send(self.header(FrameKind::Register, 0, stop), |_| {})?;
         if self.solver.steps() > 0 {
+            // The fluid goes on from what it was told before.
+            self.promised = promised;
             self.past.leave_out(link.counters());
         }
         Ok(())
