@@ -187,7 +187,7 @@ fn told<S>(side: Result<S, RunError>, link: &mut ProcessLink) -> Result<S, RunEr
 /// Tells the peer of an error that it cannot know of.
 fn tell<T>(result: Result<T, RunError>, link: &mut ProcessLink, step: u64) -> Result<T, RunError> {
     if let Err(error) = &result
-        && !matches!(error, RunError::Coupler(_))
+        && !matches!(error, RunError::Coupler(error) if !error.is_refusal())
         && let Err(unsaid) = link.send_fault(error.fault(), step)
     {
         tracing::warn!(%unsaid, "the peer could not be told");

@@ -114,6 +114,7 @@ impl RunError {
             | Self::Resume { .. }
             | Self::Misfit(_) => 2,
             Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
+            Self::Coupler(CouplerError::NoState { .. }) => 3,
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
             Self::Coupler(_) | Self::Start { .. } => 4,
             Self::Output(_) => 5,
@@ -128,6 +129,7 @@ impl RunError {
         match self {
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => Fault::Numerical,
             Self::Output(_) | Self::Directory(_) => Fault::Output,
+            Self::Coupler(CouplerError::NoState { .. }) => Fault::Numerical,
             Self::Coupler(_) => Fault::Protocol,
             Self::Interrupted | Self::Terminated => Fault::Stopped,
             Self::Case(_)

@@ -14,6 +14,10 @@ use crate::case::Case;
 /// An exchange may take no more steps of the finest level than waves stay within the blocks that adaptation made for them.
 const LONGEST_EXCHANGE: f64 = 24.0;
 
+/// A step of a level below this share of the whole one means that the solution has gone bad on the way: an exchange is planned
+/// with [`LONGEST_EXCHANGE`] steps of the finest level, and what comes through the interface may be anything.
+const SMALLEST_WITHIN: f64 = 1e-4;
+
 /// How long steps may be.
 #[derive(Clone, Copy, Debug)]
 pub struct StepRule {
@@ -34,6 +38,8 @@ pub trait Medium {
     fn grid(&self) -> &Mesh<BLOCK>;
     /// The time that the finest level has reached, s.
     fn reached(&self) -> f64;
+    /// How many steps of it have been made.
+    fn made(&self) -> u64;
     /// Which levels step when.
     fn clock(&self) -> &LevelClock;
     /// The longest step of all cells alike, s.
@@ -78,6 +84,9 @@ macro_rules! medium {
             }
             fn reached(&self) -> f64 {
                 self.time()
+            }
+            fn made(&self) -> u64 {
+                self.steps()
             }
             fn clock(&self) -> &LevelClock {
                 $solver::clock(self)
@@ -176,6 +185,11 @@ impl StepRule {
         self.long(medium).limit.min(longest.max(medium.limit(self.cfl)))
     }
 
+    /// The most steps of the finest level that a side counts within one of the other.
+    pub fn most_steps(&self) -> f64 {
+        LONGEST_EXCHANGE.max(f64::from(self.ratio))
+    }
+
     /// The longest step if one of the other side counts as `others`, s.
     pub fn longest(&self, others: f64) -> f64 {
         f64::from(self.ratio) * others
@@ -225,7 +239,8 @@ fn step_to_end<M: Medium>(
 ) -> Result<(), RunError> {
     loop {
         while medium.clock().due().is_some() {
-            let step = medium.start(medium.due_limit(rule.cfl));
+            let limit = within(medium, medium.clock().length(0), medium.due_limit(rule.cfl))?;
+            let step = medium.start(limit);
             before(medium, step);
             medium.run(step, Part::All)?;
         }
@@ -233,6 +248,21 @@ fn step_to_end<M: Medium>(
             return Ok(());
         }
     }
+}
+
+/// The limit of a step within one of length `whole`.
+///
+/// - errors: it has collapsed.
+fn within<M: Medium>(medium: &M, whole: f64, limit: f64) -> Result<f64, RunError> {
+    if limit > SMALLEST_WITHIN * whole {
+        return Ok(limit);
+    }
+    Err(RunError::TimeStepCollapsed {
+        dt: limit,
+        time: medium.reached(),
+        step: medium.made() + 1,
+        limited_by: M::OWN.name(),
+    })
 }
 
 /// Ends the step of the finest level and tells of it; whether the whole step is over.
@@ -258,6 +288,7 @@ pub fn begin_meeting<M: Medium>(medium: &M, meeting: &mut Meeting, trace: (&[f64
 /// Makes the short steps within the other side's long one, of length `dt`.
 ///
 /// - `answer`: called as soon as all is known that the interface will do. `after`: as in [`end_long`].
+/// - errors: those of the medium, what meets is no state, the steps collapse on the way.
 pub fn short_steps<M: Medium>(
     medium: &mut M,
     meeting: &mut Meeting,
@@ -273,12 +304,12 @@ pub fn short_steps<M: Medium>(
         while let Some(group) = medium.clock().due() {
             // The whole is the other side's: how many steps of the coarsest level it holds follows from that level's limit.
             let limit = if group == 0 { rule.alone(medium).limit } else { medium.due_limit(rule.cfl) };
-            let step = medium.start(limit);
+            let step = medium.start(within(medium, dt, limit)?);
             let (rows, faces) = meeting.own_trace();
             medium.write_group_trace(step, |row, face, value| rows[row as usize * faces + face] = value);
             let is_due = |face: usize| medium.group_of_face(face) == group;
             let short = ShortStep { begin: step.begin, dt: step.dt };
-            meeting.meet(M::OWN, short, star, is_due);
+            meeting.meet(M::OWN, short, star, is_due)?;
             meeting.own_means(|face, state| {
                 if medium.group_of_face(face) == group {
                     medium.set_face(face, state);

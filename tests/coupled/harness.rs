@@ -113,7 +113,8 @@ impl Pair {
         meeting.begin((&*trace, faces), solid.time(), own, domain.r[0], axisymmetric);
         let (rows, count) = meeting.own_trace();
         solid.write_trace(dt, |row, face, value| rows[row as usize * count + face] = value);
-        meeting.meet(Participant::Solid, ShortStep { begin: solid.time(), dt }, *star, |_| true);
+        let step = ShortStep { begin: solid.time(), dt };
+        meeting.meet(Participant::Solid, step, *star, |_| true).expect("two states");
         meeting.own_means(|face, state| solid.set_surface_face(face, state));
         meeting.write_register(register);
         fluid.set_wall(&WallRegister::of(register, faces));

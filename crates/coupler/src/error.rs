@@ -144,6 +144,77 @@ pub enum CouplerError {
         found: FrameKind,
     },
 
+    // --- what the frame says makes no sense ---
+    /// A number that has to be one is none.
+    #[error(
+        "the {peer}'s {kind} frame has {value} for the {row} of face {face}; its solution has gone bad, or it keeps to \
+         another protocol: see its log"
+    )]
+    NotFinite {
+        /// Who sent it.
+        peer: Participant,
+        /// In which frame.
+        kind: FrameKind,
+        /// Which of its rows.
+        row: &'static str,
+        /// Where in the row.
+        face: usize,
+        /// NaN or an infinity.
+        value: f64,
+    },
+    /// The faces of a trace do not make up the interface.
+    #[error(
+        "the faces of the {peer}'s trace do not make up the interface: {reason}; they begin where it begins, ascend, and \
+         end where it ends"
+    )]
+    BadFaces {
+        /// Who sent it.
+        peer: Participant,
+        /// What is wrong with them.
+        reason: String,
+    },
+    /// The frame is about another step than the one that is due.
+    #[error(
+        "the {peer}'s {kind} frame has {what} {found:e} s, which has to be {expected}; both sides must run the same case in \
+         the same steps"
+    )]
+    BadStep {
+        /// Who sent it.
+        peer: Participant,
+        /// Which frame.
+        kind: FrameKind,
+        /// Which of its times.
+        what: &'static str,
+        /// As in the frame.
+        found: f64,
+        /// What it has to be.
+        expected: String,
+    },
+    /// Something that the scheme does not have, or not now.
+    #[error("the {peer}'s {kind} frame {what}; both sides must use the same scheme")]
+    OutOfTurn {
+        /// Who sent it.
+        peer: Participant,
+        /// Which frame.
+        kind: FrameKind,
+        /// What it should not.
+        what: &'static str,
+    },
+
+    // --- the interface ---
+    /// A trace on the interface is no state of its medium, or the two have no state in common.
+    #[error("the {side}'s trace at r = {radius:.6e} m, t = {time:.6e} s is no state: {values}")]
+    NoState {
+        /// Whose.
+        side: Participant,
+        /// On the face in question, m.
+        radius: f64,
+        /// When it was met, s.
+        time: f64,
+        /// The numbers.
+        values: String,
+    },
+
     // --- the peer ---
     /// The peer's process ended without a word.
     #[error("the {peer} (process {pid}) died at step {step}; its own output and log say why")]
@@ -228,6 +299,25 @@ pub enum CouplerError {
         /// As the hook says.
         reason: String,
     },
+}
+
+impl CouplerError {
+    /// Whether the peer is there and does not know: what it sent was refused, or cannot be met.
+    #[must_use]
+    pub fn is_refusal(&self) -> bool {
+        matches!(
+            self,
+            Self::SequenceMismatch { .. }
+                | Self::LengthMismatch { .. }
+                | Self::UnknownKind { .. }
+                | Self::KindMismatch { .. }
+                | Self::NotFinite { .. }
+                | Self::BadFaces { .. }
+                | Self::BadStep { .. }
+                | Self::OutOfTurn { .. }
+                | Self::NoState { .. }
+        )
+    }
 }
 
 /// The first digits of a hash, as people compare them.

@@ -4,6 +4,7 @@
 //! meets it in each of its own steps and returns the means. What one gives the other gets, to round-off, whatever the
 //! ratio of the steps, and also where the faces do not match.
 
+use crate::error::CouplerError;
 use crate::exchange::{RegisterRow, TraceRow};
 use crate::link::Participant;
 use crate::mapping::{CommonRefinement, SubFace};
@@ -40,6 +41,7 @@ pub struct Meeting {
     others: usize,
     own: Vec<f64>,
     begin: f64,
+    low: f64,
     stars: Vec<InterfaceStar>,
     means: Vec<Means>,
     floored: u64,
@@ -48,7 +50,7 @@ pub struct Meeting {
 impl Meeting {
     /// Begins a long step with the other side's trace frame.
     ///
-    /// - `payload`: rows of [`TraceRow`], `others` faces long; `begin`: when the step begins, s.
+    /// - `payload`: rows of [`TraceRow`], `others` faces long, as [`crate::Frame::trace`] lets them in; `begin`: when the step begins, s.
     /// - `generation`: tells whether the own faces are those of the last time; if not, they are asked for by `edges`.
     /// - `low`: the radius at which the interface begins, m.
     pub fn begin(
@@ -67,7 +69,7 @@ impl Meeting {
         }
         self.trace.clear();
         self.trace.extend_from_slice(payload);
-        (self.others, self.begin) = (others, begin);
+        (self.others, self.begin, self.low) = (others, begin, low);
         self.refinement.update(low, TraceRow::Edge.of(payload, others), &self.edges, axisymmetric);
         let sub_faces = self.refinement.sub_faces().len();
         let nothing = InterfaceStar { pressure: 0.0, velocity: 0.0, iterations: 0, floored: false };
@@ -84,18 +86,19 @@ impl Meeting {
     /// these are about to make. Their own trace must be there.
     ///
     /// - `own`: which medium this side is; `is_due`: by number of the own face.
+    /// - errors: a trace is no state, or the two have none in common; says whose and where.
     pub fn meet(
         &mut self,
         own: Participant,
         step: ShortStep,
         solver: StarSolver,
         is_due: impl Fn(usize) -> bool,
-    ) {
+    ) -> Result<(), CouplerError> {
         // Of the other side's trace as much time has passed as its step is old.
         let (half, age) = (0.5 * step.dt, step.begin - self.begin + 0.5 * step.dt);
         let weight =
             if step.begin == self.begin { 1.0 } else { step.dt / (step.begin + step.dt - self.begin) };
-        let Self { refinement, trace, others, own: own_trace, edges, stars, means, .. } = self;
+        let Self { refinement, trace, others, own: own_trace, edges, stars, means, low, .. } = self;
         for (number, sub) in refinement.sub_faces().iter().enumerate().filter(|(_, sub)| is_due(sub.second)) {
             let SubFace { first, second, offset_in_first, offset_in_second, .. } = *sub;
             // Traces are linear along a face: a face that meets several of the other side shows each its own part.
@@ -112,10 +115,25 @@ impl Meeting {
                 Participant::Fluid => (ours.fluid(), theirs.solid()),
                 Participant::Solid => (theirs.fluid(), ours.solid()),
             };
+            let no_state = |side: Participant, values: String| {
+                let radius = if side == own { ours.radius(*low) } else { theirs.radius(*low) };
+                Err(CouplerError::NoState { side, radius, time: step.begin + half, values })
+            };
+            if !fluid.is_state() {
+                return no_state(Participant::Fluid, format!("{fluid:?}"));
+            }
+            if !solid.is_state() {
+                return no_state(Participant::Solid, format!("{solid:?}"));
+            }
             let star = match solver {
                 StarSolver::Exact => exact_star(&fluid, &solid),
                 StarSolver::Acoustic => acoustic_star(&fluid, &solid),
             };
+            if !star.is_finite() {
+                // Then one of them is far beyond any state; the suspect is the one from elsewhere.
+                let values = format!("{fluid:?} and {solid:?} have none in common: {star:?}");
+                return no_state(own.peer(), values);
+            }
             self.floored += u64::from(star.floored);
             stars[number] = star;
             // By differences, so that the mean of what stays the same is the same to the last bit.
@@ -130,6 +148,7 @@ impl Meeting {
                 .map(|row| row.of(own_trace, edges.len())[second]);
             add(&mut mean.tangential, tangential[0] + half * tangential[1]);
         }
+        Ok(())
     }
 
     /// The present step's means over the own faces: `put(face, [p*, v*, p*v*])`.
@@ -172,6 +191,7 @@ impl Meeting {
             others: _,
             own: _,
             begin: _,
+            low: _,
             stars: _,
             means: _,
             floored,
@@ -200,6 +220,12 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
+    /// The middle of the face on an interface that begins at `low`, m.
+    fn radius(&self, low: f64) -> f64 {
+        let edges = TraceRow::Edge.of(self.rows, self.count);
+        0.5 * (edges[self.face] + self.face.checked_sub(1).map_or(low, |before| edges[before]))
+    }
+
     fn value(&self, row: TraceRow) -> f64 {
         row.of(self.rows, self.count)[self.face]
     }
@@ -232,6 +258,110 @@ impl Seen<'_> {
             pressure: self.pressure(),
             velocity: self.velocity(),
             impedance: self.value(TraceRow::Impedance),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WATER: [(TraceRow, f64); 5] = [
+        (TraceRow::Pressure, 1e5),
+        (TraceRow::NormalVelocity, -3.0),
+        (TraceRow::Density, 1000.0),
+        (TraceRow::Gamma, 7.15),
+        (TraceRow::Pi, 3e8),
+    ];
+    const STEEL: [(TraceRow, f64); 2] = [(TraceRow::Pressure, 1e5), (TraceRow::Impedance, 4.7e7)];
+
+    /// The rows of a trace that is the same on all faces.
+    fn trace(edges: &[f64], values: &[(TraceRow, f64)]) -> Vec<f64> {
+        let mut rows = vec![0.0; TraceRow::COUNT * edges.len()];
+        rows[..edges.len()].copy_from_slice(edges);
+        for (row, value) in values {
+            rows[*row as usize * edges.len()..][..edges.len()].fill(*value);
+        }
+        rows
+    }
+
+    /// What a solid of four faces makes of a fluid of three, and what a fluid makes of a solid, if one number is changed.
+    fn met(
+        own: Participant,
+        solver: StarSolver,
+        (whose, row, face, value): (Participant, TraceRow, usize, f64),
+    ) -> Result<(), CouplerError> {
+        let (outer, inner) = ([0.01, 0.02, 0.05], [0.01, 0.02, 0.03, 0.05]);
+        let (theirs, ours) = match own {
+            Participant::Fluid => (&STEEL[..], &WATER[..]),
+            Participant::Solid => (&WATER[..], &STEEL[..]),
+        };
+        let (mut theirs, mut ours) = (trace(&outer, theirs), trace(&inner, ours));
+        if whose == own {
+            ours[row as usize * inner.len() + face] = value;
+        } else {
+            theirs[row as usize * outer.len() + face] = value;
+        }
+        let mut meeting = Meeting::default();
+        meeting.begin((&theirs, outer.len()), 1e-5, (0, || inner.to_vec()), 0.0, true);
+        meeting.own_trace().0.copy_from_slice(&ours);
+        let step = ShortStep { begin: 1e-5, dt: 1e-8 };
+        meeting.meet(own, step, solver, |_| true)?;
+        let mut register = vec![f64::NAN; RegisterRow::COUNT * outer.len()];
+        meeting.write_register(&mut register);
+        assert!(register[..3 * outer.len()].iter().all(|value| value.is_finite()));
+        Ok(())
+    }
+
+    #[test]
+    fn the_side_whose_trace_is_no_state_is_named_with_place_and_time() {
+        use Participant::{Fluid, Solid};
+        for solver in [StarSolver::Exact, StarSolver::Acoustic] {
+            for own in [Fluid, Solid] {
+                assert_eq!(met(own, solver, (Solid, TraceRow::Shear, 0, 7.0)), Ok(()));
+                for (whose, row, value) in [
+                    (Fluid, TraceRow::Density, -0.046),
+                    (Fluid, TraceRow::Density, 0.0),
+                    (Fluid, TraceRow::DensityRate, -1.1e3 / 5e-9),
+                    (Fluid, TraceRow::Pressure, -3e8),
+                    (Fluid, TraceRow::PressureRate, -1e17),
+                    (Fluid, TraceRow::Gamma, 0.5),
+                    (Fluid, TraceRow::Pi, -2e5),
+                    (Fluid, TraceRow::NormalVelocity, f64::NAN),
+                    (Solid, TraceRow::Impedance, 0.0),
+                    (Solid, TraceRow::Impedance, -1.0),
+                    (Solid, TraceRow::NormalVelocityRate, f64::INFINITY),
+                ] {
+                    let error = met(own, solver, (whose, row, 1, value)).expect_err("no state");
+                    let CouplerError::NoState { side, radius, time, .. } = &error else { panic!("{error}") };
+                    assert_eq!(*side, whose, "{row:?} {error}");
+                    assert!((radius - 0.015).abs() < 1e-12 && (time - 1.0005e-5).abs() < 1e-15, "{error}");
+                    assert!(
+                        error.to_string().starts_with(&format!("the {whose}'s trace at r = 1.5")),
+                        "{error}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// A face's slope may leave the state on one of the sub-faces only.
+    #[test]
+    fn each_sub_face_is_looked_at() {
+        let change = (Participant::Fluid, TraceRow::DensitySlope, 2, -4e5);
+        let error = met(Participant::Solid, StarSolver::Exact, change).expect_err("no state");
+        assert!(matches!(error, CouplerError::NoState { side: Participant::Fluid, .. }), "{error}");
+    }
+
+    /// Two states may be so far apart that what they meet in overflows.
+    #[test]
+    fn a_star_state_beyond_numbers_is_refused() {
+        let change = (Participant::Solid, TraceRow::NormalVelocity, 1, 1e200);
+        for own in [Participant::Fluid, Participant::Solid] {
+            let error = met(own, StarSolver::Acoustic, change).expect_err("no state in common");
+            let CouplerError::NoState { side, values, .. } = error else { panic!("{error}") };
+            assert_eq!(side, own.peer());
+            assert!(values.contains("none in common"), "{values}");
         }
     }
 }

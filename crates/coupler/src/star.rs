@@ -35,6 +35,16 @@ pub struct FluidTrace {
 }
 
 impl FluidTrace {
+    /// Whether it is one of a stiffened gas: finite, density and p + π above zero, γ > 1, π ≥ 0.
+    #[inline]
+    #[must_use]
+    pub fn is_state(&self) -> bool {
+        let Self { pressure, velocity, density, gamma, pi } = *self;
+        let in_range = density > 0.0 && pressure + pi > 0.0 && gamma > 1.0 && pi >= 0.0;
+        // A sum is finite if all its terms are; of finite ones it may be infinite only far beyond any state.
+        in_range && (pressure.abs() + velocity.abs() + density + gamma + pi).is_finite()
+    }
+
     /// Sound speed c = √(γ(p + π)/ρ), m/s.
     #[inline]
     #[must_use]
@@ -61,6 +71,16 @@ pub struct SolidTrace {
     pub impedance: f64,
 }
 
+impl SolidTrace {
+    /// Whether it is one of an elastic solid: finite, with an impedance above zero.
+    #[inline]
+    #[must_use]
+    pub fn is_state(&self) -> bool {
+        let Self { pressure, velocity, impedance } = *self;
+        impedance > 0.0 && (pressure.abs() + velocity.abs() + impedance).is_finite()
+    }
+}
+
 /// What both media have in common at the interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterfaceStar {
@@ -75,6 +95,15 @@ pub struct InterfaceStar {
     pub floored: bool,
 }
 
+impl InterfaceStar {
+    /// Whether pressure, velocity and their product, the power, are numbers.
+    #[inline]
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.pressure.is_finite() && self.velocity.is_finite() && (self.pressure * self.velocity).is_finite()
+    }
+}
+
 /// The star state with the fluid's curve replaced by its tangent.
 ///
 /// Characteristics of linear acoustics: `v* = (Z_s v_s + Z_f v_f + P_s − p_f)/(Z_s + Z_f)` and
@@ -83,9 +112,10 @@ pub struct InterfaceStar {
 ///
 /// - `fluid`, `solid`: traces at the wall, SI.
 /// - returns: p* (Pa) and v* (m/s). Traces of equal pressure and velocity come back as they are, bitwise.
-/// - valid for: positive density and impedance, p + π > 0. p* may lie below −π, which is not checked.
-/// - errors: none.
-/// - tested by: reflection and transmission coefficients, rest under pressure, both invariants.
+/// - valid for: positive density and impedance, p + π > 0.
+/// - errors: none. Where p* would be −π or less `floored` is set, p* = −π and v* lies on the solid's line, as in
+///   [`exact_star`].
+/// - tested by: reflection and transmission coefficients, rest under pressure, both invariants, tearing.
 #[inline]
 #[must_use]
 pub fn acoustic_star(fluid: &FluidTrace, solid: &SolidTrace) -> InterfaceStar {
@@ -93,12 +123,18 @@ pub fn acoustic_star(fluid: &FluidTrace, solid: &SolidTrace) -> InterfaceStar {
     // In increments on the fluid's trace, so that equal traces return themselves.
     let (jump_p, jump_v) = (solid.pressure - fluid.pressure, solid.velocity - fluid.velocity);
     let weight = 1.0 / (z_solid + z_fluid);
-    InterfaceStar {
-        pressure: fluid.pressure + z_fluid * weight * (jump_p + z_solid * jump_v),
-        velocity: fluid.velocity + weight * (jump_p + z_solid * jump_v),
-        iterations: 0,
-        floored: false,
+    let pressure = fluid.pressure + z_fluid * weight * (jump_p + z_solid * jump_v);
+    if pressure <= -fluid.pi {
+        return torn(fluid, solid);
     }
+    let velocity = fluid.velocity + weight * (jump_p + z_solid * jump_v);
+    InterfaceStar { pressure, velocity, iterations: 0, floored: false }
+}
+
+/// The liquid bears −π at most; the wall goes on by itself.
+fn torn(fluid: &FluidTrace, solid: &SolidTrace) -> InterfaceStar {
+    let velocity = solid.velocity + (solid.pressure + fluid.pi) / solid.impedance;
+    InterfaceStar { pressure: -fluid.pi, velocity, iterations: 0, floored: true }
 }
 
 /// f(p) and its derivatives by p, times (p + π) and (p + π)².
@@ -169,8 +205,7 @@ pub fn exact_star(fluid: &FluidTrace, solid: &SolidTrace) -> InterfaceStar {
     let g = |curve: &Curve, p: f64| curve.f + (p - solid.pressure) / solid.impedance + dv;
 
     if g(&curve(fluid, TORN - pi, TORN), TORN - pi) >= 0.0 {
-        let velocity = solid.velocity + (solid.pressure + pi) / solid.impedance;
-        return InterfaceStar { pressure: -pi, velocity, iterations: 0, floored: true };
+        return torn(fluid, solid);
     }
 
     let start = acoustic_star(fluid, solid).pressure;
@@ -436,6 +471,58 @@ mod tests {
         let held = exact_star(&water(1e5, 0.0), &solid(1e5, -450.0, Z_STEEL));
         assert!(!held.floored && held.pressure > -3e8 && held.pressure < -2.9e8, "{held:?}");
         assert_eq!(star_density(&water(1e5, 0.0), -3e8), 0.0);
+    }
+
+    #[test]
+    fn the_tangent_tears_where_it_would_pass_the_floor() {
+        // The tangent bears p + π = Z_f Z_s/(Z_f + Z_s) Δv, so it tears at about 211 m/s.
+        let fluid = water(1e5, 0.0);
+        let wall = solid(1e5, -600.0, Z_STEEL);
+        let star = acoustic_star(&fluid, &wall);
+        assert_eq!(star, exact_star(&fluid, &wall));
+        assert!(star.floored && star.pressure == -3e8);
+        assert!(star_density(&fluid, star.pressure).is_finite());
+        let held = acoustic_star(&fluid, &solid(1e5, -200.0, Z_STEEL));
+        assert!(!held.floored && held.pressure > -3e8 && held.pressure < -2.5e8, "{held:?}");
+        // Gas bears no tension at all.
+        let gas = FluidTrace { pressure: 1e3, velocity: 0.0, density: 0.02, gamma: 1.4, pi: 0.0 };
+        let star = acoustic_star(&gas, &solid(1e3, -2e3, Z_STEEL));
+        assert!(star.floored && star.pressure == 0.0, "{star:?}");
+    }
+
+    #[test]
+    fn what_is_no_state_is_told_from_what_is() {
+        assert!(water(-2.9e8, -600.0).is_state() && solid(-1e9, 3.0, Z_STEEL).is_state());
+        let nan = f64::NAN;
+        let good = water(1e5, 0.0);
+        for bad in [
+            FluidTrace { density: 0.0, ..good },
+            FluidTrace { density: -1e-3, ..good },
+            FluidTrace { density: nan, ..good },
+            FluidTrace { density: f64::INFINITY, ..good },
+            FluidTrace { pressure: -3e8, ..good },
+            FluidTrace { pressure: nan, ..good },
+            FluidTrace { velocity: nan, ..good },
+            FluidTrace { velocity: f64::NEG_INFINITY, ..good },
+            FluidTrace { gamma: 1.0, ..good },
+            FluidTrace { gamma: nan, ..good },
+            FluidTrace { pi: -1.0, ..good },
+            FluidTrace { pi: f64::INFINITY, ..good },
+        ] {
+            assert!(!bad.is_state(), "{bad:?}");
+        }
+        for (pressure, velocity, impedance) in [
+            (nan, 0.0, 1.0),
+            (0.0, nan, 1.0),
+            (0.0, f64::INFINITY, 1.0),
+            (0.0, 0.0, 0.0),
+            (0.0, 0.0, -1.0),
+            (0.0, 0.0, nan),
+            (0.0, 0.0, f64::INFINITY),
+        ] {
+            let bad = SolidTrace { pressure, velocity, impedance };
+            assert!(!bad.is_state(), "{bad:?}");
+        }
     }
 
     #[test]
