@@ -14,11 +14,15 @@ use cav::run::checkpoints::Checkpoints;
 use cav::run::fluid_side::saved::FluidSideState;
 use cav::run::setup::{fluid_solver, solid_solver};
 use cav::run::solid_side::saved::SolidSideState;
-use coupler::{Expected, Frame, FrameHeader, FrameKind, RegisterRow, TraceRow};
 use fluid::{FluidSolver, FluidState};
 use mesh::BLOCK;
 use sha2::{Digest, Sha256};
 use solid::{SolidSolver, SolidState};
+
+#[path = "frames.rs"]
+pub mod frames;
+
+pub use frames::interface_frame;
 
 /// A small coupled case.
 pub const SMALL: &str = include_str!("small.toml");
@@ -33,31 +37,6 @@ pub fn case_file(bytes: &[u8]) {
             let again =
                 Case::from_toml(&written, "hostile", &[]).unwrap_or_else(|e| panic!("{e}\n{written}"));
             assert_eq!(case.hash(), again.hash(), "{written}");
-        }
-    }
-}
-
-/// A frame: a header as it is encoded, then its payload as numbers.
-pub fn interface_frame(bytes: &[u8]) {
-    let Ok((header, rest)) = postcard::take_from_bytes::<FrameHeader>(bytes) else { return };
-    let payload: Vec<f64> = rest.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
-    let frame = Frame { header: &header, payload: &payload };
-    for sequence in [1, header.sequence] {
-        let expected = Expected { case_hash: header.case_hash, sequence, pid: Some(header.pid) };
-        if frame.check(&expected).is_err() {
-            continue;
-        }
-        assert_eq!(header.sequence, sequence, "replayed and reordered frames are refused");
-        assert_eq!(header.len(), Some(payload.len()), "wrong lengths are refused");
-        for kind in [FrameKind::Trace, FrameKind::Register, FrameKind::Yours] {
-            let _ = frame.require(kind);
-        }
-        let count = header.count as usize;
-        if frame.require_shape(TraceRow::COUNT, count).is_ok() {
-            assert_eq!(TraceRow::Impedance.of(&payload, count).len(), count);
-        }
-        if frame.require_shape(RegisterRow::COUNT, count).is_ok() {
-            assert_eq!(RegisterRow::Shear.of(&payload, count).len(), count);
         }
     }
 }

@@ -97,16 +97,98 @@ fn case_files() {
     run("case_file", targets::case_file, paths.iter().map(|path| fs::read(path).unwrap()).collect());
 }
 
+/// A change of a frame: what, at which number, to what; see `frames::change`.
+fn changed(run: u8, whose: u8, number: u8, what: u8, at: u16, value: f64) -> Vec<u8> {
+    let bytes = [&[run, whose, number, what][..], &at.to_le_bytes(), &value.to_le_bytes()].concat();
+    assert_eq!(bytes.len(), 3 + targets::frames::CHANGE);
+    bytes
+}
+
+#[test]
+fn unchanged_frames_are_all_accepted() {
+    for run in 0..targets::frames::RUNS.len() as u8 {
+        let result = targets::frames::changed_run(&[run, 0, 0]);
+        assert!(result.is_ok(), "run {run}: {}", result.unwrap_err());
+    }
+}
+
+/// In run 0 the fluid's step is the longer one, so it sends the trace; in run 1 the solid's.
+#[test]
+fn frames_that_make_no_sense_are_refused_by_either_side() {
+    const TO_FLUID: u8 = 0;
+    const TO_SOLID: u8 = 1;
+    let (first_word, trace) = ([[0, TO_FLUID, 0], [1, TO_FLUID, 0]], [[0, TO_SOLID, 0], [1, TO_FLUID, 1]]);
+    let (register, yours) = ([[0, TO_FLUID, 1], [1, TO_SOLID, 1]], [[1, TO_SOLID, 0]; 2]);
+    let traces_and_registers = [trace, register].concat();
+    let all_steps = [trace, register, yours].concat();
+    let all = [first_word, trace, register, yours].concat();
+    let refused = |frames: &[[u8; 3]], what: u8, at: u16, value: f64, words: &str| {
+        for [run, whose, number] in frames {
+            let start = Instant::now();
+            let result = targets::frames::changed_run(&changed(*run, *whose, *number, what, at, value));
+            let context = format!("run {run}, frame {number} to {whose}, {what}: {value:e}");
+            let error = result.expect_err(&context);
+            assert_eq!(error.exit_code(), 4, "{context}: {error}");
+            assert!(error.to_string().contains(words), "{context}: {error}");
+            // Whose it was, but where only its shape was looked at.
+            let sender = ["the solid's", "the fluid's"][usize::from(*whose)];
+            assert!(words.is_empty() || error.to_string().contains(sender), "{context}: {error}");
+            assert!(start.elapsed() < LONGEST, "{context}");
+        }
+    };
+    let (value, row, time, dt, dt_max, faces) = (0, 5, 6, 7, 9, 12);
+    for none in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        refused(&trace, value, 3, none, "for the outer radius of face 3");
+        refused(&trace, row, 5, none, "for the density of face 0");
+        refused(&register, value, 2, none, "for the mean pressure of face 2");
+    }
+    refused(&trace, value, 3, 1e-9, "face 3 goes from");
+    refused(&trace, value, 0, -1e-9, "face 0 goes from");
+    refused(&trace, value, 15, 1.0, "they end at");
+    refused(&trace, faces, 5, 0.0, "they end at");
+    refused(&trace, faces, 0, 0.0, "there are none");
+    refused(&register, faces, 5, 0.0, "");
+    refused(&register, faces, 0, 0.0, "");
+    for bad in [f64::NAN, f64::INFINITY, 0.0, -1e-9, 1.0, 1e300] {
+        refused(&all_steps, dt, 0, bad, "has the step");
+    }
+    for bad in [f64::NAN, f64::INFINITY, -1e-9, 1e-9, 1e300] {
+        refused(&all, time, 0, bad, "has the time");
+    }
+    for bad in [f64::NAN, f64::NEG_INFINITY, -1e-9] {
+        refused(
+            &[first_word[0], register[0], trace[1], yours[0]],
+            dt_max,
+            0,
+            bad,
+            "has the largest next step",
+        );
+    }
+    // Flags of the strong scheme in another one; another kind.
+    refused(&trace[..1], 10, 4, 0.0, "is a trial in a scheme without");
+    refused(&trace[..1], 10, 5, 0.0, "settles a step that was not tried");
+    for (frames, kind) in [(&traces_and_registers, 1), (&all_steps, 77)] {
+        for [run, whose, number] in frames {
+            let result = targets::frames::changed_run(&changed(*run, *whose, *number, 11, kind, 0.0));
+            assert_eq!(result.expect_err("another kind").exit_code(), 4);
+        }
+    }
+}
+
 #[test]
 fn interface_frames() {
-    use coupler::{FrameHeader, FrameKind};
-    let frame = |kind, fields: u64, count: u64| {
-        let header = FrameHeader { fields, count, sequence: 1, ..FrameHeader::new(kind) };
-        let payload = (0..fields * count).flat_map(|k| (k as f64).to_le_bytes());
-        [postcard::to_stdvec(&header).unwrap(), payload.collect()].concat()
-    };
-    let seeds =
-        vec![frame(FrameKind::Trace, 16, 3), frame(FrameKind::Register, 5, 4), frame(FrameKind::Yours, 0, 0)];
+    let nonsense = [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e-300, 1e300, 1e9, 1.001];
+    let mut seeds = Vec::new();
+    for run in 0..targets::frames::RUNS.len() as u8 {
+        for whose in 0..2 {
+            // Nothing changed; then each kind of change, in the first frames and in later ones.
+            seeds.push(vec![run, whose, 0]);
+            for what in 0..16_u8 {
+                let value = nonsense[usize::from(what + whose + run) % nonsense.len()];
+                seeds.push(changed(run, whose, what % 5, what, 37 * u16::from(what), value));
+            }
+        }
+    }
     run("interface_frame", targets::interface_frame, seeds);
 }
 

@@ -21,7 +21,7 @@ use sha2::{Digest, Sha256};
 use super::{OutputError, safe_file};
 
 /// Layout of the file; a change of what any state holds counts it up.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 const MAGIC: [u8; 8] = *b"cav\0ckpt";
 const CHECKSUM: usize = 32;

@@ -10,7 +10,7 @@ mod side;
 use std::time::{Duration, Instant};
 
 use coupler::{
-    CommonRefinement, FrameHeader, FrameKind, Link, Meeting, RegisterRow, StarSolver, TraceRow, WallRegister,
+    CommonRefinement, FrameHeader, FrameKind, Link, Meeting, RegisterRow, StarSolver, StepLength, TraceRow,
 };
 use fluid::FluidSolver;
 use mesh::{BLOCK, GroupStep, Misfit};
@@ -50,8 +50,8 @@ enum Pending {
     Late(Plan),
     /// It is tried, until both sides agree on the interface.
     Trial(Plan, GroupStep),
-    /// They do, and the solid makes its step.
-    Settled,
+    /// It is made here; the solid makes its own.
+    Made,
 }
 
 /// The fluid with its place in a run.
@@ -69,6 +69,8 @@ pub struct FluidSide {
     pending: Option<Pending>,
     /// The solid's last word: how long a step it allows, how many cells it has, what it was asked to do.
     answer: FrameHeader,
+    /// The last word to the solid: what it answers has to be about that step.
+    sent: FrameHeader,
     limited_by: &'static str,
     smallest_step: f64,
     last_dt: f64,
@@ -109,6 +111,7 @@ impl FluidSide {
             star: case.coupling.star,
             pending: None,
             answer: FrameHeader::new(FrameKind::Register),
+            sent: FrameHeader::new(FrameKind::Trace),
             limited_by: "fluid",
             smallest_step: SMALLEST_SHARE * case.time.end,
             last_dt: 0.0,
@@ -159,8 +162,8 @@ impl FluidSide {
             self.step_shortly(link, plan)?;
             return Ok(true);
         }
-        if self.is_resumed {
-            return self.hear_of_going_on(link).map(|()| true);
+        if pending.is_none() {
+            return self.hear_first_word(link).map(|()| true);
         }
         self.answer = self.take_answer(link)?;
         match pending {
@@ -174,20 +177,33 @@ impl FluidSide {
                 self.judge(link, plan, step)?;
                 return Ok(false);
             }
-            Some(Pending::Short(_) | Pending::Settled) | None => {}
+            Some(Pending::Short(_) | Pending::Made) | None => {}
         }
         Ok(true)
     }
 
-    /// Takes the solid's first word after a run was taken up again: where it is. Its last answer is known.
-    fn hear_of_going_on(&mut self, link: &mut impl Link) -> Result<(), RunError> {
-        let word = self.take_answer(link)?;
-        self.is_resumed = false;
-        self.past.leave_out(link.counters());
-        let time = self.solver.time();
-        if (word.time - time).abs() > 1e-9 * time {
-            let what = format!("the fluid is at t = {time:e} s, the solid at {:e} s", word.time);
-            return Err(Misfit(what).into());
+    /// Takes the solid's first word, which it says before it knows of any faces: how long a step it allows. If a run was taken
+    /// up again, only where it is: its last answer is known.
+    fn hear_first_word(&mut self, link: &mut impl Link) -> Result<(), RunError> {
+        let (time, is_resumed) = (self.solver.time(), std::mem::take(&mut self.is_resumed));
+        let word = link.receive(|frame| {
+            frame.require(FrameKind::Register)?;
+            frame.require_empty()?;
+            frame.require_limit()?;
+            match frame.require_time(time) {
+                Err(_) if is_resumed => {
+                    let word = frame.header.time;
+                    let what = format!("the fluid is at t = {time:e} s, the solid at {word:e} s");
+                    return Err(Misfit(what).into());
+                }
+                other => other?,
+            }
+            Ok::<_, RunError>(*frame.header)
+        })??;
+        if is_resumed {
+            self.past.leave_out(link.counters());
+        } else {
+            self.answer = word;
         }
         Ok(())
     }
@@ -269,12 +285,13 @@ impl FluidSide {
 
     /// Makes short steps within the solid's, once its trace is there.
     fn step_shortly(&mut self, link: &mut impl Link, asked: Plan) -> Result<(), RunError> {
-        let (solver, meeting) = (&self.solver, &mut self.meeting);
+        let (solver, meeting, begin) = (&self.solver, &mut self.meeting, self.sent.time);
         let answer = link.receive(|frame| {
             frame.require(FrameKind::Trace)?;
-            let faces = frame.header.count as usize;
-            frame.require_shape(TraceRow::COUNT, faces)?;
-            medium::begin_meeting(solver, meeting, (frame.payload, faces));
+            frame.require_step(begin, StepLength::AtMost(asked.dt))?;
+            frame.require_limit()?;
+            let trace = frame.trace(solver.mesh().domain().r)?;
+            medium::begin_meeting(solver, meeting, trace);
             Ok::<_, coupler::CouplerError>(*frame.header)
         })??;
         self.answer = answer;
@@ -301,19 +318,17 @@ impl FluidSide {
     /// Reads the solid's register frame in place.
     fn take_answer(&mut self, link: &mut impl Link) -> Result<FrameHeader, RunError> {
         let faces = self.solver.wall_faces();
-        let is_first_word = self.solver.steps() == 0 || self.is_resumed;
+        let FrameHeader { time, dt, .. } = self.sent;
         let (solver, cells) = (&mut self.solver, &mut self.cells);
         let header = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
-            if frame.header.count == 0 && is_first_word {
-                // The first word, before the solid knows of any faces: it is at rest, or where it was.
-                return Ok(*frame.header);
-            }
-            frame.require_shape(RegisterRow::COUNT, faces)?;
+            frame.require_step(time, StepLength::Is(dt))?;
+            frame.require_limit()?;
+            let register = frame.register(faces)?;
             if let Some(cells) = cells {
-                cells.received.copy_from_slice(RegisterRow::NormalVelocity.of(frame.payload, faces));
+                cells.received.copy_from_slice(register.velocity);
             } else {
-                solver.set_wall(&WallRegister::of(frame.payload, faces));
+                solver.set_wall(&register);
             }
             Ok::<_, coupler::CouplerError>(*frame.header)
         })??;
@@ -358,15 +373,17 @@ impl FluidSide {
         Ok(plan)
     }
 
-    fn header(&self, kind: FrameKind, count: usize, dt: f64) -> FrameHeader {
-        FrameHeader {
+    /// What a frame about the step of length `dt` that begins now says besides its payload.
+    fn header(&mut self, kind: FrameKind, count: usize, dt: f64) -> FrameHeader {
+        self.sent = FrameHeader {
             step: self.solver.steps(),
             time: self.solver.time(),
             dt,
             count: count as u64,
             flags: if self.tells_of_checkpoint { FrameHeader::CHECKPOINT } else { 0 },
             ..FrameHeader::new(kind)
-        }
+        };
+        self.sent
     }
 
     fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {

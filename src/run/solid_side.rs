@@ -1,12 +1,13 @@
 //! The solid's part of the step loop: it answers the fluid's trace with what the wall did, or shows its own.
 
+mod agreed;
 mod cells;
 
 use std::time::{Duration, Instant};
 
 use coupler::{
-    Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, LinkCounters, Meeting, RegisterRow, Scheme,
-    StarSolver, TraceRow, WallRegister,
+    CouplerError, Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, LinkCounters, Meeting,
+    RegisterRow, Scheme, StarSolver, StepLength, TraceRow,
 };
 use mesh::{BLOCK, GroupStep};
 use serde_json::{Map, Value, json};
@@ -53,6 +54,8 @@ pub struct SolidSide {
     trial: Option<GroupStep>,
     /// The fluid's steps within the last long one; infinite after short ones.
     fluids_step: f64,
+    /// How long a step this side has said last that it can follow, s.
+    promised: f64,
     /// When the run ends: nothing adapts for what does not come.
     end: f64,
     last_dt: f64,
@@ -91,6 +94,7 @@ impl SolidSide {
             pending: None,
             trial: None,
             fluids_step: f64::INFINITY,
+            promised: 0.0,
             end: case.time.end * (1.0 - 1e-12),
             last_dt: 0.0,
             clock: Clock::default(),
@@ -131,16 +135,19 @@ impl SolidSide {
 
     /// The first word: how long a step the solid allows. It is at rest; or it says at what time it goes on.
     pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
+        let promised = self.promised;
         link.send(self.header(FrameKind::Register, 0, stop), |_| {})?;
         if self.solver.steps() > 0 {
+            // The fluid goes on from what it was told before.
+            self.promised = promised;
             self.past.leave_out(link.counters());
         }
         Ok(())
     }
 
     /// What a frame says besides its payload: the admissible step, and what this side was asked to do.
-    fn header(&self, kind: FrameKind, fields: usize, stop: &Stop) -> FrameHeader {
-        FrameHeader {
+    fn header(&mut self, kind: FrameKind, fields: usize, stop: &Stop) -> FrameHeader {
+        let header = FrameHeader {
             step: self.solver.steps(),
             time: self.solver.time(),
             dt: self.last_dt,
@@ -149,7 +156,9 @@ impl SolidSide {
             cells: self.solver.mesh().cells() as u64,
             flags: stop.flags(),
             ..FrameHeader::new(kind)
-        }
+        };
+        self.promised = header.dt_max;
+        header
     }
 
     /// Ends the long step under way with what the fluid made of it; does nothing if there is none.
@@ -158,10 +167,10 @@ impl SolidSide {
         let solver = &mut self.solver;
         link.receive(|frame| {
             frame.require(FrameKind::Register)?;
-            let faces = solver.surface_faces();
-            frame.require_shape(RegisterRow::COUNT, faces)?;
-            solver.set_register(&WallRegister::of(frame.payload, faces));
-            Ok::<_, coupler::CouplerError>(())
+            frame.require_step(solver.time(), StepLength::Is(plan.dt))?;
+            let register = frame.register(solver.surface_faces())?;
+            solver.set_register(&register);
+            Ok::<_, CouplerError>(())
         })??;
         let adapts = self.adapts(plan.dt);
         let timed = Timed::new(&mut self.clock);
@@ -221,6 +230,7 @@ impl SolidSide {
         self.adapt_if(adapts, plan.dt);
         if !early {
             let dt_max = self.rule.counted(&self.solver);
+            self.promised = dt_max;
             let cells = self.solver.mesh().cells() as u64;
             send(&self.meeting, FrameHeader { dt_max, cells, ..header })?;
         }
@@ -228,12 +238,11 @@ impl SolidSide {
     }
 
     /// Takes over what a trace frame says.
-    fn read_trace(&mut self, frame: &Frame<'_>) -> Result<(), coupler::CouplerError> {
-        let faces = frame.header.count as usize;
-        frame.require_shape(TraceRow::COUNT, faces)?;
+    fn read_trace(&mut self, frame: &Frame<'_>) -> Result<(), CouplerError> {
         let start = Instant::now();
-        if self.fluid_edges.as_slice() != TraceRow::Edge.of(frame.payload, faces) {
-            self.fluid_edges = TraceRow::Edge.of(frame.payload, faces).to_vec();
+        let (rows, faces) = frame.trace(self.solver.mesh().domain().r)?;
+        if self.fluid_edges.as_slice() != TraceRow::Edge.of(rows, faces) {
+            self.fluid_edges = TraceRow::Edge.of(rows, faces).to_vec();
         }
         if self.scheme.exchanges_cells() {
             let (kappa, dt) = (self.kappa, frame.header.dt);
@@ -244,9 +253,9 @@ impl SolidSide {
                 Kappa::Printed => factor * received,
                 Kappa::Jump => own + factor * (received - own),
             };
-            self.solver.load_weakly(&mut self.interface, frame.payload, faces, dt, pressure_of);
+            self.solver.load_weakly(&mut self.interface, rows, faces, dt, pressure_of);
         } else {
-            medium::begin_meeting(&self.solver, &mut self.meeting, (frame.payload, faces));
+            medium::begin_meeting(&self.solver, &mut self.meeting, (rows, faces));
         }
         self.clock.computing += start.elapsed();
         Ok(())
@@ -314,14 +323,14 @@ impl Side for SolidSide {
         self.settle(link)?;
         let counters = link.counters();
         let header = link.receive(|frame| {
+            self.require_turn(frame)?;
             if frame.header.has(FrameHeader::CHECKPOINT) {
                 self.keep(frame.header.step, counters)?;
             }
-            if frame.require(FrameKind::Yours).is_err() {
-                frame.require(FrameKind::Trace)?;
-                if !frame.header.has(FrameHeader::LAST | FrameHeader::SETTLED) {
-                    self.read_trace(frame)?;
-                }
+            let has_rows = frame.require(FrameKind::Trace).is_ok()
+                && !frame.header.has(FrameHeader::LAST | FrameHeader::SETTLED);
+            if has_rows {
+                self.read_trace(frame)?;
             }
             Ok::<_, RunError>(*frame.header)
         })??;

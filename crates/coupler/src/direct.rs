@@ -70,7 +70,7 @@ impl Link for DirectLink {
             return Ok(None);
         }
         inbox.full = false;
-        let frame = Frame { header: &inbox.header, payload: &inbox.payload };
+        let frame = Frame { header: &inbox.header, payload: &inbox.payload, sender: self.talk.peer };
         self.talk.accept(&frame)?;
         Ok(Some(read(&frame)))
     }

@@ -47,6 +47,26 @@ impl TraceRow {
     /// How many rows a trace frame has.
     pub const COUNT: usize = 16;
 
+    /// What they are, as people say it.
+    pub const NAMES: [&'static str; Self::COUNT] = [
+        "outer radius",
+        "pressure",
+        "normal velocity",
+        "tangential velocity",
+        "shear traction",
+        "density",
+        "rate of the pressure",
+        "rate of the normal velocity",
+        "rate of the tangential velocity",
+        "rate of the density",
+        "adiabatic exponent",
+        "stiffness",
+        "slope of the pressure",
+        "slope of the normal velocity",
+        "slope of the density",
+        "impedance",
+    ];
+
     /// This row's part of a payload of `count` faces.
     pub fn of(self, payload: &[f64], count: usize) -> &[f64] {
         &payload[self as usize * count..][..count]
@@ -71,6 +91,10 @@ pub enum RegisterRow {
 impl RegisterRow {
     /// How many rows a register frame has.
     pub const COUNT: usize = 5;
+
+    /// What they are, as people say it.
+    pub const NAMES: [&'static str; Self::COUNT] =
+        ["mean pressure", "mean velocity", "mean power", "mean tangential velocity", "mean shear traction"];
 
     /// This row's part of a payload of `count` faces.
     pub fn of(self, payload: &[f64], count: usize) -> &[f64] {

@@ -6,9 +6,10 @@ use iceoryx2::prelude::ZeroCopySend;
 use serde::{Deserialize, Serialize};
 
 use crate::error::CouplerError;
+use crate::link::Participant;
 
 /// Layout and meaning of [`FrameHeader`]; a change of either counts it up.
-pub const FRAME_VERSION: u32 = 4;
+pub const FRAME_VERSION: u32 = 5;
 
 /// What a frame is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,11 +113,11 @@ pub struct FrameHeader {
     pub sequence: u64,
     /// Number of the step the frame belongs to.
     pub step: u64,
-    /// Time at the start of that step, s.
+    /// Time at the start of that step, s; an answer repeats it.
     pub time: f64,
-    /// Length of that step, s.
+    /// Length of that step, s; an answer repeats it.
     pub dt: f64,
-    /// The sender's largest admissible next step, s.
+    /// The sender's largest admissible next step, s; infinite if it has no limit.
     pub dt_max: f64,
     /// Numbers per row: interface faces.
     pub count: u64,
@@ -196,10 +197,13 @@ pub struct Frame<'a> {
     pub header: &'a FrameHeader,
     /// `[fields][count]`.
     pub payload: &'a [f64],
+    /// Whose it is.
+    pub sender: Participant,
 }
 
 impl<'a> Frame<'a> {
-    /// Whether this is the frame that must come now, and in itself consistent. Values are not looked at.
+    /// Whether this is the frame that must come now, and in itself consistent. What it says is looked at by those who know
+    /// what was agreed, see [`Frame::require_step`], [`Frame::trace`] and [`Frame::register`].
     ///
     /// - returns: the frame's kind.
     /// - errors: the first of version, case, kind, sequence, sender, length that does not fit.
@@ -283,13 +287,15 @@ mod tests {
     fn refused(change: impl FnOnce(&mut FrameHeader)) -> CouplerError {
         let (mut header, payload, expected) = good();
         change(&mut header);
-        Frame { header: &header, payload: &payload }.check(&expected).expect_err("must be refused")
+        Frame { header: &header, payload: &payload, sender: Participant::Fluid }
+            .check(&expected)
+            .expect_err("must be refused")
     }
 
     #[test]
     fn the_right_frame_passes_whatever_its_values() {
         let (header, payload, expected) = good();
-        let frame = Frame { header: &header, payload: &payload };
+        let frame = Frame { header: &header, payload: &payload, sender: Participant::Fluid };
         assert_eq!(frame.check(&expected), Ok(FrameKind::Trace));
         assert_eq!(frame.row(0), [1.0, 2.0, 3.0]);
         assert_eq!(frame.row(1)[1..], [5.0, 6.0]);
@@ -320,7 +326,7 @@ mod tests {
     #[test]
     fn another_kind_than_the_required_is_refused() {
         let (header, payload, _) = good();
-        let frame = Frame { header: &header, payload: &payload };
+        let frame = Frame { header: &header, payload: &payload, sender: Participant::Fluid };
         assert_eq!(frame.require(FrameKind::Trace), Ok(()));
         assert_eq!(
             frame.require(FrameKind::Register),

@@ -13,6 +13,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod aitken;
+mod content;
 mod direct;
 mod domain;
 mod error;
@@ -34,6 +35,7 @@ mod watch;
 mod weak;
 
 pub use aitken::Aitken;
+pub use content::StepLength;
 pub use direct::{DirectLink, direct_pair};
 pub use domain::Domain;
 pub use error::CouplerError;

@@ -32,11 +32,13 @@ pub struct CommonRefinement {
 
 impl CommonRefinement {
     /// Edges closer than this share of the whole interface are one.
-    const SAME_EDGE: f64 = 1e-12;
+    pub(crate) const SAME_EDGE: f64 = 1e-12;
 
-    /// Brings the refinement up to date with the outer edges of both sides' faces (ascending, the last one
-    /// common). Does nothing, and allocates nothing, if they are what they were.
+    /// Brings the refinement up to date with the outer edges of both sides' faces. Does nothing, and allocates nothing, if
+    /// they are what they were.
     ///
+    /// - `first`, `second`: ascending; the last ones are taken as one, whatever round-off says. Of anything else come
+    ///   sub-faces that mean nothing, but no more of them than edges.
     /// - `axisymmetric`: whether areas carry the weight r.
     pub fn update(&mut self, begin: f64, first: &[f64], second: &[f64], axisymmetric: bool) {
         if self.first_edges == first && self.second_edges == second && self.axisymmetric == axisymmetric {
@@ -63,7 +65,15 @@ impl CommonRefinement {
         let (mut low_a, mut low_b) = (begin, begin);
         while a < first.len() && b < second.len() {
             let (high_a, high_b) = (first[a], second[b]);
-            let (ends_a, ends_b) = (high_a <= high_b + same, high_b <= high_a + same);
+            // One of both always ends, so this comes to an end.
+            let (ends_a, ends_b) = match (a + 1 == first.len(), b + 1 == second.len()) {
+                (false, false) => {
+                    let ends_a = high_a <= high_b + same;
+                    (ends_a, !ends_a || high_b <= high_a + same)
+                }
+                // The last face of one side goes on for as long as the other one has faces.
+                (last_a, last_b) => (!last_a || last_b, !last_b || last_a),
+            };
             let high = if ends_a { high_a } else { high_b };
             // A sub-face that is the whole face has a share of exactly one.
             let share = |whole_low: f64, whole_high: f64, ends: bool| {
@@ -193,6 +203,37 @@ mod tests {
         let map = refinement(&edges(7, 0.05), &edges(48, 0.05), true);
         for second in [false, true] {
             map.means(second, |_| 5e7, |_, mean| assert_eq!(mean, 5e7));
+        }
+    }
+
+    /// Edges that nobody should send, and that no receiver lets in: still as many sub-faces as edges at most.
+    #[test]
+    fn any_edges_come_to_an_end() {
+        let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, 0.01, 0.05, 1e300];
+        for first in bad {
+            for second in bad {
+                for third in bad {
+                    let hostile = [first, second, third];
+                    for map in [
+                        refinement(&hostile, &edges(4, 0.05), true),
+                        refinement(&edges(4, 0.05), &hostile, false),
+                        refinement(&hostile, &hostile[..2], true),
+                    ] {
+                        assert!(map.sub_faces().len() <= 7, "{hostile:?}");
+                    }
+                }
+            }
+        }
+        assert!(refinement(&[], &edges(4, 0.05), true).sub_faces().is_empty());
+    }
+
+    #[test]
+    fn last_edges_that_differ_by_round_off_are_one() {
+        for end in [0.05 * (1.0 - 1e-10), 0.05 * (1.0 + 1e-10)] {
+            let map = refinement(&edges(4, end), &edges(8, 0.05), true);
+            let mut shares = [0.0; 8];
+            map.sub_faces().iter().for_each(|s| shares[s.second] += s.share_of_second);
+            assert!(shares.iter().all(|share| (share - 1.0_f64).abs() < 1e-9), "{shares:?}");
         }
     }
 }

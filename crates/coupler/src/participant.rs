@@ -7,10 +7,11 @@
 //! [`ProcessLink`]: crate::ProcessLink
 //! [`direct_pair`]: crate::direct_pair
 
+use crate::content::StepLength;
 use crate::error::CouplerError;
 use crate::exchange::{RegisterRow, TraceRow, WallRegister};
 use crate::frame::{FrameHeader, FrameKind};
-use crate::link::Link;
+use crate::link::{Link, Participant};
 use crate::star::{FluidTrace, InterfaceStar};
 
 /// A step that the fluid is about to make, and its traces on the interface.
@@ -37,7 +38,22 @@ impl<'a> FluidStep<'a> {
         row.of(self.payload, self.faces)
     }
 
-    /// The fluid's own state on a face at a time within the step, linear in time.
+    /// Whether there is a state on every face throughout the step: linear in time, it is one if it is at both ends.
+    fn require_states(&self) -> Result<(), CouplerError> {
+        for time in [self.begin, self.begin + self.dt] {
+            for (face, edge) in self.edges().iter().enumerate() {
+                let state = self.trace_at(face, time);
+                if !state.is_state() {
+                    let (side, values) = (Participant::Fluid, format!("{state:?}"));
+                    return Err(CouplerError::NoState { side, radius: *edge, time, values });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The fluid's own state on a face at a time within the step, linear in time; on all of it density and p + π are
+    /// above zero.
     ///
     /// # Panics
     /// If there is no such face.
@@ -85,13 +101,15 @@ pub struct WallParticipant {
     /// The fluid's steps are at most `coupling.step_ratio` times as long, s; infinite: as long as the fluid likes.
     pub max_step: f64,
     step: u64,
+    begin: f64,
+    dt: f64,
     payload: Vec<f64>,
     shape: usize,
 }
 
 impl Default for WallParticipant {
     fn default() -> Self {
-        Self { max_step: f64::INFINITY, step: 0, payload: Vec::new(), shape: 0 }
+        Self { max_step: f64::INFINITY, step: 0, begin: 0.0, dt: 0.0, payload: Vec::new(), shape: 0 }
     }
 }
 
@@ -107,25 +125,29 @@ impl WallParticipant {
     ///
     /// - `respond`: gets the traces and the means, all zero.
     /// - returns: `false` when the run is over.
-    /// - errors: the peer is gone or sends what it must not.
+    /// - errors: the peer is gone or sends what it must not: a step that does not begin where the last one has ended,
+    ///   numbers that are none, faces that do not ascend, traces that are no state.
     pub fn turn(
         &mut self,
         link: &mut impl Link,
         respond: impl FnOnce(&FluidStep<'_>, &mut WallMeans<'_>),
     ) -> Result<bool, CouplerError> {
-        let (payload, shape, step) = (&mut self.payload, &mut self.shape, &mut self.step);
+        let due = self.begin + self.dt;
+        let Self { payload, shape, step, begin, dt, .. } = self;
         let goes_on = link.receive(|frame| {
             frame.require(FrameKind::Trace)?;
+            frame.require_time(due)?;
             if frame.header.has(FrameHeader::LAST) {
                 return Ok(false);
             }
-            let faces = frame.header.count as usize;
-            frame.require_shape(TraceRow::COUNT, faces)?;
+            frame.require_step(due, StepLength::AtMost(f64::MAX))?;
+            let (rows, faces) = frame.trace_on(None)?;
             payload.clear();
             payload.resize(RegisterRow::COUNT * faces, 0.0);
-            let FrameHeader { step: number, time: begin, dt, .. } = *frame.header;
-            (*shape, *step) = (faces, number);
-            let seen = FluidStep { number, begin, dt, faces, payload: frame.payload };
+            (*shape, *step) = (faces, frame.header.step);
+            (*begin, *dt) = (frame.header.time, frame.header.dt);
+            let seen = FluidStep { number: *step, begin: *begin, dt: *dt, faces, payload: rows };
+            seen.require_states()?;
             respond(&seen, &mut WallMeans { faces, payload });
             Ok::<_, CouplerError>(true)
         })??;
@@ -139,6 +161,8 @@ impl WallParticipant {
     fn header(&self, faces: usize) -> FrameHeader {
         FrameHeader {
             step: self.step,
+            time: self.begin,
+            dt: self.dt,
             dt_max: self.max_step,
             fields: RegisterRow::COUNT as u64,
             count: faces as u64,
@@ -161,17 +185,13 @@ pub struct FlowTrace {
 
 impl FlowTrace {
     /// A pressure (Pa) that stays as it is whatever the wall does, and its rate of change (Pa/s): the trace of a medium
-    /// without inertia.
+    /// without inertia. For steps of less than a second.
     #[must_use]
     pub fn load(pressure: f64, pressure_rate: f64) -> Self {
-        // So light that p* is the pressure to round-off; γ and π such that its waves are linear about any pressure.
-        let state = FluidTrace {
-            pressure,
-            velocity: 0.0,
-            density: 1e-40,
-            gamma: 2.0,
-            pi: 1.0 + 1e3 * pressure.abs(),
-        };
+        // γ and π such that its waves are linear about any pressure that it comes to; and so light, in proportion, that p* is
+        // the pressure to round-off: the impedance √(ργ(p + π)) is about 1e-20.
+        let pi = 1.0 + 1e3 * pressure.abs() + pressure_rate.abs();
+        let state = FluidTrace { pressure, velocity: 0.0, density: 1e-40 / pi, gamma: 2.0, pi };
         Self { state, pressure_rate, velocity_rate: 0.0 }
     }
 }
@@ -198,7 +218,9 @@ impl FlowParticipant {
             Self { edges, time: 0.0, step: 0, dt: 0.0, max_step: f64::INFINITY, payload: Vec::new() };
         own.max_step = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
-            Ok::<_, CouplerError>(frame.header.dt_max)
+            frame.require_empty()?;
+            frame.require_time(0.0)?;
+            frame.require_limit()
         })??;
         Ok(own)
     }
@@ -214,6 +236,8 @@ impl FlowParticipant {
     }
 
     /// Begins a step of length `dt` (s): shows the traces, face by face. The solid makes its steps meanwhile.
+    ///
+    /// The solid refuses a step that does not move time on or goes beyond the end of its case.
     ///
     /// - errors: the peer is gone.
     pub fn begin(
@@ -254,13 +278,15 @@ impl FlowParticipant {
     ///
     /// - errors: the peer is gone or sends what it must not.
     pub fn complete(&mut self, link: &mut impl Link) -> Result<WallRegister<'_>, CouplerError> {
-        let (faces, payload) = (self.edges.len(), &mut self.payload);
+        let (faces, begin, dt) = (self.edges.len(), self.time, self.dt);
+        let payload = &mut self.payload;
         self.max_step = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
-            frame.require_shape(RegisterRow::COUNT, faces)?;
+            frame.require_step(begin, StepLength::Is(dt))?;
+            frame.register(faces)?;
             payload.clear();
             payload.extend_from_slice(frame.payload);
-            Ok::<_, CouplerError>(frame.header.dt_max)
+            frame.require_limit()
         })??;
         self.step += 1;
         self.time += self.dt;
@@ -321,6 +347,99 @@ mod tests {
         assert_eq!(flow.time(), 3.0);
         flow.close(&mut to_wall).unwrap();
         assert!(!wall.turn(&mut to_flow, |_, _| unreachable!("the run is over")).unwrap());
+    }
+
+    /// What a participant makes of a frame, in its first step.
+    fn wall_sees(header: FrameHeader, payload: &[f64]) -> Result<bool, CouplerError> {
+        let (mut to_wall, mut to_flow) = direct_pair([3; 32]);
+        to_wall.send(header, |place| place.copy_from_slice(payload)).unwrap();
+        WallParticipant::default().turn(&mut to_flow, |_, _| ())
+    }
+
+    fn trace(dt: f64, edges: [f64; 2]) -> (FrameHeader, Vec<f64>) {
+        let header = FrameHeader {
+            dt,
+            fields: TraceRow::COUNT as u64,
+            count: 2,
+            ..FrameHeader::new(FrameKind::Trace)
+        };
+        (header, [edges.to_vec(), vec![2.0; 30]].concat())
+    }
+
+    #[test]
+    fn a_wall_refuses_traces_that_make_no_sense() {
+        let (header, payload) = trace(1.0, [1.0, 2.0]);
+        assert_eq!(wall_sees(header, &payload), Ok(true));
+        for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let error = wall_sees(FrameHeader { dt, ..header }, &payload).expect_err("no step");
+            assert!(matches!(error, CouplerError::BadStep { .. }), "{error}");
+        }
+        for time in [1.0, -1.0, f64::NAN] {
+            for flags in [0, FrameHeader::LAST] {
+                let error = wall_sees(FrameHeader { time, flags, ..header }, &payload).expect_err("no time");
+                assert!(matches!(error, CouplerError::BadStep { .. }), "{error}");
+            }
+        }
+        for edges in [[2.0, 1.0], [1.0, 1.0], [f64::NAN, 1.0], [1.0, f64::INFINITY]] {
+            let (header, payload) = trace(1.0, edges);
+            assert!(wall_sees(header, &payload).expect_err("no faces").is_refusal());
+        }
+        for (row, value) in [(TraceRow::Density, -1.0), (TraceRow::DensityRate, -3.0), (TraceRow::Gamma, 1.0)]
+        {
+            let mut payload = payload.clone();
+            payload[2 * row as usize + 1] = value;
+            let error = wall_sees(header, &payload).expect_err("no state");
+            assert!(matches!(error, CouplerError::NoState { .. }), "{error}");
+        }
+        let nothing = FrameHeader { count: 0, ..header };
+        assert!(matches!(wall_sees(nothing, &[]), Err(CouplerError::BadFaces { .. })));
+    }
+
+    #[test]
+    fn a_flow_refuses_answers_to_other_steps_and_numbers_that_are_none() {
+        let answered = |change: fn(&mut FrameHeader, &mut [f64])| {
+            let (mut to_wall, mut to_flow) = direct_pair([3; 32]);
+            WallParticipant::default().open(&mut to_flow).unwrap();
+            let mut flow = FlowParticipant::open(&mut to_wall, vec![1.0]).unwrap();
+            flow.begin(&mut to_wall, 0.5, |_| FlowTrace::load(1.0, 0.0)).unwrap();
+            to_flow.receive(|_| ()).unwrap();
+            let mut header = FrameHeader {
+                dt: 0.5,
+                dt_max: 1.0,
+                fields: RegisterRow::COUNT as u64,
+                count: 1,
+                ..FrameHeader::new(FrameKind::Register)
+            };
+            let mut payload = [0.0; RegisterRow::COUNT];
+            change(&mut header, &mut payload);
+            to_flow.send(header, |place| place.copy_from_slice(&payload)).unwrap();
+            flow.complete(&mut to_wall).map(|_| ())
+        };
+        assert_eq!(answered(|_, _| ()), Ok(()));
+        let bad: [fn(&mut FrameHeader, &mut [f64]); 6] = [
+            |header, _| header.time = 0.5,
+            |header, _| header.dt = 0.25,
+            |header, _| header.dt = f64::NAN,
+            |header, _| header.dt_max = f64::NAN,
+            |header, _| header.dt_max = -1.0,
+            |_, payload| payload[1] = f64::INFINITY,
+        ];
+        for change in bad {
+            assert!(answered(change).expect_err("must be refused").is_refusal());
+        }
+    }
+
+    /// A load that falls through zero within a step is a state all the time.
+    #[test]
+    fn a_load_may_change_its_sign_within_a_step() {
+        let FlowTrace { state, pressure_rate, .. } = FlowTrace::load(1e3, -1e14);
+        let pressure = state.pressure + 1e-6 * pressure_rate;
+        assert_eq!(pressure, 1e3 - 1e8);
+        let fluid = FluidTrace { pressure, ..state };
+        let solid = SolidTrace { pressure: 3e5, velocity: 2.0, impedance: 4e7 };
+        for star in [exact_star(&fluid, &solid), acoustic_star(&fluid, &solid)] {
+            assert!((star.pressure - pressure).abs() <= 1e-12 * pressure.abs(), "{star:?}");
+        }
     }
 
     #[test]

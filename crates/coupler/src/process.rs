@@ -181,7 +181,8 @@ impl ProcessLink {
     fn lost(&mut self) -> CouplerError {
         self.parted = true;
         while let Ok(Some(sample)) = self.ports.subscriber.receive() {
-            let frame = Frame { header: sample.user_header(), payload: sample.payload() };
+            let frame =
+                Frame { header: sample.user_header(), payload: sample.payload(), sender: self.talk.peer };
             if let Err(word @ (CouplerError::PeerClosed { .. } | CouplerError::PeerFailed { .. })) =
                 self.talk.accept(&frame)
             {
@@ -301,7 +302,7 @@ impl Link for ProcessLink {
             self.talk.asked_in_vain();
             return Ok(None);
         };
-        let frame = Frame { header: sample.user_header(), payload: sample.payload() };
+        let frame = Frame { header: sample.user_header(), payload: sample.payload(), sender: self.talk.peer };
         let result = self.talk.accept(&frame).map(|()| Some(read(&frame)));
         if frame.header.has(FrameHeader::GROWN) {
             self.ports.confirm_read();

@@ -32,6 +32,7 @@ impl FluidSide {
                 let header = self.header(FrameKind::Trace, self.edges.len(), plan.dt);
                 self.step_beside(plan)?;
                 self.send_cells(link, header, plan)?;
+                self.pending = Some(Pending::Made);
             }
             (Scheme::Weak, Participant::Solid) => {
                 let header = self.header(FrameKind::Trace, self.edges.len(), plan.dt);
@@ -42,6 +43,7 @@ impl FluidSide {
                 let header = self.header(FrameKind::Trace, self.edges.len(), plan.dt);
                 self.send_cells(link, header, plan)?;
                 self.step_beside(plan)?;
+                self.pending = Some(Pending::Made);
             }
         }
         Ok(())
@@ -115,7 +117,7 @@ impl FluidSide {
         let mut header = self.header(FrameKind::Trace, 0, plan.dt);
         header.flags |= FrameHeader::SETTLED | if plan.snapshot { FrameHeader::SNAPSHOT } else { 0 };
         link.send(header, |_| {})?;
-        self.pending = Some(Pending::Settled);
+        self.pending = Some(Pending::Made);
         let start = Instant::now();
         self.solver.finish()?;
         self.clock.computing += start.elapsed();

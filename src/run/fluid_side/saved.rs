@@ -51,6 +51,8 @@ impl FluidSide {
             edges: _,
             pending: _,
             answer,
+            // Made with each step.
+            sent: _,
             limited_by: _,
             smallest_step: _,
             last_dt,

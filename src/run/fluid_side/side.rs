@@ -73,7 +73,7 @@ impl Side for FluidSide {
             step: self.solver.steps(),
             dt: self.last_dt,
             limited_by: self.limited_by.to_owned(),
-            cells: self.solver.mesh().cells() as u64 + self.answer.cells,
+            cells: (self.solver.mesh().cells() as u64).saturating_add(self.answer.cells),
             wall: 0.0,
         }
     }

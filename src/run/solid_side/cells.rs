@@ -20,6 +20,7 @@ impl SolidSide {
         plan: Plan,
         stop: &Stop,
     ) -> Result<(), RunError> {
+        let (step, time) = (self.solver.steps(), self.solver.time());
         let adapts = self.adapts(plan.dt);
         let start = Instant::now();
         match self.trial.take() {
@@ -29,7 +30,7 @@ impl SolidSide {
         self.clock.computing += start.elapsed();
         self.recorded(plan)?;
         self.adapt_if(adapts, plan.dt);
-        self.answer_with_cells(link, stop)
+        self.answer_with_cells(link, (step, time), stop)
     }
 
     /// Tries a step under the pressures that have been read, paper eq. (35), and answers with the velocities of its end.
@@ -42,14 +43,25 @@ impl SolidSide {
         self.trial = Some(step);
         Medium::run(&mut self.solver, step, Part::AtInterface)?;
         self.clock.computing += start.elapsed();
-        self.answer_with_cells(link, stop)
+        self.answer_with_cells(link, (self.solver.steps(), self.solver.time()), stop)
     }
 
     /// Sends the velocities of the cells under the surface: of the new state that is tried, or of the state.
-    fn answer_with_cells(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
+    ///
+    /// - `step`, `time`: number and beginning of the step that this answers.
+    fn answer_with_cells(
+        &mut self,
+        link: &mut impl Link,
+        (step, time): (u64, f64),
+        stop: &Stop,
+    ) -> Result<(), RunError> {
         let faces = self.fluid_edges.len();
-        let header =
-            FrameHeader { count: faces as u64, ..self.header(FrameKind::Register, RegisterRow::COUNT, stop) };
+        let header = FrameHeader {
+            count: faces as u64,
+            step,
+            time,
+            ..self.header(FrameKind::Register, RegisterRow::COUNT, stop)
+        };
         let is_trial = self.trial.is_some();
         let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
         link.send(header, |payload| {

@@ -25,6 +25,7 @@ pub struct SolidSideState<'a> {
     floored: u64,
     factor: KappaFactor,
     fluids_step: f64,
+    promised: f64,
     last_dt: f64,
     clock: Clock,
     done: Done,
@@ -55,6 +56,7 @@ impl SolidSide {
             pending: _,
             trial: _,
             fluids_step,
+            promised,
             end: _,
             last_dt,
             clock,
@@ -68,6 +70,7 @@ impl SolidSide {
             floored: meeting.saved(),
             factor: *factor,
             fluids_step: *fluids_step,
+            promised: *promised,
             last_dt: *last_dt,
             clock: *clock,
             done: past.saved(counters),
@@ -88,6 +91,7 @@ impl SolidSide {
             floored,
             factor,
             fluids_step,
+            promised,
             last_dt,
             clock,
             done,
@@ -101,6 +105,7 @@ impl SolidSide {
         side.meeting = Meeting::restored(floored);
         side.factor = factor;
         side.fluids_step = fluids_step;
+        side.promised = promised;
         side.last_dt = last_dt;
         side.clock = clock;
         side.past = Past::after(done);
