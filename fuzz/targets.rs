@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::fs;
 
 use cav::case::Case;
-use cav::output::checkpoint::{self, Head, VERSION};
+use cav::output::checkpoint::{self, Head, VERSION, layout_of};
 use cav::output::{RunDirectory, summary};
 use cav::run::checkpoints::Checkpoints;
 use cav::run::fluid_side::saved::FluidSideState;
@@ -56,12 +56,18 @@ thread_local! {
 pub fn checkpoint(bytes: &[u8]) {
     let _ = checkpoint::decode::<FluidSideState<'static>>(bytes);
     let head = Head { program: String::new(), case: [0; 32], side: "fluid".to_owned(), step: 1 };
-    let mut file =
-        [&b"cav\0ckpt"[..], &VERSION.to_le_bytes(), &postcard::to_stdvec(&head).unwrap(), bytes].concat();
-    let sum = Sha256::digest(&file);
-    file.extend(sum);
-    let _ = checkpoint::decode::<FluidSideState<'static>>(&file);
-    let _ = checkpoint::decode::<SolidSideState<'static>>(&file);
+    let file = |layout: [u8; 32]| {
+        let head = postcard::to_stdvec(&head).unwrap();
+        let mut file = [&b"cav\0ckpt"[..], &VERSION.to_le_bytes(), &layout, &head, bytes].concat();
+        let sum = Sha256::digest(&file);
+        file.extend(sum);
+        file
+    };
+    let (fluids, solids) =
+        (file(layout_of::<FluidSideState<'static>>()), file(layout_of::<SolidSideState<'static>>()));
+    let _ = checkpoint::decode::<FluidSideState<'static>>(&fluids);
+    let _ = checkpoint::decode::<SolidSideState<'static>>(&solids);
+    assert!(checkpoint::decode::<FluidSideState<'static>>(&solids).is_err(), "of another layout");
     SOLVERS.with_borrow_mut(|(fluid, solid)| {
         // Bytes after the state do not matter here: prefixes of whole checkpoints are states.
         if let Ok((state, _)) = postcard::take_from_bytes::<FluidState<'_, BLOCK>>(bytes) {

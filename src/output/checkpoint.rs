@@ -4,6 +4,7 @@
 //! |---|---|
 //! | 8 | `cav\0ckpt` |
 //! | 4 | [`VERSION`], little-endian |
+//! | 32 | [`layout`](super::layout) of what follows |
 //! | … | [`Head`], then the state, as [`postcard`] writes them |
 //! | 32 | SHA-256 of all before |
 //!
@@ -18,14 +19,17 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use super::layout::layout;
 use super::{OutputError, safe_file};
 
-/// Layout of the file; a change of what any state holds counts it up.
+/// Format of the file and meaning of what states hold; a change of either counts it up. Names and types of what they hold need
+/// nobody's care, see [`layout_of`].
 pub const VERSION: u32 = 3;
 
 const MAGIC: [u8; 8] = *b"cav\0ckpt";
 const CHECKSUM: usize = 32;
-const SHORTEST: usize = MAGIC.len() + 4 + CHECKSUM;
+const LAYOUT: usize = 32;
+const SHORTEST: usize = MAGIC.len() + 4 + LAYOUT + CHECKSUM;
 
 /// What a checkpoint belongs to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,6 +59,11 @@ pub enum CheckpointFault {
         /// Its format.
         found: u32,
     },
+    /// It was written by a program in which the state has other fields.
+    #[error(
+        "what it holds has other names or types than in this program, so another version has written it: go on with that one"
+    )]
+    Layout,
     /// It is not what was written.
     #[error("it is damaged: its checksum does not fit")]
     Damaged,
@@ -63,8 +72,18 @@ pub enum CheckpointFault {
     Undecodable,
 }
 
+/// The layout of a checkpoint with a state of this type.
+#[must_use]
+pub fn layout_of<T: DeserializeOwned>() -> [u8; LAYOUT] {
+    layout::<(Head, T)>()
+}
+
 /// Writes a checkpoint.
-pub fn write(path: &Path, head: &Head, state: &impl Serialize) -> Result<(), OutputError> {
+pub fn write<T: Serialize + DeserializeOwned>(
+    path: &Path,
+    head: &Head,
+    state: &T,
+) -> Result<(), OutputError> {
     safe_file::replace(path, |temporary| {
         let file = File::create(temporary).map_err(OutputError::io(path, "make the checkpoint"))?;
         put(file, head, state).map_err(OutputError::io(path, "write the checkpoint"))
@@ -78,10 +97,11 @@ pub fn write(path: &Path, head: &Head, state: &impl Serialize) -> Result<(), Out
 const WAITING: usize = 1 << 15;
 
 /// Fills a file and waits until it is on the disk.
-fn put(file: File, head: &Head, state: &impl Serialize) -> io::Result<()> {
+fn put<T: Serialize + DeserializeOwned>(file: File, head: &Head, state: &T) -> io::Result<()> {
     let mut out = BufWriter::with_capacity(WAITING, Checked { file, sum: Sha256::new(), error: None });
     out.write_all(&MAGIC)?;
     out.write_all(&VERSION.to_le_bytes())?;
+    out.write_all(&layout_of::<T>())?;
     let encoded = postcard::to_io(head, &mut out).and_then(|out| postcard::to_io(state, out)).map(|_| ());
     if let Err(encoding) = encoded {
         return Err(out.get_mut().error.take().unwrap_or_else(|| io::Error::other(encoding)));
@@ -91,13 +111,14 @@ fn put(file: File, head: &Head, state: &impl Serialize) -> io::Result<()> {
     file.sync_all()
 }
 
-/// Whether a file is a whole checkpoint, and what it belongs to.
+/// Whether a file is a whole checkpoint with a state of this type, and what it belongs to.
 ///
 /// # Errors
 /// It is none.
-pub fn verify(path: &Path) -> Result<Head, CheckpointFault> {
+pub fn verify<T: DeserializeOwned>(path: &Path) -> Result<Head, CheckpointFault> {
     let bytes = read_whole(path)?;
-    let (head, _) = postcard::take_from_bytes(body(&bytes)?).map_err(|_| CheckpointFault::Undecodable)?;
+    let body = body(&bytes, &layout_of::<T>())?;
+    let (head, _) = postcard::take_from_bytes(body).map_err(|_| CheckpointFault::Undecodable)?;
     Ok(head)
 }
 
@@ -115,7 +136,8 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<(Head, T), CheckpointFau
 /// As [`read`].
 pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<(Head, T), CheckpointFault> {
     let undecodable = |_| CheckpointFault::Undecodable;
-    let (head, rest) = postcard::take_from_bytes(body(bytes)?).map_err(undecodable)?;
+    let body = body(bytes, &layout_of::<T>())?;
+    let (head, rest) = postcard::take_from_bytes(body).map_err(undecodable)?;
     let (state, rest) = postcard::take_from_bytes(rest).map_err(undecodable)?;
     if rest.is_empty() { Ok((head, state)) } else { Err(CheckpointFault::Undecodable) }
 }
@@ -128,18 +150,22 @@ fn read_whole(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-/// What is between the format's number and the checksum.
-fn body(bytes: &[u8]) -> Result<&[u8], CheckpointFault> {
+/// What is between the layout and the checksum.
+fn body<'a>(bytes: &'a [u8], layout: &[u8; LAYOUT]) -> Result<&'a [u8], CheckpointFault> {
     if bytes.len() < SHORTEST || !bytes.starts_with(&MAGIC) {
         return Err(CheckpointFault::Foreign);
     }
     let (content, sum) = bytes.split_at(bytes.len() - CHECKSUM);
-    let (head, body) = content.split_at(MAGIC.len() + 4);
+    let (head, rest) = content.split_at(MAGIC.len() + 4);
     let found = head[MAGIC.len()..].iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
     if found != VERSION {
         return Err(CheckpointFault::Version { found });
     }
-    if Sha256::digest(content).as_slice() == sum { Ok(body) } else { Err(CheckpointFault::Damaged) }
+    if Sha256::digest(content).as_slice() != sum {
+        return Err(CheckpointFault::Damaged);
+    }
+    let (found, body) = rest.split_at(LAYOUT);
+    if found == layout { Ok(body) } else { Err(CheckpointFault::Layout) }
 }
 
 /// A file that is summed up as it is written, and keeps the error that an encoder hides.
@@ -184,7 +210,7 @@ mod tests {
         let path = directory.path().join("a.ckpt");
         let state = (vec![0.1_f64, f64::NAN, -0.0], Some(3_u64));
         write(&path, &head(), &state).unwrap();
-        assert_eq!(verify(&path).unwrap(), head());
+        assert_eq!(verify::<(Vec<f64>, Option<u64>)>(&path).unwrap(), head());
         assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1, "nothing else is left");
         fs::read(&path).unwrap()
     }
@@ -214,10 +240,37 @@ mod tests {
         assert!(matches!(decode::<State>(&newer), Err(CheckpointFault::Version { found: 99 })));
     }
 
+    /// The same bytes would be read as either type: an index is as long as a number of steps.
+    #[test]
+    fn a_state_with_another_layout_is_refused_whatever_its_bytes() {
+        mod before {
+            #[derive(serde::Serialize, serde::Deserialize)]
+            pub struct State {
+                pub steps: u64,
+                pub cells: Vec<f64>,
+            }
+        }
+        #[derive(Debug, Deserialize)]
+        #[allow(dead_code)]
+        struct State {
+            updates: u64,
+            cells: Vec<f64>,
+        }
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("a.ckpt");
+        write(&path, &head(), &before::State { steps: 7, cells: vec![0.5] }).unwrap();
+        let (_, state) = read::<before::State>(&path).unwrap();
+        assert_eq!((state.steps, state.cells), (7, vec![0.5]));
+        assert!(matches!(read::<State>(&path), Err(CheckpointFault::Layout)));
+        assert!(matches!(verify::<State>(&path), Err(CheckpointFault::Layout)));
+        let message = CheckpointFault::Layout.to_string();
+        assert!(message.contains("another version has written it"), "{message}");
+    }
+
     #[test]
     fn a_length_that_is_not_there_takes_no_memory() {
         // A right checksum over a list that says it has 2⁶⁰ numbers.
-        let mut bytes = [&MAGIC[..], &VERSION.to_le_bytes()].concat();
+        let mut bytes = [&MAGIC[..], &VERSION.to_le_bytes(), &layout_of::<Vec<f64>>()].concat();
         bytes.extend(postcard::to_stdvec(&head()).unwrap());
         bytes.extend(postcard::to_stdvec(&(1_u64 << 60)).unwrap());
         let sum = Sha256::digest(&bytes);

@@ -10,7 +10,7 @@
 //! | [`background`] | the same on a thread of its own |
 //! | [`history`] | `fluid.h5`, `solid.h5`: named series over time |
 //! | [`join`] | `history.h5`: both sides' histories under one roof |
-//! | [`checkpoint`] | a side's state, to go on from |
+//! | [`checkpoint`] | a side's state, to go on from; [`layout`] tells it from one of other types |
 //! | [`summary`] | `fluid.json`, `solid.json`, `summary.json` |
 //! | [`run_directory`] | the directory itself: made, kept aside, refused or replaced |
 //! | [`progress`] | a bar or plain lines on standard error |
@@ -22,6 +22,7 @@ mod hdf5_attributes;
 mod hdf5_memory;
 pub mod history;
 pub mod join;
+pub mod layout;
 pub mod progress;
 pub mod run_directory;
 pub mod safe_file;

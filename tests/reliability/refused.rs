@@ -9,6 +9,7 @@ use cav::case::Case;
 use cav::run::launch::{Options, prepare};
 use cav::run::session::{Session, Solvers};
 use cav::run::stop::Stop;
+use sha2::{Digest, Sha256};
 
 use crate::cases::COUPLED;
 use crate::compare::{assert_same, summary};
@@ -116,6 +117,28 @@ fn a_checkpoint_of_another_format_is_named() {
         damage(&directory, &name, |bytes| bytes[8] = 77);
     }
     is_refused(&workshop, "newer", &["its format is 77"]);
+}
+
+/// A program whose state has other fields has written it, and nobody has counted up the format.
+#[test]
+fn a_checkpoint_of_another_layout_is_refused_and_not_decoded() {
+    let _turn = alone();
+    let workshop = Workshop::with(COUPLED);
+    let directory = cut_off(&workshop, "other", 9);
+    for name in checkpoints(&directory) {
+        damage(&directory, &name, |bytes| {
+            let content = bytes.len() - 32;
+            bytes[12] ^= 1;
+            let sum = Sha256::digest(&bytes[..content]);
+            bytes[content..].copy_from_slice(&sum);
+        });
+    }
+    is_refused(
+        &workshop,
+        "other",
+        &["none of its checkpoints can be used", "another version has written it"],
+    );
+    assert_eq!(checkpoints(&directory).len(), 4, "and kept");
 }
 
 #[test]

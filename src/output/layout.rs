@@ -1,0 +1,405 @@
+//! The layout of a type that is kept in a file which does not describe itself: names and types of all that it holds, as a hash.
+//!
+//! A checkpoint is numbers one after the other. What they are is known from the types of the program that reads them, and where a
+//! field has changed and nobody has counted up the format's version, they would be taken for something else. So each file says
+//! with what layout it was written. The layout is asked of `Deserialize` itself: a deserializer that has no data answers whatever
+//! is asked for with something of that type, and notes the question. Thus it is made of all types that are there, and changes with
+//! no more than them: neither with the compiler, the platform, nor code that does other things. What a field *means* it does not
+//! know; that is what the version is for.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Display, Write};
+
+use serde::de::value::U32Deserializer;
+use serde::de::{
+    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess,
+    SeqAccess, VariantAccess, Visitor,
+};
+use sha2::{Digest, Sha256};
+
+/// Times that the questions are asked: each time enums answer with their next variant.
+const MOST_PASSES: usize = 32;
+
+/// A type within a type within a type: deeper than that it would hold itself.
+const DEEPEST: usize = 64;
+
+/// SHA-256 of the [`description`].
+#[must_use]
+pub fn layout<T: DeserializeOwned>() -> [u8; 32] {
+    Sha256::digest(description::<T>()).into()
+}
+
+/// All names and types in the order in which they are asked for.
+#[must_use]
+pub fn description<T: DeserializeOwned>() -> String {
+    let mut asked = Asked::default();
+    for _ in 0..MOST_PASSES {
+        if let Err(Refused(reason)) = T::deserialize(&mut asked) {
+            // A type that does not take what is made up: what comes after it is not known.
+            asked.note(&format!("refused: {reason}"));
+        }
+        asked.text.push('\n');
+        if asked.variants.values().all(|(next, variants)| next >= variants) {
+            break;
+        }
+    }
+    asked.text
+}
+
+/// What has been asked for.
+#[derive(Default)]
+struct Asked {
+    text: String,
+    depth: usize,
+    /// By name and variants of an enum: the one to answer with next, and how many there are.
+    variants: BTreeMap<String, (usize, usize)>,
+}
+
+impl Asked {
+    fn note(&mut self, what: &str) {
+        self.text.push_str(what);
+        self.text.push(' ');
+    }
+
+    /// Notes a kind with what is in it.
+    fn within<R>(
+        &mut self,
+        what: &str,
+        ask: impl FnOnce(&mut Self) -> Result<R, Refused>,
+    ) -> Result<R, Refused> {
+        if self.depth == DEEPEST {
+            return Err(Refused("it holds itself".to_owned()));
+        }
+        let _ = write!(self.text, "{what}( ");
+        self.depth += 1;
+        let result = ask(self);
+        self.depth -= 1;
+        self.note(")");
+        result
+    }
+}
+
+/// Why a type does not take what is made up.
+#[derive(Debug)]
+struct Refused(String);
+
+impl Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Refused {}
+
+impl de::Error for Refused {
+    fn custom<M: Display>(message: M) -> Self {
+        Self(message.to_string())
+    }
+}
+
+/// Answers for types that are one value.
+macro_rules! plain {
+    ($($method:ident $visit:ident $name:literal $value:expr;)*) => {
+        $(fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refused> {
+            self.note($name);
+            visitor.$visit($value)
+        })*
+    };
+}
+
+/// What cannot be asked for in a format that does not describe itself.
+macro_rules! unanswered {
+    ($($method:ident)*) => {
+        $(fn $method<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Refused> {
+            Err(Refused(concat!(stringify!($method), " needs data that describe themselves").to_owned()))
+        })*
+    };
+}
+
+impl<'de> Deserializer<'de> for &mut Asked {
+    type Error = Refused;
+
+    plain! {
+        deserialize_bool visit_bool "bool" false;
+        deserialize_i8 visit_i8 "i8" 0;
+        deserialize_i16 visit_i16 "i16" 0;
+        deserialize_i32 visit_i32 "i32" 0;
+        deserialize_i64 visit_i64 "i64" 0;
+        deserialize_i128 visit_i128 "i128" 0;
+        deserialize_u8 visit_u8 "u8" 0;
+        deserialize_u16 visit_u16 "u16" 0;
+        deserialize_u32 visit_u32 "u32" 0;
+        deserialize_u64 visit_u64 "u64" 0;
+        deserialize_u128 visit_u128 "u128" 0;
+        deserialize_f32 visit_f32 "f32" 0.0;
+        deserialize_f64 visit_f64 "f64" 0.0;
+        deserialize_char visit_char "char" 'a';
+        deserialize_str visit_str "str" "";
+        deserialize_string visit_str "string" "";
+        deserialize_bytes visit_bytes "bytes" &[];
+        deserialize_byte_buf visit_bytes "bytes" &[];
+    }
+
+    unanswered! { deserialize_any deserialize_identifier deserialize_ignored_any }
+
+    fn is_human_readable(&self) -> bool {
+        false
+    }
+
+    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refused> {
+        self.note("unit");
+        visitor.visit_unit()
+    }
+
+    fn deserialize_unit_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Refused> {
+        self.note(name);
+        visitor.visit_unit()
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refused> {
+        self.within("option", |asked| visitor.visit_some(asked))
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Refused> {
+        self.within(name, |asked| visitor.visit_newtype_struct(asked))
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refused> {
+        self.within("seq", |asked| visitor.visit_seq(Parts::unnamed(asked, 1)))
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value, Refused> {
+        self.within("tuple", |asked| visitor.visit_seq(Parts::unnamed(asked, len)))
+    }
+
+    fn deserialize_tuple_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        len: usize,
+        visitor: V,
+    ) -> Result<V::Value, Refused> {
+        self.within(name, |asked| visitor.visit_seq(Parts::unnamed(asked, len)))
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refused> {
+        self.within("map", |asked| visitor.visit_map(Parts::unnamed(asked, 1)))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Refused> {
+        self.within(name, |asked| visitor.visit_seq(Parts { asked, names: fields, left: fields.len() }))
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Refused> {
+        let all = format!("{name}[{}]", variants.join("|"));
+        let (next, _) = self.variants.entry(all.clone()).or_insert((0, variants.len()));
+        let variant = *next % variants.len().max(1);
+        *next += 1;
+        self.within(&all, |asked| visitor.visit_enum(Variant { asked, number: variant as u32 }))
+    }
+}
+
+/// The parts of a type, one after the other.
+struct Parts<'a> {
+    asked: &'a mut Asked,
+    names: &'static [&'static str],
+    left: usize,
+}
+
+impl<'a> Parts<'a> {
+    fn unnamed(asked: &'a mut Asked, left: usize) -> Self {
+        Self { asked, names: &[], left }
+    }
+}
+
+impl<'de> SeqAccess<'de> for Parts<'_> {
+    type Error = Refused;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Refused> {
+        let Some(left) = self.left.checked_sub(1) else { return Ok(None) };
+        if let Some(name) = self.names.len().checked_sub(self.left).and_then(|k| self.names.get(k)) {
+            let _ = write!(self.asked.text, "{name}:");
+        }
+        self.left = left;
+        seed.deserialize(&mut *self.asked).map(Some)
+    }
+}
+
+impl<'de> MapAccess<'de> for Parts<'_> {
+    type Error = Refused;
+
+    fn next_key_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Refused> {
+        self.next_element_seed(seed)
+    }
+
+    fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Refused> {
+        seed.deserialize(&mut *self.asked)
+    }
+}
+
+/// One variant of an enum.
+struct Variant<'a> {
+    asked: &'a mut Asked,
+    number: u32,
+}
+
+impl<'de> EnumAccess<'de> for Variant<'_> {
+    type Error = Refused;
+    type Variant = Self;
+
+    fn variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<(T::Value, Self), Refused> {
+        let _ = write!(self.asked.text, "{}:", self.number);
+        let number: U32Deserializer<Refused> = self.number.into_deserializer();
+        Ok((seed.deserialize(number)?, self))
+    }
+}
+
+impl<'de> VariantAccess<'de> for Variant<'_> {
+    type Error = Refused;
+
+    fn unit_variant(self) -> Result<(), Refused> {
+        Ok(())
+    }
+
+    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Refused> {
+        seed.deserialize(self.asked)
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value, Refused> {
+        visitor.visit_seq(Parts::unnamed(self.asked, len))
+    }
+
+    fn struct_variant<V: Visitor<'de>>(
+        self,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Refused> {
+        visitor.visit_seq(Parts { asked: self.asked, names: fields, left: fields.len() })
+    }
+}
+
+#[cfg(test)]
+#[allow(dead_code)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+    use std::time::Duration;
+
+    /// The same type but for one thing each.
+    mod changed {
+        use serde::Deserialize;
+
+        macro_rules! state {
+            ($module:ident: $inner:ident, $name:ident, $time:ident: $number:ty, $kind:ident, $other:ident $(, $more:ident)?) => {
+                pub mod $module {
+                    use super::Deserialize;
+
+                    #[derive(Deserialize)]
+                    pub enum Phase {
+                        $kind,
+                        $other(f64),
+                    }
+
+                    #[derive(Deserialize)]
+                    pub struct $inner {
+                        pub $time: $number,
+                        pub phase: Phase,
+                        $(pub $more: f64,)?
+                    }
+
+                    #[derive(Deserialize)]
+                    pub struct State {
+                        pub $name: Option<Vec<$inner>>,
+                        pub steps: u64,
+                    }
+                }
+            };
+        }
+        state!(original: Cell, cells, time: f64, Liquid, Gas);
+        state!(again: Cell, cells, time: f64, Liquid, Gas);
+        state!(type_of_field: Cell, cells, time: f32, Liquid, Gas);
+        state!(signed: Cell, cells, time: i64, Liquid, Gas);
+        state!(name_of_field: Cell, cells, pressure: f64, Liquid, Gas);
+        state!(name_of_list: Cell, blocks, time: f64, Liquid, Gas);
+        state!(name_of_type: Block, cells, time: f64, Liquid, Gas);
+        state!(name_of_variant: Cell, cells, time: f64, Liquid, Vapour);
+        state!(order_of_variants: Cell, cells, time: f64, Gas, Liquid);
+        state!(one_more: Cell, cells, time: f64, Liquid, Gas, energy);
+    }
+
+    #[test]
+    fn the_layout_changes_with_any_name_or_type_within_and_with_nothing_else() {
+        let original = layout::<changed::original::State>();
+        assert_eq!(original, layout::<changed::again::State>());
+        for (what, other) in [
+            ("the type of a field", layout::<changed::type_of_field::State>()),
+            ("the type of a field", layout::<changed::signed::State>()),
+            ("the name of a field", layout::<changed::name_of_field::State>()),
+            ("the name of a list", layout::<changed::name_of_list::State>()),
+            ("the name of a type", layout::<changed::name_of_type::State>()),
+            ("the name of a variant", layout::<changed::name_of_variant::State>()),
+            ("the order of variants", layout::<changed::order_of_variants::State>()),
+            ("one more field", layout::<changed::one_more::State>()),
+        ] {
+            assert_ne!(original, other, "{what}");
+        }
+    }
+
+    #[test]
+    fn everything_within_is_asked_for() {
+        #[derive(Deserialize)]
+        enum Inner {
+            Named { depth: [f32; 2] },
+            Tuple(u8, Option<i16>),
+        }
+        #[derive(Deserialize)]
+        enum Outer {
+            Empty,
+            Holds(Inner),
+        }
+        #[derive(Deserialize)]
+        struct Unit;
+        #[derive(Deserialize)]
+        struct Wrapped(char, Unit);
+        type All = (Outer, BTreeMap<String, Duration>, Wrapped, Vec<()>, bool, u128);
+        let text = description::<All>();
+        for part in [
+            "Outer[Empty|Holds]( 0:",
+            "1:Inner[Named|Tuple]( 0:depth:tuple( f32 f32 )",
+            "1:u8 option( i16 )",
+            "map( string Duration( secs:u64 nanos:u32 ) )",
+            "Wrapped( char Unit )",
+            "seq( unit )",
+            "bool u128",
+        ] {
+            assert!(text.contains(part), "{part} in {text}");
+        }
+        assert!(!text.contains("refused"), "{text}");
+    }
+
+    #[test]
+    fn a_type_that_holds_itself_comes_to_an_end() {
+        #[derive(Deserialize)]
+        struct Endless {
+            next: Option<Box<Endless>>,
+        }
+        assert!(description::<Endless>().contains("holds itself"));
+    }
+}
