@@ -231,8 +231,8 @@ fn nothing_is_lost_on_random_trees() {
 #[test]
 fn thousands_of_small_random_trees() {
     for kind in KINDS {
-        let changed = all_hold((kind, SMALL), 0..1000, [12, 12]);
-        assert!(changed > 900, "{kind:?}: {changed} of 1000 meshes changed");
+        let changed = all_hold((kind, SMALL), 0..600, [12, 12]);
+        assert!(changed > 540, "{kind:?}: {changed} of 600 meshes changed");
     }
 }
 
