@@ -180,6 +180,8 @@ fn fault(trial: &Trial, outcome: Option<&Outcome>, most_memory: u64) -> Option<S
             // The key, or the table that it is in, if it is not one of the largest.
             let names_it = said.contains(&format!("{last}:"))
                 || said.contains(&format!(".{last}"))
+                || said.contains(&format!("`{last}`"))
+                || said.contains(&format!(" {last} = "))
                 || tables.len() > 1 && said.contains(&tables.join("."));
             let has_remedy = said.contains("help:");
             (!(names_it && has_remedy)).then(|| format!("does not name the key, or no remedy: {said}"))

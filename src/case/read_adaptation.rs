@@ -2,6 +2,7 @@
 
 use mesh::{Adaptation, LevelBound, Side, Zone};
 
+use super::read_grid::MOST_LEVELS;
 use super::reader::{Faults, Given, LARGEST, Table};
 use super::thresholds::DEFAULT_ERROR;
 
@@ -139,8 +140,18 @@ fn bound(
     faults: &mut Faults,
 ) -> Option<LevelBound> {
     let zone = kind.and_then(|kind| zone(&mut table, &kind, interface, faults));
-    let at_least = table.whole("at_least", 0..=levels.finest, faults);
-    let at_most = table.whole("at_most", 0..=levels.finest, faults);
+    let [at_least, at_most] = ["at_least", "at_most"].map(|key| {
+        let given = table.whole(key, 0..=MOST_LEVELS, faults)?;
+        if given.value > levels.finest {
+            let message = format!("must be from 0 to {}, got {}", levels.finest, given.value);
+            faults.of(
+                &given,
+                message,
+                "that is as far as `levels` goes: raise it, or take a coarser level here",
+            );
+        }
+        Some(given)
+    });
     if !table.has("at_least") && !table.has("at_most") {
         let help =
             format!("give `at_least = ...`, `at_most = ...` or both, levels from 0 to {}", levels.finest);

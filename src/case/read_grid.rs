@@ -11,7 +11,7 @@ use super::reader::{Faults, Given, Table};
 /// More cells than this along one direction are a mistake.
 pub(super) const MOST_CELLS: usize = 1 << 20;
 /// More levels than this are a mistake.
-const MOST_LEVELS: usize = 20;
+pub(super) const MOST_LEVELS: usize = 20;
 
 /// Where a side's ranges stand, for what is found out when both sides are known.
 pub(super) struct GridPlace {

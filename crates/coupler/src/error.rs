@@ -203,7 +203,9 @@ pub enum CouplerError {
 
     // --- the interface ---
     /// A trace on the interface is no state of its medium, or the two have no state in common.
-    #[error("the {side}'s trace at r = {radius:.6e} m, t = {time:.6e} s is no state: {values}")]
+    #[error(
+        "the {side}'s trace at r = {radius:.6e} m, t = {time:.6e} s is no state: {values}; try a smaller time.cfl"
+    )]
     NoState {
         /// Whose.
         side: Participant,
