@@ -56,6 +56,8 @@ def test_a_pressed_surface_moves_with_the_plane_waves_velocity(rise, small):
 def test_a_wall_that_is_held_is_a_rigid_wall(small, root):
     """The same fluid above `scheme = "rigid"`: mirror image there, star state here. On 32 cells the
     two differ by 0.3 % of the pressure."""
+    # Where the first front passes a far field its cell is steep, and the two have it at other times by a part of a step.
+    small = small.with_({"fluid.boundary": {"z_max": "non-reflecting", "r_max": "non-reflecting"}})
     held = pycav.FluidSolver(small)
     rigid = pycav.Simulation(small.with_({"coupling.scheme": "rigid"}))
     while held.time < 3e-5:
