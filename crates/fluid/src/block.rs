@@ -327,11 +327,8 @@ pub(crate) fn step_block<const N: usize>(
     report.extremes = Extremes::of(&new[PHI * N * N..(PHI + 1) * N * N], [speed_z, speed_r, floor]);
     if report.extremes.floor > 0.0 {
         for (cell, added) in floor.iter().enumerate().filter(|(_, added)| **added > 0.0) {
-            let volume = ctx.mesh.volume(id, cell / N);
             report.marked.insert(cell);
-            report.floored += 1;
-            report.floored_volume += volume;
-            report.floor_energy += added * volume;
+            report.lift_pressure(*added, ctx.mesh.volume(id, cell / N));
         }
     }
     if ctx.mesh.touches(slot, Side::ZMin) {

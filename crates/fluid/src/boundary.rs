@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::block::StepContext;
 use crate::face_rows::FaceRows;
-use crate::far_field::{FarField, Inner, SideImpulses, SourceHistory, face_centre, first_face};
+use crate::far_field::{FarField, Inner, SideImpulses, SourceHistory, face_centre};
 use crate::hllc::Face;
 use crate::rows::Reconstruction;
 use crate::{Boundary, Mixture, Primitive, TRACE_GAS};
@@ -159,7 +159,7 @@ impl Boundaries {
             if !mesh.touches(slot, side) {
                 continue;
             }
-            let first = first_face::<N>(id, side);
+            let first = id.first_face::<N>(side);
             let far_field = self.far_field.as_ref().filter(|_| self.kind(side) == Boundary::FarField);
             for along in 0..N {
                 let (mut state, _) = *self.initial.at(side, id.level, first + along);
@@ -193,7 +193,7 @@ impl Boundaries {
         along: usize,
     ) -> Option<f64> {
         let id = mesh.tree().leaves()[slot];
-        let first = first_face::<N>(id, side);
+        let first = id.first_face::<N>(side);
         self.kind(side).is_open().then(|| self.initial.at(side, id.level, first + along).1)
     }
 

@@ -7,108 +7,59 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 
+/// Counts by name: a struct of them, their names, and sums.
+macro_rules! counts {
+    ($(#[$about:meta])* $Counts:ident { $($(#[$what:meta])* $name:ident,)* }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        pub struct $Counts {
+            $($(#[$what])* pub $name: u64,)*
+        }
+
+        impl $Counts {
+            /// The names of the counts.
+            pub const NAMES: [&'static str; [$(stringify!($name)),*].len()] = [$(stringify!($name)),*];
+
+            /// The counts in the order of their names.
+            pub fn counts(&self) -> [u64; Self::NAMES.len()] {
+                [$(self.$name),*]
+            }
+        }
+
+        impl std::ops::AddAssign for $Counts {
+            fn add_assign(&mut self, other: Self) {
+                $(self.$name += other.$name;)*
+            }
+        }
+    };
+}
+
+counts! {
 /// How often bounds acted, see the table in `docs/equations.md`. Counted per cell and step where nothing else is said.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Clips {
+Clips {
     /// Cells that kept half of their slopes and of their predictor.
-    pub halved_slopes: u64,
+    halved_slopes,
     /// Faces at which HLLC found no sound speed on a side, p + π of its state not being above zero, and took 0 for it.
-    pub clipped_roots: u64,
+    clipped_roots,
     /// Mixed cells of which a face would have had a phase's density beyond a factor of five of the cell's.
-    pub bounded_densities: u64,
+    bounded_densities,
     /// Mixed cells of which a face would have had less than a tenth of the cell's pressure.
-    pub bounded_pressures: u64,
+    bounded_pressures,
     /// Mixed cells of which a face would have had a gas fraction outside [0, 1].
-    pub bounded_fractions: u64,
+    bounded_fractions,
     /// Faces of mixed cells on which the linear rule leaves no gas behind the wave.
-    pub emptied_faces: u64,
+    emptied_faces,
     /// Cells whose gas fraction would have left [0, 1] in the step.
-    pub clipped_fractions: u64,
+    clipped_fractions,
     /// Cells of which a gas fraction, or a mass of gas per volume, below what anything feels was set to zero.
-    pub removed_traces: u64,
+    removed_traces,
     /// Coarse cells whose children took a share of what was predicted for them: as ghosts in a step, or in adaptation.
-    pub limited_predictions: u64,
+    limited_predictions,
     /// Faces of the wall to the solid that showed it a share of their rates and slopes, per trace shown.
-    pub scaled_traces: u64,
+    scaled_traces,
     /// Cells in which a phase had less than no mass at the end of the step, and got what it lacked from the other one.
-    pub lifted_phases: u64,
+    lifted_phases,
 }
-
-impl Clips {
-    /// The names of the counts.
-    pub const NAMES: [&'static str; 11] = [
-        "halved_slopes",
-        "clipped_roots",
-        "bounded_densities",
-        "bounded_pressures",
-        "bounded_fractions",
-        "emptied_faces",
-        "clipped_fractions",
-        "removed_traces",
-        "limited_predictions",
-        "scaled_traces",
-        "lifted_phases",
-    ];
-
-    /// The counts in the order of their names.
-    pub fn counts(&self) -> [u64; 11] {
-        // Field by field, so that a new one cannot be forgotten here.
-        let Self {
-            halved_slopes,
-            clipped_roots,
-            bounded_densities,
-            bounded_pressures,
-            bounded_fractions,
-            emptied_faces,
-            clipped_fractions,
-            removed_traces,
-            limited_predictions,
-            scaled_traces,
-            lifted_phases,
-        } = *self;
-        [
-            halved_slopes,
-            clipped_roots,
-            bounded_densities,
-            bounded_pressures,
-            bounded_fractions,
-            emptied_faces,
-            clipped_fractions,
-            removed_traces,
-            limited_predictions,
-            scaled_traces,
-            lifted_phases,
-        ]
-    }
-}
-
-impl std::ops::AddAssign for Clips {
-    fn add_assign(&mut self, other: Self) {
-        let Self {
-            halved_slopes,
-            clipped_roots,
-            bounded_densities,
-            bounded_pressures,
-            bounded_fractions,
-            emptied_faces,
-            clipped_fractions,
-            removed_traces,
-            limited_predictions,
-            scaled_traces,
-            lifted_phases,
-        } = other;
-        self.halved_slopes += halved_slopes;
-        self.clipped_roots += clipped_roots;
-        self.bounded_densities += bounded_densities;
-        self.bounded_pressures += bounded_pressures;
-        self.bounded_fractions += bounded_fractions;
-        self.emptied_faces += emptied_faces;
-        self.clipped_fractions += clipped_fractions;
-        self.removed_traces += removed_traces;
-        self.limited_predictions += limited_predictions;
-        self.scaled_traces += scaled_traces;
-        self.lifted_phases += lifted_phases;
-    }
 }
 
 /// A count that may be taken where only a shared reference is at hand.

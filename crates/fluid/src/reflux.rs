@@ -5,7 +5,7 @@ use mesh::{CorrectedFace, FluxRegister, Mesh, Side};
 use crate::Mixture;
 use crate::block::StepContext;
 use crate::face_rows::FaceRows;
-use crate::five_equation::{Compression, is_mixed, missing_mass};
+use crate::five_equation::{Compression, is_mixed};
 use crate::report::BlockReport;
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
 use crate::state::primitive;
@@ -81,20 +81,14 @@ pub(crate) fn correct<const N: usize>(
         let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
         let added = settle(&mut u, ctx.mixture, report);
         if added > 0.0 {
-            report.floored += 1;
-            report.floored_volume += ctx.mesh.volume(id, j);
-            report.floor_energy += added * ctx.mesh.volume(id, j);
+            report.lift_pressure(added, ctx.mesh.volume(id, j));
         }
         for (c, value) in u.into_iter().enumerate() {
             new[cell(c)] = value;
         }
         if ctx.two_phase.is_some() {
             new[cell(GAS)] -= changes[GAS];
-            let [of_gas, of_liquid] = missing_mass(new[cell(RHO)], new[cell(GAS)]);
-            if of_gas + of_liquid > 0.0 {
-                report.lift_phase([of_gas, of_liquid], ctx.mesh.volume(id, j));
-                new[cell(GAS)] += of_gas - of_liquid;
-            }
+            report.lift_phase(new[cell(RHO)], &mut new[cell(GAS)], ctx.mesh.volume(id, j));
             report.has_gas |= new[cell(GAS)] != 0.0 || new[cell(PHI)] != 0.0;
         }
     });

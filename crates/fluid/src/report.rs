@@ -7,7 +7,8 @@ use crate::block::StepContext;
 use crate::boundary::{beside, normal};
 use crate::clips::Clips;
 use crate::face_rows::FaceRows;
-use crate::far_field::{face_centre, first_face};
+use crate::far_field::face_centre;
+use crate::five_equation::missing_mass;
 use crate::update::Extremes;
 
 /// What one block tells of its step.
@@ -94,10 +95,24 @@ impl<const N: usize> Default for BlockReport<N> {
 }
 
 impl<const N: usize> BlockReport<N> {
-    /// Takes down that a phase of a cell had less than no mass.
+    /// Takes down that a cell was lifted to the pressure floor.
     ///
-    /// - `missing`: of the gas and of the liquid, kg/m³; `volume`: the cell's.
-    pub fn lift_phase(&mut self, missing: [f64; 2], volume: f64) {
+    /// - `added`: the energy for it, J/m³; `volume`: the cell's.
+    pub fn lift_pressure(&mut self, added: f64, volume: f64) {
+        self.floored += 1;
+        self.floored_volume += volume;
+        self.floor_energy += added * volume;
+    }
+
+    /// Gives a phase of a cell that has less than no mass what it lacks, from the other phase: ρ stays.
+    ///
+    /// - `gas`: mass of the gas, kg/m³; `volume`: the cell's.
+    pub fn lift_phase(&mut self, density: f64, gas: &mut f64, volume: f64) {
+        let missing = missing_mass(density, *gas);
+        if missing == [0.0; 2] {
+            return;
+        }
+        *gas += missing[0] - missing[1];
         self.clips.lifted_phases += 1;
         for (added, missing) in self.phase_mass_added.iter_mut().zip(missing) {
             *added += missing * volume;
@@ -143,7 +158,7 @@ pub(crate) fn far_field_gains<const N: usize>(
             let k = if is_low { ghost } else { inner };
             let u_n = if is_low { -faces.velocity[k] } else { faces.velocity[k] };
             let [rho, u_t] = [0, 3 - normal(side)].map(|component| half.component(component)[inner]);
-            let centre = face_centre(ctx.mesh, side, id.level, first_face::<N>(id, side) + along);
+            let centre = face_centre(ctx.mesh, side, id.level, id.first_face::<N>(side) + along);
             let state = [u_n, u_t, faces.pressure[k]];
             gains[side as usize].0[along] = far_field.gain(side, centre, rho, state, ctx.moment());
         }

@@ -128,7 +128,7 @@ impl<const N: usize> FluidSolver<N> {
         if self.wall.len() != wall.len() {
             return Err(Misfit(format!("{} faces of the wall are not the grid's", wall.len())));
         }
-        if !impulses.fits(&self.mesh, |side| self.boundaries.has_far_field(side)) {
+        if !impulses.fits(&self.impulses) {
             return Err(Misfit("the far field's faces are not those of the fluid's sides".to_owned()));
         }
         self.impulses = impulses.into_owned();

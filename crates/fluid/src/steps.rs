@@ -6,7 +6,6 @@
 use mesh::{Field, GroupStep, LevelClock, MOST_HALVINGS, Mesh, Part, Side, for_each_block, for_some_blocks};
 
 use crate::block::{Marks, StepContext, step_block};
-use crate::far_field::first_face;
 use crate::five_equation::marked_blocks;
 use crate::reflux::{self, Register};
 use crate::report::BlockReport;
@@ -281,7 +280,7 @@ impl<const N: usize> FluidSolver<N> {
         for side in Side::ALL {
             if self.boundaries.has_far_field(side) && self.mesh.touches(slot, side) {
                 for (along, gain) in report.impulse[side as usize].0.into_iter().enumerate() {
-                    self.impulses.add(side, id.level, first_face::<N>(id, side) + along, gain);
+                    self.impulses.add(side, id.level, id.first_face::<N>(side) + along, gain);
                 }
             }
         }

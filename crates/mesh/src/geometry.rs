@@ -35,4 +35,9 @@ impl Side {
     /// Names as they stand in case files.
     pub const NAMES: [(&'static str, Self); 4] =
         [("z_min", Self::ZMin), ("z_max", Self::ZMax), ("r_min", Self::RMin), ("r_max", Self::RMax)];
+
+    /// The axis that crosses it: 0 z, 1 r.
+    pub fn axis_across(self) -> usize {
+        usize::from(matches!(self, Self::RMin | Self::RMax))
+    }
 }

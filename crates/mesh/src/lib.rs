@@ -42,6 +42,7 @@ mod radial;
 mod reduce;
 mod register;
 mod remap;
+mod side_faces;
 mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
@@ -63,6 +64,7 @@ pub use quadtree::{BlockId, Neighbour, Offset, Quadtree};
 pub use reduce::maximum;
 pub use register::{CorrectedFace, FluxRegister};
 pub use remap::{Adapted, Origin};
+pub use side_faces::SideFaces;
 pub use side_states::SideStates;
 
 /// Cells along one side of a block, unless a test chooses otherwise.

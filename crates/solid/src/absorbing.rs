@@ -2,11 +2,9 @@
 //!
 //! The equation and where it comes from: docs/equations.md, "Absorbing sides of the solid".
 
-use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use mesh::{BlockId, Geometry, Mesh, Side};
-use serde::{Deserialize, Serialize};
+use mesh::{Geometry, Mesh, Side, SideFaces};
 
 use crate::rows::Elasticity;
 use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
@@ -54,7 +52,7 @@ impl Absorption {
         dt: f64,
         elasticity: &Elasticity,
     ) -> Self {
-        let axis = axis_across(side);
+        let axis = side.axis_across();
         let depth = DEPTH * mesh.widths(level)[axis];
         let impedances = [elasticity.z1, elasticity.z2];
         let domain = mesh.domain();
@@ -117,34 +115,15 @@ impl Absorption {
 }
 
 /// [`Filters`] on the faces of the finest level along one side; none where it does not absorb.
-///
-/// A coarser face sees the mean of those that it consists of and sets all of them alike: a grid that adapts has nothing to do here.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct SideFilters {
-    finest: u8,
-    values: Vec<Filters>,
-}
+pub(crate) type SideFilters = SideFaces<Filters>;
 
-impl SideFilters {
-    fn at(&self, level: u8, along: usize) -> Filters {
-        let faces = &self.values[self.faces(level, along)];
-        let mut mean = Filters::default();
-        for (row, wave) in (0..3).flat_map(|row| [(row, 0), (row, 1)]) {
-            mean[row][wave] = faces.iter().map(|face| face[row][wave]).sum::<f64>() / faces.len() as f64;
-        }
-        mean
+/// What a face sees of those that it consists of.
+fn mean(faces: &[Filters]) -> Filters {
+    let mut mean = Filters::default();
+    for (row, wave) in (0..3).flat_map(|row| [(row, 0), (row, 1)]) {
+        mean[row][wave] = faces.iter().map(|face| face[row][wave]).sum::<f64>() / faces.len() as f64;
     }
-
-    /// Sets the face number `along` of a level.
-    pub fn set(&mut self, level: u8, along: usize, value: Filters) {
-        let faces = self.faces(level, along);
-        self.values[faces].fill(value);
-    }
-
-    fn faces(&self, level: u8, along: usize) -> Range<usize> {
-        let halvings = self.finest - level;
-        along << halvings..(along + 1) << halvings
-    }
+    mean
 }
 
 /// What absorbing sides remember, in the order of [`Side::ALL`].
@@ -158,12 +137,8 @@ pub(crate) struct SideMemory {
 impl SideMemory {
     /// Of a solid in its initial state.
     pub fn new<const N: usize>(mesh: &Mesh<N>, kinds: [Boundary; 4]) -> Self {
-        let finest = mesh.tree().finest();
-        let kept = Side::ALL.map(|side| {
-            let absorbs = kinds[side as usize] == Boundary::Absorbing;
-            let faces = mesh.tree().blocks_on(finest)[1 - axis_across(side)] as usize * N;
-            SideFilters { finest, values: vec![Filters::default(); if absorbs { faces } else { 0 }] }
-        });
+        let absorbs = |side: Side| kinds[side as usize] == Boundary::Absorbing;
+        let kept = SideFaces::along_sides(mesh, absorbs, |_, _| Filters::default());
         Self { followed: kept.clone().map(Mutex::new), kept }
     }
 
@@ -174,8 +149,7 @@ impl SideMemory {
 
     /// Takes up what was kept; `false` if that is of other sides.
     pub fn restore(&mut self, kept: [SideFilters; 4]) -> bool {
-        let shape = |sides: &[SideFilters; 4]| sides.each_ref().map(|side| (side.finest, side.values.len()));
-        let fits = shape(&kept) == shape(&self.kept);
+        let fits = kept.iter().zip(&self.kept).all(|(kept, own)| kept.has_shape_of(own));
         if fits {
             self.kept = kept;
         }
@@ -184,7 +158,7 @@ impl SideMemory {
 
     /// Of the face number `along` of a level on a side.
     pub fn at(&self, side: Side, level: u8, along: usize) -> Filters {
-        self.kept[side as usize].at(level, along)
+        mean(self.kept[side as usize].of(level, along))
     }
 
     /// Where blocks that step write what their faces are to remember.
@@ -197,25 +171,13 @@ impl SideMemory {
         let id = mesh.tree().leaves()[slot];
         for side in Side::ALL {
             let kept = &mut self.kept[side as usize];
-            if kept.values.is_empty() || !mesh.touches(slot, side) {
+            if kept.is_empty() || !mesh.touches(slot, side) {
                 continue;
             }
-            let first = first_face::<N>(id, side);
-            let faces = kept.faces(id.level, first).start..kept.faces(id.level, first + N - 1).end;
             let followed = self.followed[side as usize].get_mut().unwrap_or_else(PoisonError::into_inner);
-            kept.values[faces.clone()].copy_from_slice(&followed.values[faces]);
+            kept.copy_block::<N>(id, side, followed);
         }
     }
-}
-
-/// The number along a side of the first face of a block.
-pub(crate) fn first_face<const N: usize>(id: BlockId, side: Side) -> usize {
-    [id.i, id.j][1 - axis_across(side)] as usize * N
-}
-
-/// The axis across a side: 0 z, 1 r.
-pub(crate) fn axis_across(side: Side) -> usize {
-    usize::from(matches!(side, Side::RMin | Side::RMax))
 }
 
 #[cfg(test)]
@@ -274,8 +236,8 @@ mod tests {
         let slot = mesh().blocks_along(Side::RMax)[0];
         {
             let mut followed = memory.follow(Side::RMax);
-            followed.set(finest, 6, all(1.0));
-            followed.set(finest, 7, all(3.0));
+            followed.of_mut(finest, 6).fill(all(1.0));
+            followed.of_mut(finest, 7).fill(all(3.0));
         }
         assert_eq!(memory.at(Side::RMax, finest, 6), all(0.0), "the step has not ended");
         memory.take_over(&mesh(), slot);

@@ -3,7 +3,7 @@
 use mesh::{Limiter, Mesh, Padded, Side, SideStates};
 use serde::{Deserialize, Serialize};
 
-use crate::absorbing::{Absorption, axis_across, first_face};
+use crate::absorbing::Absorption;
 use crate::block::StepContext;
 use crate::riemann::{Outward, star_interface};
 use crate::rows::{Elasticity, FaceRows, Reconstruction};
@@ -76,8 +76,8 @@ impl Boundaries {
             if kind == Boundary::Interface || !mesh.touches(slot, side) {
                 continue;
             }
-            let across_z = axis_across(side) == 0;
-            let first = first_face::<N>(id, side);
+            let across_z = side.axis_across() == 0;
+            let first = id.first_face::<N>(side);
             let mut absorption = (kind == Boundary::Absorbing).then(|| {
                 (Absorption::new(mesh, side, id.level, ctx.dt, ctx.elasticity), ctx.sides.follow(side))
             });
@@ -107,7 +107,7 @@ impl Boundaries {
                         |depth: isize| Padded::<N>::index(i - (1 + depth) * di, j - (1 + depth) * dj);
                     let cell = |depth: isize, c: usize| cells.component(c)[within(depth)];
                     let after = absorption.follow(before, cell, outer);
-                    followed.set(id.level, first + along, after);
+                    followed.of_mut(id.level, first + along).fill(after);
                     outer = absorption.outer(after, outer);
                 }
                 let inwards = if matches!(side, Side::ZMin | Side::RMin) { 0.5 } else { -0.5 };

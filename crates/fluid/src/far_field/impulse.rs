@@ -1,69 +1,39 @@
 //! What the far field remembers: the impulse of the pressure on each face of the open sides.
 
-use mesh::{BlockId, Mesh, Side};
+use mesh::{Mesh, Side, SideFaces};
 use serde::{Deserialize, Serialize};
 
 /// J = ∫p' dt on the faces of the finest level along the four sides, Pa s; none along sides that have no far field.
-///
-/// A coarser face sees the mean of those that it consists of and adds to all of them alike: a grid that adapts has nothing to
-/// do here.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct SideImpulses {
-    finest: u8,
-    values: [Vec<f64>; 4],
-}
+pub(crate) struct SideImpulses([SideFaces<f64>; 4]);
 
 impl SideImpulses {
-    /// Filled with what `initial` says of the faces of the finest level (side, centre), or none of it.
+    /// Filled with what `initial` says of the faces of the finest level (side, number along it, centre).
     pub fn new<const N: usize>(
         mesh: &Mesh<N>,
         has_far_field: impl Fn(Side) -> bool,
         initial: impl Fn(Side, usize, [f64; 2]) -> f64,
     ) -> Self {
         let finest = mesh.tree().finest();
-        let values = Side::ALL.map(|side| {
-            let faces = if has_far_field(side) { faces_along(mesh, side) } else { 0 };
-            (0..faces).map(|along| initial(side, along, face_centre(mesh, side, finest, along))).collect()
-        });
-        Self { finest, values }
+        let of = |side, along| initial(side, along, face_centre(mesh, side, finest, along));
+        Self(SideFaces::along_sides(mesh, has_far_field, of))
     }
 
-    /// Whether it is that of a mesh whose sides have these far fields.
-    pub fn fits<const N: usize>(&self, mesh: &Mesh<N>, has_far_field: impl Fn(Side) -> bool) -> bool {
-        let faces = |side: Side| if has_far_field(side) { faces_along(mesh, side) } else { 0 };
-        self.finest == mesh.tree().finest()
-            && Side::ALL.into_iter().all(|side| self.values[side as usize].len() == faces(side))
+    /// Whether it is of the same faces as another one.
+    pub fn fits(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).all(|(own, other)| own.has_shape_of(other))
     }
 
     /// Of the face number `along` of a level on a side.
     pub fn at(&self, side: Side, level: u8, along: usize) -> f64 {
-        let faces = self.faces(level, along);
-        let count = faces.len() as f64;
-        self.values[side as usize][faces].iter().sum::<f64>() / count
+        let faces = self.0[side as usize].of(level, along);
+        faces.iter().sum::<f64>() / faces.len() as f64
     }
 
     /// Adds what a face has gained.
     pub fn add(&mut self, side: Side, level: u8, along: usize, gain: f64) {
-        let faces = self.faces(level, along);
-        self.values[side as usize][faces].iter_mut().for_each(|value| *value += gain);
+        self.0[side as usize].of_mut(level, along).iter_mut().for_each(|value| *value += gain);
     }
-
-    fn faces(&self, level: u8, along: usize) -> std::ops::Range<usize> {
-        let halvings = self.finest - level;
-        along << halvings..(along + 1) << halvings
-    }
-}
-
-/// Faces of the finest level along a side.
-fn faces_along<const N: usize>(mesh: &Mesh<N>, side: Side) -> usize {
-    let blocks = mesh.tree().blocks_on(mesh.tree().finest());
-    let axis = usize::from(matches!(side, Side::ZMin | Side::ZMax));
-    blocks[axis] as usize * N
-}
-
-/// The number along a side of the first face of a block.
-pub(crate) fn first_face<const N: usize>(id: BlockId, side: Side) -> usize {
-    (if matches!(side, Side::ZMin | Side::ZMax) { id.j } else { id.i }) as usize * N
 }
 
 /// The centre (z, r) of the face number `along` of a level on a side, m.

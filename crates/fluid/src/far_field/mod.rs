@@ -22,7 +22,7 @@ use crate::{
 pub(crate) use condition::{Inner, Moment};
 use history::Motion;
 pub(crate) use history::SourceHistory;
-pub(crate) use impulse::{SideImpulses, face_centre, first_face};
+pub(crate) use impulse::{SideImpulses, face_centre};
 use incident::Incident;
 
 /// Why open sides of a fluid have no far field.

@@ -5,7 +5,7 @@ use mesh::{AlignedRow, Mesh, Padded, Side};
 use super::cells::Cells;
 use super::mixed::{MixedCells, Outer};
 use super::reconstruction::Stencil;
-use super::update::{gas_fluxes, gas_shares, is_zero, missing_mass, settle_gas, update_gas, update_mixed};
+use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
 use crate::block::{BlockScratch, Marks, StepContext, split_block};
 use crate::clips::Clips;
 use crate::face_rows::FaceRows;
@@ -220,12 +220,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     fn lift_phases(&self, density: &[f64], gas: &mut [f64], report: &mut BlockReport<N>) {
         let id = self.ctx.mesh.tree().leaves()[self.slot];
         for (cell, (gas, density)) in gas.iter_mut().zip(density).enumerate() {
-            let [of_gas, of_liquid] = missing_mass(*density, *gas);
-            if of_gas + of_liquid > 0.0 {
-                let volume = self.ctx.mesh.volume(id, cell / N);
-                report.lift_phase([of_gas, of_liquid], volume);
-                *gas += of_gas - of_liquid;
-            }
+            report.lift_phase(*density, gas, self.ctx.mesh.volume(id, cell / N));
         }
     }
 }
