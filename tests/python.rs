@@ -54,7 +54,9 @@ fn the_package_installs_from_source_and_passes_its_tests() {
     };
     pip(&[".[test]"]);
     let mut tests = command(&python);
+    // Type checkers, browsers and runs side by side: most of them keep one core busy.
     tests.args(["-m", "pytest", "-q", "--color=no", "-p", "no:cacheprovider"]).current_dir(&package);
+    tests.args(["-n", "2", "--dist", "worksteal"]);
     tests.env("CAV_BINARY", env!("CARGO_BIN_EXE_cav"));
     run("pytest", &mut tests);
 }
