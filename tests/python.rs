@@ -35,6 +35,15 @@ fn target() -> (PathBuf, String) {
     (directory.parent().expect("target").to_owned(), profile.into_owned())
 }
 
+/// What a package and its tests need, as its `pyproject.toml` says.
+fn needed(project: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(project).expect("pyproject.toml");
+    let project: toml::Table = toml::from_str(&text).expect("TOML");
+    let lists = [&project["project"]["dependencies"], &project["project"]["optional-dependencies"]["test"]];
+    let entries = lists.into_iter().flat_map(|list| list.as_array().expect("a list"));
+    entries.map(|entry| entry.as_str().expect("a requirement").to_owned()).collect()
+}
+
 #[test]
 fn the_package_installs_from_source_and_passes_its_tests() {
     let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/pycav");
@@ -45,14 +54,25 @@ fn the_package_installs_from_source_and_passes_its_tests() {
         run("making a virtual environment", command("python3").args(["-m", "venv"]).arg(&environment));
     }
     let pip = |arguments: &[&str]| {
-        let mut install = command(&python);
-        install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(arguments);
-        install.current_dir(&package).env("CARGO_TARGET_DIR", &target);
+        let mut pip = command(&python);
+        pip.args(["-m", "pip", "--quiet", "--disable-pip-version-check"]).args(arguments);
+        pip.current_dir(&package).env("CARGO_TARGET_DIR", &target);
         // By itself it would be the release profile, for which every dependency would be compiled once more.
-        install.env("MATURIN_PEP517_ARGS", format!("--profile {profile}"));
-        run("installing the package", &mut install);
+        pip.env("MATURIN_PEP517_ARGS", format!("--profile {profile}"));
+        run("pip", &mut pip);
     };
-    pip(&[".[test]"]);
+    let wheels = tempfile::tempdir().expect("a directory for the wheel");
+    let directory = wheels.path().to_str().expect("a path in UTF-8");
+    // What the package needs is fetched and unpacked while it is compiled.
+    std::thread::scope(|scope| {
+        scope.spawn(|| pip(&["wheel", "--no-deps", "--wheel-dir", directory, "."]));
+        let needed = needed(&package.join("pyproject.toml"));
+        pip(&[&["install"], &*needed.iter().map(String::as_str).collect::<Vec<_>>()].concat());
+    });
+    let wheel = std::fs::read_dir(directory).expect("wheels").flatten().next().expect("a wheel").path();
+    // Of that name and version another one may be there.
+    pip(&["install", "--force-reinstall", "--no-deps", &wheel.to_string_lossy()]);
+    pip(&["install", &format!("{}[test]", wheel.display())]);
     let mut tests = command(&python);
     // Type checkers, browsers and runs side by side: most of them keep one core busy.
     tests.args(["-m", "pytest", "-q", "--color=no", "-p", "no:cacheprovider"]).current_dir(&package);

@@ -15,7 +15,7 @@ use cav::run::stop::Stop;
 
 use crate::cases::{COUPLED, LOADED, SECOND_BUBBLE, SOLID, fluid_alone};
 use crate::compare::{assert_same, datasets};
-use crate::processes::alone;
+use crate::processes::without_processes;
 
 /// Never, within a test.
 const NEVER: Duration = Duration::from_secs(1 << 20);
@@ -89,20 +89,20 @@ fn check(what: &str, text: &str, sets: &[&str], piece: usize) {
 
 #[test]
 fn the_riemann_scheme() {
-    let _turn = alone();
+    let _turn = without_processes();
     check("riemann", COUPLED, &[], 31);
     check("short pieces", COUPLED, &["time.end=1e-5"], 7);
 }
 
 #[test]
 fn the_five_equation_model() {
-    let _turn = alone();
+    let _turn = without_processes();
     check("five-equation", COUPLED, &["fluid.model=five-equation"], 37);
 }
 
 #[test]
 fn the_weak_scheme() {
-    let _turn = alone();
+    let _turn = without_processes();
     for kappa in ["off", "printed", "jump"] {
         let sets = ["coupling.scheme=weak", &format!("coupling.kappa={kappa}"), "time.end=2e-5"];
         check(&format!("weak, {kappa}"), COUPLED, &sets, 41);
@@ -111,6 +111,7 @@ fn the_weak_scheme() {
 
 #[test]
 fn the_papers_other_schemes() {
+    let _turn = without_processes();
     for scheme in ["explicit", "weak", "strong"] {
         for first in ["fluid", "solid"] {
             if scheme == "explicit" && first == "solid" {
@@ -128,19 +129,19 @@ fn the_papers_other_schemes() {
 
 #[test]
 fn steps_that_are_the_same_on_both_sides() {
-    let _turn = alone();
+    let _turn = without_processes();
     check("one step", COUPLED, &["coupling.step_ratio=1", "time.end=2e-5"], 41);
 }
 
 #[test]
 fn local_steps_where_the_fluids_are_the_longer() {
-    let _turn = alone();
+    let _turn = without_processes();
     check("local", COUPLED, &["time.local_steps=true"], 13);
 }
 
 #[test]
 fn local_steps_where_the_solids_are_the_longer() {
-    let _turn = alone();
+    let _turn = without_processes();
     let soft = "solid.material={ density = 1100.0, c1 = 1550.0, c2 = 20.0 }";
     check("soft", COUPLED, &[soft, "time.local_steps=true", "time.end=2e-5"], 5);
     check("soft, common", COUPLED, &[soft, "time.end=2e-5"], 9);
@@ -148,26 +149,27 @@ fn local_steps_where_the_solids_are_the_longer() {
 
 #[test]
 fn several_bubbles() {
-    let _turn = alone();
+    let _turn = without_processes();
     check("bubbles", &format!("{COUPLED}{SECOND_BUBBLE}"), &["time.end=2e-5"], 23);
 }
 
 #[test]
 fn a_fluid_alone() {
-    let _turn = alone();
+    let _turn = without_processes();
     check("fluid", &fluid_alone(), &[], 43);
     check("fluid, local", &fluid_alone(), &["time.local_steps=true", "fluid.model=five-equation"], 17);
 }
 
 #[test]
 fn a_solid_under_a_load() {
+    let _turn = without_processes();
     check("load", LOADED, &[], 7);
     check("load, local", LOADED, &["time.local_steps=true"], 5);
 }
 
 #[test]
 fn a_solid_alone() {
-    let _turn = alone();
+    let _turn = without_processes();
     check("solid", SOLID, &[], 11);
     check("solid, local", SOLID, &["time.local_steps=true"], 5);
 }
@@ -175,7 +177,7 @@ fn a_solid_alone() {
 /// The comparison sees a number that is off by one bit.
 #[test]
 fn one_bit_would_be_seen() {
-    let _turn = alone();
+    let _turn = without_processes();
     let case = Case::from_toml(SOLID, "bit", &[]).unwrap();
     let workshop = tempfile::tempdir().unwrap();
     undisturbed(&case, &workshop.path().join("one"));

@@ -3,14 +3,21 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 use std::time::{Duration, Instant};
 
-/// Held by every test: one after the other. A process that is started while another test has a file open in this process gets
-/// that file, too, and with it the HDF5 library's lock on it.
-pub fn alone() -> MutexGuard<'static, ()> {
-    static TURN: Mutex<()> = Mutex::new(());
-    TURN.lock().unwrap_or_else(PoisonError::into_inner)
+/// A process that is started while another test has a file open in this process gets that file, too, and with it the HDF5
+/// library's lock on it.
+static TURN: RwLock<()> = RwLock::new(());
+
+/// Held by tests that start processes: one after the other, and beside no other.
+pub fn alone() -> RwLockWriteGuard<'static, ()> {
+    TURN.write().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Held by tests that run all in this process: they may run beside each other.
+pub fn without_processes() -> RwLockReadGuard<'static, ()> {
+    TURN.read().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A directory with a case and its runs.

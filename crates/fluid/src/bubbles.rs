@@ -202,7 +202,7 @@ mod tests {
         }
     }
 
-    fn fluid(spheres: &[[f64; 2]], velocity: f64, model: Model) -> FluidSolver<16> {
+    fn fluid(spheres: &[[f64; 2]], velocity: f64, model: Model) -> FluidSolver<8> {
         let setup = FluidSetup {
             domain: Domain { geometry: Geometry::Axisymmetric, z: [0.0, 8.0], r: [0.0, 1.0] },
             coarsest: [CELLS, 16],
