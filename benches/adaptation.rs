@@ -135,7 +135,7 @@ fn measure(side: &str, sets: &[String]) -> Result<Spent, Failure> {
         let mut solver = fluid_solver(&case, case.fluid.as_ref().ok_or("no fluid")?)?;
         run(
             &mut solver,
-            |s| Ok(s.step(s.time_step_limit(0.45))?),
+            |s| Ok(s.step_at(0.45)?),
             |s| {
                 let dt = s.time_step_limit(0.45);
                 s.adapt_if_due(dt, 1);
@@ -146,12 +146,12 @@ fn measure(side: &str, sets: &[String]) -> Result<Spent, Failure> {
         let case = Case::from_toml(&text, "adaptation", sets).map_err(|errors| errors.to_string())?;
         let mut solver = solid_solver(&case, case.solid.as_ref().ok_or("no solid")?)?;
         // Its surface bears what it bore before.
-        let load = solid::SurfaceState { pressure: 5e7, velocity: 0.0, power: 0.0 };
+        let load = mesh::FaceState { pressure: 5e7, velocity: 0.0, power: 0.0 };
         run(
             &mut solver,
             move |s| {
-                s.set_surface(|_| load);
-                Ok(s.step(s.time_step_limit(0.45))?)
+                s.interface_mut().set_all(|_| load);
+                Ok(s.step_at(0.45)?)
             },
             |s| {
                 let dt = s.time_step_limit(0.45);

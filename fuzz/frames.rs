@@ -200,7 +200,7 @@ fn both(case: &Case, to_solid: &mut impl Link, to_fluid: &mut impl Link) -> Resu
         }
         solid.settle(to_fluid)?;
         is_finite(&fluid);
-        for state in solid.solver().surface() {
+        for state in solid.solver().interface().states() {
             assert!(state.pressure.is_finite() && state.velocity.is_finite() && state.power.is_finite());
         }
     }
@@ -254,7 +254,7 @@ fn under_a_flow(case: &Case, to_solid: &mut impl Link, to_flow: &mut impl Link) 
 }
 
 fn is_finite(fluid: &FluidSide) {
-    for state in fluid.solver().wall() {
+    for state in fluid.solver().interface().states() {
         assert!(state.pressure.is_finite() && state.velocity.is_finite() && state.power.is_finite());
     }
 }

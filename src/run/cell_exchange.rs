@@ -5,7 +5,8 @@
 //! the new time agree, (34), (35).
 
 use coupler::{Aitken, FluidTrace, Kappa, KappaFactor, Participant, Scheme};
-use fluid::{FluidSolver, WallState};
+use fluid::FluidSolver;
+use mesh::FaceState;
 use mesh::{BLOCK, Misfit};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -148,14 +149,14 @@ impl CellExchange {
     pub fn set_wall(&self, solver: &mut FluidSolver<BLOCK>) {
         let is_tried = self.scheme == Scheme::Strong && self.first == Participant::Fluid;
         let given = if is_tried { &self.iterate } else { &self.received };
-        solver.set_wall_from(|face| {
+        solver.interface_mut().set_all(|face| {
             let FluidTrace { pressure, velocity: own, .. } = self.own[face];
             let velocity = match self.kappa {
                 Kappa::Off => given[face],
                 Kappa::Printed => self.kappa_now * given[face],
                 Kappa::Jump => own + self.kappa_now * (given[face] - own),
             };
-            WallState { pressure, velocity, power: pressure * velocity }
+            FaceState { pressure, velocity, power: pressure * velocity }
         });
     }
 

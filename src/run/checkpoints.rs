@@ -254,9 +254,9 @@ mod tests {
         for (text, parts) in [
             (
                 &fluid,
-                ["FluidSideState( solver:FluidState( leaves:seq( ", "answer:FrameHeader( ", "done:Done( "],
+                ["FluidSideState( solver:SavedBlocks( leaves:seq( ", "answer:FrameHeader( ", "done:Done( "],
             ),
-            (&solid, ["SolidSideState( solver:SolidState( leaves:seq( ", "promised:f64 ", "done:Done( "]),
+            (&solid, ["SolidSideState( solver:SavedBlocks( leaves:seq( ", "promised:f64 ", "done:Done( "]),
         ] {
             assert!(!text.contains("refused"), "{text}");
             parts.iter().for_each(|part| assert!(text.contains(part), "{part} in {text}"));

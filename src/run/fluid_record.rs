@@ -80,7 +80,7 @@ impl FluidRecord {
         let steps = history.add_series("", &STEP_COLUMNS)?;
         let clips = history.add_series("", &fixups::CLIP_COLUMNS)?;
         let bubbles = bubble_series(&cuts, history)?;
-        let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.wall_edges());
+        let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
         let mut wall_pressures = Vec::new();
         solver.wall_cells(false, |_, pressure, _| wall_pressures.push(pressure));
         // With a boundary of its own at z_min there is no wall to record.
@@ -136,16 +136,16 @@ impl FluidRecord {
     pub fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
         self.cells.see(mesh.cells());
-        if self.faces.update(mesh.generation(), || solver.wall_edges())
+        if self.faces.update(mesh.generation(), || solver.interface_edges())
             && let Some(interface) = &mut self.interface
         {
             interface.follow(&self.faces);
         }
-        if solver.wall().is_empty() {
+        if solver.interface().states().is_empty() {
             solver.wall_face_pressures(&mut self.wall_pressures);
         } else {
             self.wall_pressures.clear();
-            self.wall_pressures.extend(solver.wall().iter().map(|wall| wall.pressure));
+            self.wall_pressures.extend(solver.interface().states().iter().map(|wall| wall.pressure));
         }
         self.write(solver, plan.dt)?;
         if plan.snapshot {
@@ -222,7 +222,8 @@ impl FluidRecord {
         if let Some(interface) = &mut self.interface {
             interface.add(&self.wall_pressures, dt);
             if due {
-                let velocity = |face: usize| solver.wall().get(face).map_or(0.0, |wall| wall.velocity);
+                let velocity =
+                    |face: usize| solver.interface().states().get(face).map_or(0.0, |wall| wall.velocity);
                 interface.write(time, velocity, history)?;
             }
         }
@@ -242,7 +243,7 @@ impl FluidRecord {
             if probe.on_interface && dt > 0.0 {
                 let r = probe.probe.position[1];
                 let mean = self.faces.at(r, |k| self.wall_pressures[k]);
-                let velocity = self.faces.at(r, |k| solver.wall()[k].velocity);
+                let velocity = self.faces.at(r, |k| solver.interface().states()[k].velocity);
                 let clock = solver.clock();
                 let middle = clock.middle(solver.group_of_face(self.faces.nearest(r)));
                 [pressure, v_z] = probe.star.at([mean, velocity], middle, time);

@@ -99,8 +99,8 @@ impl FluidSide {
         }
         Self {
             cells: (case.coupling.scheme.exchanges_cells())
-                .then(|| CellExchange::new(&case.coupling, solver.wall_faces())),
-            edges: solver.wall_edges(),
+                .then(|| CellExchange::new(&case.coupling, solver.interface().faces())),
+            edges: solver.interface_edges(),
             solver,
             record,
             schedule: Schedule::new(&case.time.snapshots),
@@ -259,7 +259,7 @@ impl FluidSide {
     /// Shows the trace on the wall, and does meanwhile what does not depend on the solid.
     fn begin_long(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
         let start = Instant::now();
-        let faces = self.solver.wall_faces();
+        let faces = self.solver.interface().faces();
         let mut header = self.header(FrameKind::Trace, faces, plan.dt);
         if plan.snapshot {
             header.flags |= FrameHeader::SNAPSHOT;
@@ -315,7 +315,7 @@ impl FluidSide {
 
     /// Reads the solid's register frame in place.
     fn take_answer(&mut self, link: &mut impl Link) -> Result<FrameHeader, RunError> {
-        let faces = self.solver.wall_faces();
+        let faces = self.solver.interface().faces();
         let FrameHeader { time, dt, .. } = self.sent;
         let (solver, cells) = (&mut self.solver, &mut self.cells);
         let header = link.receive(|frame| {
@@ -326,7 +326,7 @@ impl FluidSide {
             if let Some(cells) = cells {
                 cells.received.copy_from_slice(register.velocity);
             } else {
-                solver.set_wall(&register);
+                solver.interface_mut().set_rows(register.rows());
             }
             Ok::<_, coupler::CouplerError>(*frame.header)
         })??;
@@ -336,8 +336,9 @@ impl FluidSide {
     /// Adapts the grid if it is time to, with all that is kept per face of the wall.
     fn adapt_if_due(&mut self) -> Result<(), RunError> {
         let start = Instant::now();
-        if self.solver.adapt_if_due(self.last_dt, self.rule.steps_in(self.last_dt, &self.solver)) {
-            let edges = self.solver.wall_edges();
+        let steps = self.rule.steps_in(self.last_dt, &self.solver);
+        if self.solver.adapt_if_due(self.last_dt, steps) {
+            let edges = self.solver.interface_edges();
             if let Some(cells) = &mut self.cells {
                 let domain = self.solver.mesh().domain();
                 let axisymmetric = domain.geometry == mesh::Geometry::Axisymmetric;

@@ -23,7 +23,7 @@ impl Load {
     /// The load of a case on its solid; `None` for a history without points, which reading refuses.
     pub fn new(case: &LoadCase, solver: &SolidSolver<BLOCK>) -> Option<Self> {
         let mesh = solver.mesh();
-        let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.surface_edges());
+        let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
         let mut load = Self {
             amplitude: case.amplitude,
             radius: case.radius,
@@ -40,7 +40,7 @@ impl Load {
     /// the solid's own trace.
     pub fn press(&mut self, solver: &mut SolidSolver<BLOCK>, step: GroupStep) {
         let (generation, geometry) = (solver.mesh().generation(), solver.mesh().domain().geometry);
-        if self.faces.update(generation, || solver.surface_edges()) {
+        if self.faces.update(generation, || solver.interface_edges()) {
             self.measure(geometry);
         }
         solver.group_traces_at_mid_step(step, &mut self.traces);
@@ -50,7 +50,8 @@ impl Load {
             if solver.group_of_face(face) == step.group {
                 let trace = SolidTrace { pressure, velocity, impedance };
                 let star = solid_under_pressure(&trace, now * self.profile[face]);
-                solver.set_surface_face(face, [star.pressure, star.velocity, star.pressure * star.velocity]);
+                let state = [star.pressure, star.velocity, star.pressure * star.velocity];
+                solver.interface_mut().set(face, state.into());
             }
         }
     }

@@ -3,10 +3,12 @@
 //! Each side keeps its own time step. The side with the longer one shows its trace and completes its step when it knows what
 //! the interface did; the other side makes as many short steps meanwhile as it needs. See docs/coupling.md.
 
-use coupler::{Meeting, Participant, ShortStep, StarSolver, TraceRow, WallRegister};
-use fluid::FluidSolver;
-use mesh::{BLOCK, Geometry, GroupStep, LevelClock, Mesh, Part};
-use solid::SolidSolver;
+use std::ops::DerefMut;
+
+use coupler::{Meeting, Participant, ShortStep, StarSolver, TraceRow};
+use fluid::{Fluid, FluidSolver};
+use mesh::{BLOCK, BlockSolver, Geometry, GroupStep, Model, Part};
+use solid::{Solid, SolidSolver};
 
 use super::RunError;
 use crate::case::{Case, SMALLEST_STEP};
@@ -29,116 +31,44 @@ pub struct StepRule {
     pub smallest: f64,
 }
 
-/// A solver, whichever medium it is for.
-pub trait Medium {
+/// A solver, whichever medium it is for: a [`BlockSolver`] that can show the other side what is on the interface.
+pub trait Medium: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
+    /// What its cells obey.
+    type Physics: Model<BLOCK, Error: Into<RunError>>;
     /// Which side of the interface it is.
     const OWN: Participant;
 
-    /// Its mesh.
-    fn grid(&self) -> &Mesh<BLOCK>;
-    /// The time that the finest level has reached, s.
-    fn reached(&self) -> f64;
-    /// How many steps of it have been made.
-    fn made(&self) -> u64;
-    /// Which levels step when.
-    fn clock(&self) -> &LevelClock;
-    /// The longest step of all cells alike, s.
-    fn limit(&self, cfl: f64) -> f64;
-    /// The longest step of the whole if levels finer than `base` halve theirs, s.
-    fn local_limit(&self, cfl: f64, base: u8) -> f64;
-    /// The finest level at the interface.
-    fn finest_at_interface(&self) -> u8;
-
-    /// Begins a step of length `dt` in which levels finer than `base` make steps of their own.
-    fn begin_step(&mut self, dt: f64, base: u8);
-    /// The longest step of the levels whose turn it is.
-    fn due_limit(&self, cfl: f64) -> f64;
-    /// Starts their step.
-    fn start(&mut self, limit: f64) -> GroupStep;
-    /// Makes a step that has been started, or a part of it.
-    fn run(&mut self, step: GroupStep, part: Part) -> Result<(), RunError>;
-    /// Ends the step of the finest level, and those that end with it.
-    fn finish(&mut self) -> Result<(), RunError>;
-
-    /// Outer radii of the faces on the interface, m.
-    fn edges(&self) -> Vec<f64>;
-    /// Which levels, as a group, a face belongs to.
-    fn group_of_face(&self, face: usize) -> usize;
     /// Writes the traces on all faces, before a long step of length `dt`.
     fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64));
     /// Writes the traces on the faces of the levels that are about to step.
     fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64));
-    /// Sets p*, v*, p*v* on a face for the next step of its level.
-    fn set_face(&mut self, face: usize, state: [f64; 3]);
-    /// Sets the states of all faces for the long step under way.
-    fn set_register(&mut self, register: &WallRegister<'_>);
 }
 
-macro_rules! medium {
-    ($solver:ident, $own:ident, $faces:ident, $finest:ident, $set_face:ident, $set_register:ident) => {
-        impl Medium for $solver<BLOCK> {
-            const OWN: Participant = Participant::$own;
+impl Medium for FluidSolver<BLOCK> {
+    type Physics = Fluid;
+    const OWN: Participant = Participant::Fluid;
 
-            fn grid(&self) -> &Mesh<BLOCK> {
-                self.mesh()
-            }
-            fn reached(&self) -> f64 {
-                self.time()
-            }
-            fn made(&self) -> u64 {
-                self.steps()
-            }
-            fn clock(&self) -> &LevelClock {
-                $solver::clock(self)
-            }
-            fn limit(&self, cfl: f64) -> f64 {
-                self.time_step_limit(cfl)
-            }
-            fn local_limit(&self, cfl: f64, base: u8) -> f64 {
-                self.local_step_limit(cfl, base)
-            }
-            fn finest_at_interface(&self) -> u8 {
-                self.$finest()
-            }
-            fn begin_step(&mut self, dt: f64, base: u8) {
-                $solver::begin_step(self, dt, base);
-            }
-            fn due_limit(&self, cfl: f64) -> f64 {
-                $solver::due_limit(self, cfl)
-            }
-            fn start(&mut self, limit: f64) -> GroupStep {
-                $solver::start(self, limit)
-            }
-            fn run(&mut self, step: GroupStep, part: Part) -> Result<(), RunError> {
-                Ok($solver::run(self, step, part)?)
-            }
-            fn finish(&mut self) -> Result<(), RunError> {
-                Ok($solver::finish(self)?)
-            }
-            fn edges(&self) -> Vec<f64> {
-                self.$faces()
-            }
-            fn group_of_face(&self, face: usize) -> usize {
-                $solver::group_of_face(self, face)
-            }
-            fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
-                $solver::write_trace(self, dt, put);
-            }
-            fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-                $solver::write_group_trace(self, step, put);
-            }
-            fn set_face(&mut self, face: usize, state: [f64; 3]) {
-                self.$set_face(face, state);
-            }
-            fn set_register(&mut self, register: &WallRegister<'_>) {
-                self.$set_register(register);
-            }
-        }
-    };
+    fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
+        FluidSolver::write_trace(self, dt, put);
+    }
+
+    fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
+        FluidSolver::write_group_trace(self, step, put);
+    }
 }
 
-medium!(FluidSolver, Fluid, wall_edges, finest_at_wall, set_wall_face, set_wall);
-medium!(SolidSolver, Solid, surface_edges, finest_at_surface, set_surface_face, set_surface_register);
+impl Medium for SolidSolver<BLOCK> {
+    type Physics = Solid;
+    const OWN: Participant = Participant::Solid;
+
+    fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
+        SolidSolver::write_trace(self, dt, put);
+    }
+
+    fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
+        SolidSolver::write_group_trace(self, step, put);
+    }
+}
 
 /// How a side's steps may be, and which of its levels step by themselves.
 #[derive(Clone, Copy, Debug)]
@@ -168,39 +98,43 @@ impl StepRule {
         }
         Err(RunError::TimeStepCollapsed {
             dt: limit,
-            time: medium.reached(),
-            step: medium.made() + 1,
+            time: medium.time(),
+            step: medium.steps() + 1,
             limited_by: M::OWN.name(),
         })
     }
 
     /// About how many steps of the finest level a step of length `dt` holds.
     pub fn steps_in(&self, dt: f64, medium: &impl Medium) -> u32 {
-        mesh::steps_in(dt, medium.limit(self.cfl)) as u32
+        mesh::steps_in(dt, medium.time_step_limit(self.cfl)) as u32
     }
 
     /// Steps alone, or short ones within a long one of the other side.
     pub fn alone(&self, medium: &impl Medium) -> Steps {
-        let base = if self.local { medium.grid().coarsest_base() } else { u8::MAX };
+        let base = if self.local { medium.mesh().coarsest_base() } else { u8::MAX };
         self.steps(medium, base)
     }
 
     /// Steps that are long ones for the other side: no level at the interface may have shorter ones.
     pub fn long(&self, medium: &impl Medium) -> Steps {
         let finest = medium.finest_at_interface();
-        let base = if self.local { medium.grid().coarsest_base().max(finest) } else { u8::MAX };
+        let base = if self.local { medium.mesh().coarsest_base().max(finest) } else { u8::MAX };
         self.steps(medium, base)
     }
 
     fn steps(&self, medium: &impl Medium, base: u8) -> Steps {
-        let limit = if self.local { medium.local_limit(self.cfl, base) } else { medium.limit(self.cfl) };
+        let limit = if self.local {
+            medium.local_step_limit(self.cfl, base)
+        } else {
+            medium.time_step_limit(self.cfl)
+        };
         Steps { limit, base }
     }
 
     /// The step by which the other side counts how many of this side's go into one of its own, s.
     pub fn counted(&self, medium: &impl Medium) -> f64 {
-        let longest = LONGEST_EXCHANGE / f64::from(self.ratio) * medium.limit(self.cfl);
-        self.long(medium).limit.min(longest.max(medium.limit(self.cfl)))
+        let longest = LONGEST_EXCHANGE / f64::from(self.ratio) * medium.time_step_limit(self.cfl);
+        self.long(medium).limit.min(longest.max(medium.time_step_limit(self.cfl)))
     }
 
     /// The most steps of the finest level that a side counts within one of the other.
@@ -216,9 +150,10 @@ impl StepRule {
 
 /// Begins a step whose end depends on the interface: what does not is done at once.
 pub fn begin_long<M: Medium>(medium: &mut M, dt: f64, rule: &StepRule) -> Result<GroupStep, RunError> {
-    medium.begin_step(dt, rule.long(medium).base);
+    let base = rule.long(medium).base;
+    medium.begin_step(dt, base);
     let step = medium.start(f64::INFINITY);
-    medium.run(step, Part::AwayFromInterface)?;
+    medium.run(step, Part::AwayFromInterface).map_err(Into::into)?;
     Ok(step)
 }
 
@@ -229,7 +164,7 @@ pub fn end_long<M: Medium>(
     rule: &StepRule,
     after: impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
-    medium.run(step, Part::AtInterface)?;
+    medium.run(step, Part::AtInterface).map_err(Into::into)?;
     // No level that is still to step has faces on the interface.
     step_to_end(medium, rule, |_, _| (), after)
 }
@@ -242,10 +177,11 @@ pub fn step_alone<M: Medium>(
     mut before: impl FnMut(&mut M, GroupStep),
     after: impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
-    medium.begin_step(dt, rule.alone(medium).base);
+    let base = rule.alone(medium).base;
+    medium.begin_step(dt, base);
     let step = medium.start(f64::INFINITY);
     before(medium, step);
-    medium.run(step, Part::All)?;
+    medium.run(step, Part::All).map_err(Into::into)?;
     step_to_end(medium, rule, before, after)
 }
 
@@ -260,7 +196,7 @@ fn step_to_end<M: Medium>(
             let limit = rule.unless_collapsed(medium.due_limit(rule.cfl), medium)?;
             let step = medium.start(limit);
             before(medium, step);
-            medium.run(step, Part::All)?;
+            medium.run(step, Part::All).map_err(Into::into)?;
         }
         if end_sub_step(medium, &mut after)? {
             return Ok(());
@@ -274,18 +210,18 @@ fn end_sub_step<M: Medium>(
     after: &mut impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<bool, RunError> {
     let dt = medium.clock().length(medium.clock().finest());
-    medium.finish()?;
+    medium.finish().map_err(Into::into)?;
     after(medium, dt)?;
     Ok(medium.clock().is_over())
 }
 
 /// Begins to meet the other side's trace.
 pub fn begin_meeting<M: Medium>(medium: &M, meeting: &mut Meeting, trace: (&[f64], usize)) {
-    let mesh = medium.grid();
+    let mesh = medium.mesh();
     let domain = mesh.domain();
     let axisymmetric = domain.geometry == Geometry::Axisymmetric;
-    let own = (mesh.generation(), || medium.edges());
-    meeting.begin(trace, medium.reached(), own, domain.r[0], axisymmetric);
+    let own = (mesh.generation(), || medium.interface_edges());
+    meeting.begin(trace, medium.time(), own, domain.r[0], axisymmetric);
 }
 
 /// Makes the short steps within the other side's long one, of length `dt`.
@@ -307,7 +243,8 @@ pub fn short_steps<M: Medium>(
         while let Some(group) = medium.clock().due() {
             // The whole is the other side's: how many steps of the coarsest level it holds follows from that level's limit.
             let limit = if group == 0 { rule.alone(medium).limit } else { medium.due_limit(rule.cfl) };
-            let step = medium.start(rule.unless_collapsed(limit, medium)?);
+            let limit = rule.unless_collapsed(limit, medium)?;
+            let step = medium.start(limit);
             let (rows, faces) = meeting.own_trace();
             medium.write_group_trace(step, |row, face, value| rows[row as usize * faces + face] = value);
             let is_due = |face: usize| medium.group_of_face(face) == group;
@@ -315,7 +252,7 @@ pub fn short_steps<M: Medium>(
             meeting.meet(M::OWN, short, star, is_due)?;
             meeting.own_means(|face, state| {
                 if medium.group_of_face(face) == group {
-                    medium.set_face(face, state);
+                    medium.interface_mut().set(face, state.into());
                 }
             });
             if !is_answered
@@ -324,7 +261,7 @@ pub fn short_steps<M: Medium>(
                 answer(medium, meeting)?;
                 is_answered = true;
             }
-            medium.run(step, Part::All)?;
+            medium.run(step, Part::All).map_err(Into::into)?;
         }
         if end_sub_step(medium, &mut after)? {
             return Ok(());

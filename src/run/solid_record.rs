@@ -137,7 +137,7 @@ impl SolidRecord {
             conservation,
             ticker: Ticker::of(case),
             probes,
-            faces: WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.surface_edges()),
+            faces: WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges()),
             cells: CellCount::default(),
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
@@ -158,7 +158,7 @@ impl SolidRecord {
     pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
         self.cells.see(mesh.cells());
-        self.faces.update(mesh.generation(), || solver.surface_edges());
+        self.faces.update(mesh.generation(), || solver.interface_edges());
         self.write(solver, plan.dt)?;
         if plan.snapshot {
             self.snapshot(solver)?;
@@ -220,8 +220,8 @@ impl SolidRecord {
             ];
             if probe.on_interface && dt > 0.0 {
                 let r = probe.probe.position[1];
-                let velocity = self.faces.at(r, |k| solver.surface()[k].velocity);
-                let stress = self.faces.at(r, |k| -solver.surface()[k].pressure);
+                let velocity = self.faces.at(r, |k| solver.interface().states()[k].velocity);
+                let stress = self.faces.at(r, |k| -solver.interface().states()[k].pressure);
                 let clock = solver.clock();
                 let middle = clock.middle(solver.group_of_face(self.faces.nearest(r)));
                 [row[1], row[3]] = probe.star.at([velocity, stress], middle, time);

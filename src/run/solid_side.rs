@@ -18,7 +18,7 @@ use super::checkpoints::Keeper;
 use super::drive::Side;
 use super::fluid_side::Turn;
 use super::load::Load;
-use super::medium::{self, Medium, StepRule};
+use super::medium::{self, StepRule};
 use super::memory::MemoryWatch;
 use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
@@ -80,7 +80,7 @@ impl SolidSide {
             solver.watch(probe.position);
         }
         Self {
-            edges: solver.surface_edges(),
+            edges: solver.interface_edges(),
             load: case.coupling.load.as_ref().and_then(|load| Load::new(load, &solver)),
             solver,
             record,
@@ -171,8 +171,8 @@ impl SolidSide {
         link.receive(|frame| {
             frame.require(FrameKind::Register)?;
             frame.require_step(solver.time(), StepLength::Is(plan.dt))?;
-            let register = frame.register(solver.surface_faces())?;
-            solver.set_register(&register);
+            let register = frame.register(solver.interface().faces())?;
+            solver.interface_mut().set_rows(register.rows());
             Ok::<_, CouplerError>(())
         })??;
         let adapts = self.adapts(plan.dt);
@@ -187,7 +187,7 @@ impl SolidSide {
         let plan =
             if asked.dt <= limit * (1.0 + 1e-10) { asked } else { Plan { dt: limit, snapshot: false } };
         self.last_dt = plan.dt;
-        let faces = self.solver.surface_faces();
+        let faces = self.solver.interface().faces();
         let header =
             FrameHeader { count: faces as u64, ..self.header(FrameKind::Trace, TraceRow::COUNT, stop) };
         let (solver, edges, start) = (&self.solver, &self.edges, Instant::now());
@@ -281,8 +281,9 @@ impl SolidSide {
             return Ok(());
         }
         let start = Instant::now();
-        if self.solver.adapt(dt, self.steps_in(dt)) {
-            self.edges = self.solver.surface_edges();
+        let steps = self.steps_in(dt);
+        if self.solver.adapt(dt, steps) {
+            self.edges = self.solver.interface_edges();
         }
         let elapsed = start.elapsed();
         self.clock.computing += elapsed;

@@ -33,7 +33,9 @@ fn a_long_step_costs_one_trace_and_one_register() {
             rounds += 1;
             let round = sides.exchanged().since(&last);
             last = sides.exchanged();
-            faces = faces.max(sides.fluid.solver().wall_faces()).max(sides.solid.solver().surface_faces());
+            faces = faces
+                .max(sides.fluid.solver().interface().faces())
+                .max(sides.solid.solver().interface().faces());
             assert!(round.sent + round.received <= 3, "{sets:?}, round {rounds}: {round:?}");
         }
         // Over the whole run: where the longer steps change sides, a round has a trace of each.

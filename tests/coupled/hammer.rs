@@ -42,7 +42,7 @@ star = "{star}"
     for step in 0..140 {
         sides.round(|fluid, _| {
             if step > 60 {
-                walls.push([fluid.wall()[3].pressure, fluid.wall()[3].velocity]);
+                walls.push([fluid.interface().states()[3].pressure, fluid.interface().states()[3].velocity]);
             }
         });
     }

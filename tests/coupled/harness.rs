@@ -95,9 +95,9 @@ pub struct Pair {
 impl Pair {
     /// Of two solvers with the interface between them.
     pub fn of(fluid: Fluid, solid: Solid) -> Self {
-        let faces = fluid.wall_faces();
+        let faces = fluid.interface().faces();
         let mut trace = vec![0.0; TraceRow::COUNT * faces];
-        trace[..faces].copy_from_slice(&fluid.wall_edges());
+        trace[..faces].copy_from_slice(&fluid.interface_edges());
         Self {
             trace,
             register: vec![0.0; RegisterRow::COUNT * faces],
@@ -111,19 +111,19 @@ impl Pair {
     /// One step of `dt`.
     pub fn step(&mut self, dt: f64) {
         let Self { fluid, solid, meeting, star, trace, register } = self;
-        let faces = fluid.wall_faces();
+        let faces = fluid.interface().faces();
         fluid.write_trace(dt, |row, face, value| trace[row as usize * faces + face] = value);
         let domain = solid.mesh().domain();
         let axisymmetric = domain.geometry == Geometry::Axisymmetric;
-        let own = (solid.mesh().generation(), || solid.surface_edges());
+        let own = (solid.mesh().generation(), || solid.interface_edges());
         meeting.begin((&*trace, faces), solid.time(), own, domain.r[0], axisymmetric);
         let (rows, count) = meeting.own_trace();
         solid.write_trace(dt, |row, face, value| rows[row as usize * count + face] = value);
         let step = ShortStep { begin: solid.time(), dt };
         meeting.meet(Participant::Solid, step, *star, |_| true).expect("two states");
-        meeting.own_means(|face, state| solid.set_surface_face(face, state));
+        meeting.own_means(|face, state| solid.interface_mut().set(face, state.into()));
         meeting.write_register(register);
-        fluid.set_wall(&WallRegister::of(register, faces));
+        fluid.interface_mut().set_rows(WallRegister::of(register, faces).rows());
         solid.step(dt).expect("the solid's step");
         fluid.step(dt).expect("the fluid's step");
     }
@@ -175,7 +175,7 @@ fn exchange<L: Medium, S: Medium>(
     rules: [StepRule; 2],
     star: StarSolver,
 ) {
-    let edges = long.edges();
+    let edges = long.interface_edges();
     let faces = edges.len();
     let mut trace = vec![0.0; TraceRow::COUNT * faces];
     trace[..faces].copy_from_slice(&edges);
@@ -187,7 +187,7 @@ fn exchange<L: Medium, S: Medium>(
         .expect("the short steps");
     let mut register = vec![0.0; RegisterRow::COUNT * faces];
     meeting.write_register(&mut register);
-    long.set_register(&WallRegister::of(&register, faces));
+    long.interface_mut().set_rows(WallRegister::of(&register, faces).rows());
     medium::end_long(long, step, &rules[0], |_, _| Ok(())).expect("the long step's end");
 }
 

@@ -84,8 +84,8 @@ fn a_coupled_box_keeps_its_ledgers() {
         let [mut impulse, mut work] = [0.0, 0.0];
         let mut last = [0.0; 2];
         sides.run(|fluid, solid| {
-            faces[0].push(fluid.wall_faces());
-            faces[1].push(solid.surface_faces());
+            faces[0].push(fluid.interface().faces());
+            faces[1].push(solid.interface().faces());
             let ledger = fluid.ledger();
             impulse += (ledger.wall_impulse - last[0]).abs();
             work += (ledger.wall_work - last[1]).abs();

@@ -98,8 +98,8 @@ fn the_strong_scheme_ends_where_cell_values_of_the_new_time_agree() {
                 // under the pressure of the fluid's.
                 let velocity =
                     solid.cell(solid.mesh().blocks_along(mesh::Side::ZMax)[face / 16], 15, face % 16).v_z;
-                let moved = fluid.wall()[face].velocity;
-                let pressed = solid.surface()[face].pressure;
+                let moved = fluid.interface().states()[face].velocity;
+                let pressed = solid.interface().states()[face].pressure;
                 largest = [largest[0].max(velocity.abs()), largest[1].max((pressure - 1e5).abs())];
                 worst = [worst[0].max((moved - velocity).abs()), worst[1].max((pressed - pressure).abs())];
             }

@@ -114,6 +114,11 @@ pub struct WallRegister<'a> {
 }
 
 impl<'a> WallRegister<'a> {
+    /// Its rows: p*, v*, p*v*.
+    pub fn rows(&self) -> [&'a [f64]; 3] {
+        [self.pressure, self.velocity, self.power]
+    }
+
     /// From the payload of a register frame.
     pub fn of(payload: &'a [f64], count: usize) -> Self {
         Self {

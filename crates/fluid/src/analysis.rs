@@ -18,12 +18,12 @@ pub struct Scales {
 
 /// The fluid's part in multiresolution analysis.
 #[derive(Clone, Debug)]
-pub(crate) struct Analysis {
-    pub mixture: Mixture,
-    pub boundaries: [Boundary; 4],
-    pub scales: Scales,
+pub struct Analysis {
+    pub(crate) mixture: Mixture,
+    pub(crate) boundaries: [Boundary; 4],
+    pub(crate) scales: Scales,
     /// Whether the gas has a mass of its own, [`GAS`].
-    pub has_phases: bool,
+    pub(crate) has_phases: bool,
 }
 
 /// A gas fraction may leave [0, 1] by this much in prediction; more is limited. Traces of gas that advection left

@@ -1,97 +1,47 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
-use mesh::{AlignedRow, Field, Limiter, Mesh, Padded, Patch, Side, limited_differences};
+use mesh::{AlignedRow, Padded, Patch, Side, limited_differences};
 
-use crate::analysis::Analysis;
-use crate::boundary::{Boundaries, WallState};
+use crate::RiemannSolver;
+use crate::boundary::Boundaries;
 use crate::clips::{Clips, CountedAnalysis};
 use crate::curvature::AlongFaces;
 use crate::even::{even_slopes, predict_beside_mirrors};
 use crate::exact_rows::exact_faces;
 use crate::face_rows::FaceRows;
-use crate::far_field::{Moment, SideImpulses, SourceHistory};
 use crate::five_equation::{GasBlock, GasScratch, may_have_gas};
-use crate::options::TwoPhaseOptions;
+use crate::model::FluidStep;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
 use crate::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};
 use crate::rows::{self, Reconstruction};
 use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::update::{Extremes, Metric, update};
-use crate::{Boundary, Mixture, RiemannSolver};
-
-/// Cells that fall back to first order in a step, block by block.
-pub(crate) type Marks = std::collections::BTreeMap<usize, Vec<usize>>;
-
-/// What all blocks of a step share.
-pub(crate) struct StepContext<'a, const N: usize> {
-    pub mesh: &'a Mesh<N>,
-    pub mixture: &'a Mixture,
-    pub analysis: &'a Analysis,
-    pub limiter: Limiter,
-    pub riemann: RiemannSolver,
-    /// What the five-equation model does in mixed cells; `None` for the paper's mixture.
-    pub two_phase: Option<TwoPhaseOptions>,
-    /// Whether a block has gas in it.
-    pub has_gas: &'a [bool],
-    /// Cells that fall back to first order in this step.
-    pub marks: &'a Marks,
-    pub boundaries: &'a Boundaries,
-    /// What the far field remembers along the open sides.
-    pub impulses: &'a SideImpulses,
-    /// What the bubbles have done lately.
-    pub sources: &'a SourceHistory,
-    /// The state at the beginning of the step.
-    pub old: &'a Field,
-    /// Time at the beginning of the step, s.
-    pub time: f64,
-    pub dt: f64,
-    /// The faces of the wall to the solid in the order of r, and each block's first one.
-    pub wall: &'a [WallState],
-    pub wall_first: &'a [usize],
-}
-
-impl<const N: usize> StepContext<'_, N> {
-    /// The middle of the step, s.
-    pub fn middle(&self) -> f64 {
-        self.time + 0.5 * self.dt
-    }
-
-    /// The step as the far field sees it.
-    pub fn moment(&self) -> Moment<'_> {
-        Moment { middle: self.middle(), dt: self.dt, history: self.sources }
-    }
-
-    /// The limiter of the gas fraction's slopes.
-    fn fraction_limiter(&self) -> Limiter {
-        self.two_phase.map_or(self.limiter, |options| options.fraction_limiter(self.limiter))
-    }
-}
 
 /// Scratch of one thread.
-pub(crate) struct BlockScratch<const N: usize> {
-    pub cells: Padded<N>,
-    pub patch: Patch<N>,
-    pub s_z: Padded<N>,
-    pub s_r: Padded<N>,
-    pub half: Padded<N>,
-    pub keep: AlignedRow,
+pub struct BlockScratch<const N: usize> {
+    pub(crate) cells: Padded<N>,
+    pub(crate) patch: Patch<N>,
+    pub(crate) s_z: Padded<N>,
+    pub(crate) s_r: Padded<N>,
+    pub(crate) half: Padded<N>,
+    pub(crate) keep: AlignedRow,
     /// Sound speeds at the beginning of the step.
     sound: AlignedRow,
-    pub inverse_r: Vec<f64>,
+    pub(crate) inverse_r: Vec<f64>,
     z_faces: FaceRows,
     r_faces: FaceRows,
     speeds: Padded<N>,
     face_weight: Vec<f64>,
     inverse_weight: Vec<f64>,
-    pub gas: GasScratch,
+    pub(crate) gas: GasScratch,
     /// Whether the rows of the gas fraction may hold anything but zeros.
     has_gas: bool,
 }
 
 impl<const N: usize> BlockScratch<N> {
     /// For fields of so many components.
-    pub fn new(components: usize) -> Self {
+    pub(crate) fn new(components: usize) -> Self {
         let len = Padded::<N>::LEN;
         Self {
             cells: Padded::zeros(components),
@@ -130,7 +80,7 @@ impl<const N: usize> BlockScratch<N> {
 /// - `with_gas`: whether the gas is looked at; else there is none, neither in the block nor in its neighbours.
 /// - returns: how many predictions of ghosts were limited.
 fn assemble<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     slot: usize,
     with_gas: bool,
     scratch: &mut BlockScratch<N>,
@@ -141,11 +91,11 @@ fn assemble<const N: usize>(
     scratch.has_gas = with_gas;
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
     let components = if with_gas { ctx.old.components() } else { PHI };
-    let analysis = CountedAnalysis::new(ctx.analysis);
+    let analysis = CountedAnalysis::new(&ctx.model.analysis);
     cells.assemble_first(components, ctx.mesh, ctx.old, slot, &analysis, patch);
     debug_assert!(with_gas || cells.component(PHI).iter().all(|phi| *phi == 0.0), "neighbours have no gas");
-    rows::to_primitive(cells.split_mut(), with_gas, ctx.mixture);
-    ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    rows::to_primitive(cells.split_mut(), with_gas, &ctx.model.mixture);
+    ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     let id = ctx.mesh.tree().leaves()[slot];
     ctx.mesh.inverse_radii(id, inverse_r);
     analysis.limited()
@@ -154,7 +104,7 @@ fn assemble<const N: usize>(
 /// Assembles a block with its ghosts and reconstructs it: primitive variables in `cells`, limited
 /// differences in `s_z`, `s_r`. A step makes the differences together with the state at mid-step instead.
 pub(crate) fn reconstruct<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
@@ -162,7 +112,7 @@ pub(crate) fn reconstruct<const N: usize>(
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     for component in 0..COUNT {
         limited_differences(
-            if component == PHI { ctx.fraction_limiter() } else { ctx.limiter },
+            if component == PHI { ctx.model.scheme.fraction_limiter() } else { ctx.model.scheme.limiter },
             cells.component(component),
             Padded::<N>::STRIDE,
             s_z.component_mut(component),
@@ -174,7 +124,7 @@ pub(crate) fn reconstruct<const N: usize>(
 
 /// Advances one block by one step from `ctx.old` into `new`; `fluxes` is its part of the flux register.
 pub(crate) fn step_block<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     slot: usize,
     new: &mut [f64],
     fluxes: &mut [f64],
@@ -188,24 +138,24 @@ pub(crate) fn step_block<const N: usize>(
     let may_have_gas = may_have_gas(ctx, slot);
     let limited_predictions = assemble(ctx, slot, may_have_gas, scratch);
     let gas_block = if may_have_gas { GasBlock::of(ctx, slot, &scratch.cells) } else { None };
-    let with_gas = ctx.two_phase.is_none() || gas_block.is_some();
+    let with_gas = ctx.model.scheme.two_phase.is_none() || gas_block.is_some();
     if !with_gas {
         scratch.without_gas();
     }
     let predictor = Predictor {
-        limiter: ctx.limiter,
-        fraction_limiter: ctx.fraction_limiter(),
+        limiter: ctx.model.scheme.limiter,
+        fraction_limiter: ctx.model.scheme.fraction_limiter(),
         stride,
         inverse_h,
         inverse_r: &scratch.inverse_r,
         half_dt: 0.5 * ctx.dt,
         with_gas,
-        with_mixed: ctx.two_phase.is_none(),
+        with_mixed: ctx.model.scheme.two_phase.is_none(),
     };
     predict(
         scratch.cells.split(),
         predictor,
-        ctx.mixture,
+        &ctx.model.mixture,
         scratch.s_z.split_mut(),
         scratch.s_r.split_mut(),
         scratch.half.split_mut(),
@@ -215,7 +165,7 @@ pub(crate) fn step_block<const N: usize>(
     even_slopes(ctx, slot, scratch);
     predict_beside_mirrors(ctx, slot, inverse_h, scratch);
     let slopes = [&scratch.s_z, &scratch.s_r];
-    ctx.boundaries.impose_outer(ctx, slot, slopes, &mut scratch.half, &mut scratch.keep);
+    ctx.model.boundaries.impose_outer(ctx, slot, slopes, &mut scratch.half, &mut scratch.keep);
 
     if !ctx.marks.is_empty() {
         at_first_order(ctx, slot, scratch);
@@ -233,25 +183,18 @@ pub(crate) fn step_block<const N: usize>(
         keep: &scratch.keep,
         sound: &scratch.sound,
         with_gas,
-        curvature: ctx.curvature(id.level, 0),
+        curvature: ctx.model.curvature(ctx.mesh, ctx.dt, id.level, 0),
         along_faces: AlongFaces::new([1, 3].map(|c| scratch.s_r.component(c)), stride),
     };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
-    let has_wall =
-        ctx.boundaries.kind(Side::ZMin) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMin);
-    let replaced = if has_wall { Some(mesh::GHOSTS - 1) } else { None };
+    let wall = ctx.interface.states_of::<N>(slot);
+    let replaced = wall.map(|_| mesh::GHOSTS - 1);
     let mut clipped_roots = faces(ctx, &along_z, 1, z_range, replaced, &mut scratch.z_faces);
     if let Some(block) = &gas_block {
         block.solve_faces(0, &along_z, &scratch.inverse_r, &mut scratch.gas, &mut scratch.z_faces);
     }
-    if has_wall {
-        let first = ctx.wall_first[slot];
-        Boundaries::impose_wall::<N>(
-            &ctx.wall[first..first + N],
-            &along_z,
-            ctx.mixture,
-            &mut scratch.z_faces,
-        );
+    if let Some(wall) = wall {
+        Boundaries::impose_wall::<N>(wall, &along_z, &ctx.model.mixture, &mut scratch.z_faces);
     }
 
     let [d_rho, d_v_z, d_v_r, d_p, d_phi] = scratch.s_r.split::<COUNT>();
@@ -261,7 +204,7 @@ pub(crate) fn step_block<const N: usize>(
         keep: &scratch.keep,
         sound: &scratch.sound,
         with_gas,
-        curvature: ctx.curvature(id.level, 1),
+        curvature: ctx.model.curvature(ctx.mesh, ctx.dt, id.level, 1),
         along_faces: AlongFaces::new([2, 3].map(|c| scratch.s_z.component(c)), 1),
     };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
@@ -297,7 +240,7 @@ pub(crate) fn step_block<const N: usize>(
         ctx.dt,
         &metric,
         with_gas,
-        ctx.mixture,
+        &ctx.model.mixture,
         split_block::<N>(new),
         [speed_z, speed_r, floor],
     );
@@ -342,7 +285,7 @@ pub(crate) fn step_block<const N: usize>(
 }
 
 /// Takes the marked cells' means for the states on their faces.
-fn at_first_order<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+fn at_first_order<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
     let BlockScratch { cells, half, keep, gas, .. } = scratch;
     for k in gas.mark(ctx.mesh, slot, ctx.marks) {
         keep[k] = 0.0;
@@ -363,17 +306,17 @@ pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COU
 /// - `replaced`: the column of padded cells whose upper faces get other fluxes.
 /// - returns: at how many of the faces that count HLLC's sound speed was bounded.
 fn faces<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     cells: &Reconstruction<'_>,
     step: usize,
     range: std::ops::Range<usize>,
     replaced: Option<usize>,
     faces: &mut FaceRows,
 ) -> u64 {
-    match ctx.riemann {
+    match ctx.model.scheme.riemann {
         RiemannSolver::Hllc => {
             let has_all =
-                rows::hllc_faces(cells, step, Padded::<N>::STRIDE, range.clone(), ctx.mixture, faces);
+                rows::hllc_faces(cells, step, Padded::<N>::STRIDE, range.clone(), &ctx.model.mixture, faces);
             if has_all {
                 return 0;
             }
@@ -384,11 +327,12 @@ fn faces<const N: usize>(
                     && replaced != Some(*k % Padded::<N>::STRIDE)
                     && !(is_own(*k) || is_own(*k + step))
             };
-            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, ctx.mixture)).count() as u64
+            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, &ctx.model.mixture)).count()
+                as u64
         }
         RiemannSolver::Exact => {
             let stride = Padded::<N>::STRIDE;
-            exact_faces(cells, step, stride, range, used_face::<N>, ctx.mixture, faces);
+            exact_faces(cells, step, stride, range, used_face::<N>, &ctx.model.mixture, faces);
             0
         }
     }

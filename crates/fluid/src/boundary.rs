@@ -1,12 +1,11 @@
 //! What bounds the fluid: ghost cells before the slopes, outer states and wall fluxes after them.
 
-use mesh::{Domain, Mesh, Padded, Side, SideStates};
-use serde::{Deserialize, Serialize};
+use mesh::{Domain, FaceState, Mesh, Padded, Side, SideStates};
 
-use crate::block::StepContext;
 use crate::face_rows::FaceRows;
 use crate::far_field::{FarField, Inner, SideImpulses, SourceHistory, face_centre};
 use crate::hllc::Face;
+use crate::model::FluidStep;
 use crate::rows::Reconstruction;
 use crate::{Boundary, Mixture, Primitive, TRACE_GAS};
 
@@ -44,17 +43,6 @@ pub(crate) struct Boundaries {
     far_field: Option<FarField>,
     /// The open sides that have gas beyond them.
     has_gas_beyond: [bool; 4],
-}
-
-/// The state of the wall during a step: means over it of p*, v* and p*v*.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct WallState {
-    /// Mean pressure, Pa.
-    pub pressure: f64,
-    /// Mean velocity along +z, m/s.
-    pub velocity: f64,
-    /// Mean of their product, W/m².
-    pub power: f64,
 }
 
 impl Boundaries {
@@ -138,13 +126,13 @@ impl Boundaries {
     /// - `slopes`: differences across the cells along z and r.
     pub fn impose_outer<const N: usize>(
         &self,
-        ctx: &StepContext<'_, N>,
+        ctx: &FluidStep<'_, N>,
         slot: usize,
         slopes: [&Padded<N>; 2],
         half: &mut Padded<N>,
         keep: &mut [f64],
     ) {
-        let (mesh, mixture) = (ctx.mesh, ctx.mixture);
+        let (mesh, mixture) = (ctx.mesh, &ctx.model.mixture);
         let id = mesh.tree().leaves()[slot];
         for side in Side::ALL {
             let inflow = match self.kind(side) {
@@ -205,7 +193,7 @@ impl Boundaries {
     ///
     /// - `wall`: the states of the wall's faces, in the order of r; `first`: the block's first one.
     pub fn impose_wall<const N: usize>(
-        wall: &[WallState],
+        wall: &[FaceState],
         cells: &Reconstruction<'_>,
         mixture: &Mixture,
         faces: &mut FaceRows,
@@ -218,7 +206,7 @@ impl Boundaries {
 }
 
 /// The flux through a wall that moves with `wall.velocity`, see [`Boundaries::impose_wall`].
-fn wall_face(trace: [f64; 5], wall: WallState, mixture: &Mixture) -> Face {
+fn wall_face(trace: [f64; 5], wall: FaceState, mixture: &Mixture) -> Face {
     let [density, v_n, v_t, pressure, phi] = trace;
     // As in the trace that the other side got: on the wall the reconstruction may leave the unit interval.
     let phi = phi.clamp(0.0, 1.0);
@@ -245,21 +233,21 @@ fn wall_face(trace: [f64; 5], wall: WallState, mixture: &Mixture) -> Face {
 ///   at t = 0, from where the liquid's isentrope leads to its density.
 fn far_state<const N: usize>(
     far_field: &FarField,
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     (side, level, along): (Side, u8, usize),
     trace: Primitive,
     initial: Primitive,
 ) -> Option<Primitive> {
-    let mixture = ctx.mixture;
+    let mixture = &ctx.model.mixture;
     let is_liquid = |state: &Primitive| state.phi.abs() <= TRACE_GAS;
     let is_state = trace.density > 0.0 && trace.pressure > mixture.pressure_floor(0.0);
     if !(is_liquid(&trace) && is_liquid(&initial) && is_state) {
         return None;
     }
-    let impulse = ctx.impulses.at(side, level, along);
+    let impulse = ctx.model.impulses.at(side, level, along);
     let inner = Inner([trace.density, trace.v_z, trace.v_r, trace.pressure]);
     let centre = face_centre(ctx.mesh, side, level, along);
-    let outer = far_field.outer(side, centre, inner, mixture, ctx.moment(), impulse);
+    let outer = far_field.outer(side, centre, inner, mixture, ctx.model.moment(ctx), impulse);
     let pressure = outer.pressure.max(mixture.pressure_floor(0.0));
     let density = mixture.liquid.isentropic_density(initial.density, initial.pressure, pressure);
     let velocity = if matches!(side, Side::ZMin | Side::RMin) { -outer.velocity } else { outer.velocity };
@@ -339,11 +327,11 @@ mod tests {
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let trace = [1000.0, 0.0, 3.0, 5e7, 0.0];
-        let rest = wall_face(trace, WallState { pressure: 5e7, velocity: 0.0, power: 0.0 }, &mixture);
+        let rest = wall_face(trace, FaceState { pressure: 5e7, velocity: 0.0, power: 0.0 }, &mixture);
         assert_eq!((rest.mass, rest.pressure, rest.energy, rest.shear), (0.0, 5e7, 0.0, 0.0));
         // A wall that moves with the fluid at its pressure passes the fluid's own flux.
         let trace = [1000.0, 2.0, 3.0, 5e7, 0.0];
-        let moving = wall_face(trace, WallState { pressure: 5e7, velocity: 2.0, power: 1e8 }, &mixture);
+        let moving = wall_face(trace, FaceState { pressure: 5e7, velocity: 2.0, power: 1e8 }, &mixture);
         let own = crate::hllc::flux_hllc(trace, trace, &mixture);
         approx::assert_relative_eq!(moving.mass, own.mass, max_relative = 1e-14);
         approx::assert_relative_eq!(moving.energy, own.energy, max_relative = 1e-14);

@@ -1,8 +1,9 @@
 //! The gas as a whole, and bubbles told apart along the axis.
 
-use mesh::Geometry;
+use mesh::{BlockSolver, Geometry};
 use serde::{Deserialize, Serialize};
 
+use crate::model::Fluid;
 use crate::state::conserved::{GAS, PHI};
 use crate::{Bubble, FluidSolver, InitialCondition, Phase, Shape};
 
@@ -65,23 +66,23 @@ impl BubbleCuts {
     }
 
     /// Follows the gaps to where they are now; to be called after every step.
-    pub fn follow<const N: usize>(&mut self, fluid: &FluidSolver<N>) {
+    pub fn follow<const N: usize>(&mut self, fluid: &BlockSolver<Fluid, N>) {
         if self.cuts.is_empty() {
             return;
         }
         // For each plane where the gas below it ends and the gas above it begins, and whether gas lies across.
         let mut gaps = vec![(f64::NEG_INFINITY, f64::INFINITY, false); self.cuts.len()];
-        for (slot, id) in fluid.mesh.tree().leaves().iter().enumerate() {
-            if fluid.largest_phi(slot) < OF_A_BUBBLE {
+        for (slot, id) in fluid.mesh().tree().leaves().iter().enumerate() {
+            if fluid.reports().finished[slot].extremes.phi < OF_A_BUBBLE {
                 continue;
             }
-            let half = 0.5 * fluid.mesh.widths(id.level)[0];
-            let phi = fluid.state.component(slot, PHI);
+            let half = 0.5 * fluid.mesh().widths(id.level)[0];
+            let phi = fluid.state().component(slot, PHI);
             for i in 0..N {
                 if !(0..N).any(|j| phi[j * N + i] >= OF_A_BUBBLE) {
                     continue;
                 }
-                let z = fluid.mesh.centre(*id, i, 0)[0];
+                let z = fluid.mesh().centre(*id, i, 0)[0];
                 let (low, high, bubble) = (z - half, z + half, self.bubble_at(z));
                 if let Some(above) = gaps.get_mut(bubble) {
                     let cut = self.cuts[bubble];
@@ -131,45 +132,61 @@ impl Sums {
 impl<const N: usize> FluidSolver<N> {
     /// The gas as a whole.
     pub fn bubble(&self) -> Bubble {
-        self.gas_sums(&BubbleCuts::default())[0].bubble(self.mesh.domain().geometry)
+        bubbles(self, &BubbleCuts::default())[0]
     }
 
     /// The bubbles that `cuts` tell apart, the lowest first. Their volumes and masses add up to those of the whole.
     pub fn bubbles(&self, cuts: &BubbleCuts) -> Vec<Bubble> {
-        let geometry = self.mesh.domain().geometry;
-        self.gas_sums(cuts).into_iter().map(|sums| sums.bubble(geometry)).collect()
+        bubbles(self, cuts)
     }
+}
 
-    fn gas_sums(&self, cuts: &BubbleCuts) -> Vec<Sums> {
-        let mut all = vec![Sums::default(); cuts.bubbles()];
-        let has_masses = self.two_phase.is_some();
-        if !has_masses {
-            all.iter_mut().for_each(|sums| sums.gas_mass = f64::NAN);
+fn bubbles<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> Vec<Bubble> {
+    let geometry = fluid.mesh().domain().geometry;
+    gas_sums(fluid, cuts).into_iter().map(|sums| sums.bubble(geometry)).collect()
+}
+
+/// Tells the far field what the bubbles do; between two steps of the whole.
+pub(crate) fn follow_sources<const N: usize>(fluid: &mut BlockSolver<Fluid, N>) {
+    if !fluid.model().sources.is_due(fluid.time()) {
+        return;
+    }
+    let mut sources = std::mem::take(&mut fluid.model_mut().sources);
+    sources.cuts.follow(fluid);
+    sources.sample(fluid.time(), &bubbles(fluid, &sources.cuts));
+    fluid.model_mut().sources = sources;
+}
+
+fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> Vec<Sums> {
+    let (mesh, state, model) = (fluid.mesh(), fluid.state(), fluid.model());
+    let mut all = vec![Sums::default(); cuts.bubbles()];
+    let has_masses = model.scheme.two_phase.is_some();
+    if !has_masses {
+        all.iter_mut().for_each(|sums| sums.gas_mass = f64::NAN);
+    }
+    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+        if fluid.reports().finished[slot].extremes.phi <= 0.0 && !model.has_gas[slot] {
+            continue;
         }
-        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
-            if self.largest_phi(slot) <= 0.0 && !self.has_gas[slot] {
-                continue;
-            }
-            for (j, row) in self.state.component(slot, PHI).chunks_exact(N).enumerate() {
-                let cell = self.mesh.volume(*id, j);
-                for (i, phi) in row.iter().enumerate() {
-                    let z = self.mesh.centre(*id, i, j)[0];
-                    let sums = &mut all[cuts.bubble_at(z)];
-                    if *phi > TRACE_GAS {
-                        sums.volume += phi * cell;
-                        sums.thin += if *phi < THIN_GAS { phi * cell } else { 0.0 };
-                        sums.moment += phi * cell * z;
-                    } else {
-                        sums.trace += phi.max(0.0) * cell;
-                    }
-                    if has_masses {
-                        sums.gas_mass += self.state.component(slot, GAS)[j * N + i] * cell;
-                    }
+        for (j, row) in state.component(slot, PHI).chunks_exact(N).enumerate() {
+            let cell = mesh.volume(*id, j);
+            for (i, phi) in row.iter().enumerate() {
+                let z = mesh.centre(*id, i, j)[0];
+                let sums = &mut all[cuts.bubble_at(z)];
+                if *phi > TRACE_GAS {
+                    sums.volume += phi * cell;
+                    sums.thin += if *phi < THIN_GAS { phi * cell } else { 0.0 };
+                    sums.moment += phi * cell * z;
+                } else {
+                    sums.trace += phi.max(0.0) * cell;
+                }
+                if has_masses {
+                    sums.gas_mass += state.component(slot, GAS)[j * N + i] * cell;
                 }
             }
         }
-        all
     }
+    all
 }
 
 #[cfg(test)]
@@ -243,7 +260,7 @@ mod tests {
                 assert!((bubble.equivalent_radius / radius - 1.0).abs() < 1e-3, "{bubble:?}");
             }
             while fluid.time() < 7e-3 {
-                fluid.step(fluid.time_step_limit(0.45)).expect("a step");
+                fluid.step_at(0.45).expect("a step");
                 cuts.follow(&fluid);
             }
             let way = velocity * fluid.time();

@@ -1,9 +1,9 @@
 //! What second order leaves out at the faces of weak waves in liquid, see [`mesh::curvature_share`] and
 //! [`mesh::oblique_shares`].
 
-use mesh::{curvature_share, oblique_shares};
+use mesh::{Mesh, curvature_share, oblique_shares};
 
-use crate::block::StepContext;
+use crate::model::Fluid;
 use crate::rows::{Reconstruction, fraction};
 
 /// What face states of weak waves in liquid get besides.
@@ -107,12 +107,18 @@ impl Shares {
     }
 }
 
-impl<const N: usize> StepContext<'_, N> {
-    /// For the faces normal to an axis (0: z, 1: r) of a block of a level.
-    pub fn curvature(&self, level: u8, axis: usize) -> Curvature {
-        let widths = self.mesh.widths(level);
+impl Fluid {
+    /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.
+    pub(crate) fn curvature<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        dt: f64,
+        level: u8,
+        axis: usize,
+    ) -> Curvature {
+        let widths = mesh.widths(level);
         Curvature {
-            per_speed: self.dt / widths[axis],
+            per_speed: dt / widths[axis],
             aspect: widths[axis] / widths[1 - axis],
             liquid_pi: self.mixture.at(0.0).pi,
         }

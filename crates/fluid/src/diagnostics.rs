@@ -3,7 +3,7 @@
 use mesh::{Field, GHOSTS, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
-use crate::block::{BlockScratch, StepContext, reconstruct};
+use crate::block::{BlockScratch, reconstruct};
 use crate::state::conserved::{COUNT, ENERGY, MOMENTUM_Z, PHI, RHO};
 use crate::{FluidSolver, Primitive};
 
@@ -74,27 +74,27 @@ pub struct Snapshot {
 impl<const N: usize> FluidSolver<N> {
     /// The primitive variables of one cell.
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> Primitive {
-        self.cell_of(&self.state, slot, i, j)
+        self.cell_of(self.state(), slot, i, j)
     }
 
     /// [`FluidSolver::cell`] of a field.
     pub(crate) fn cell_of(&self, field: &Field, slot: usize, i: usize, j: usize) -> Primitive {
         let u: [f64; COUNT] = std::array::from_fn(|c| field.component(slot, c)[j * N + i]);
-        Primitive::from_conserved(u, &self.mixture)
+        Primitive::from_conserved(u, &self.model().mixture)
     }
 
     /// What happens on the axis.
     pub fn axis(&self) -> AxisState {
         let mut state = AxisState { jet_tip_z: f64::NAN, jet_velocity: f64::NAN };
         let mut before: Option<(f64, f64)> = None;
-        for &slot in &self.axis_blocks {
-            let id = self.mesh.tree().leaves()[slot];
+        for &slot in &self.model().axis_blocks {
+            let id = self.mesh().tree().leaves()[slot];
             for i in 0..N {
-                let z = self.mesh.centre(id, i, 0)[0];
+                let z = self.mesh().centre(id, i, 0)[0];
                 let (rho, momentum, phi) = (
-                    self.state.component(slot, RHO)[i],
-                    self.state.component(slot, MOMENTUM_Z)[i],
-                    self.state.component(slot, PHI)[i],
+                    self.state().component(slot, RHO)[i],
+                    self.state().component(slot, MOMENTUM_Z)[i],
+                    self.state().component(slot, PHI)[i],
                 );
                 if phi < 0.5 {
                     state.jet_velocity = state.jet_velocity.max(-momentum / rho);
@@ -113,7 +113,7 @@ impl<const N: usize> FluidSolver<N> {
     /// Cell means of the pressure along z_min.
     pub fn wall_pressures(&self) -> WallPressures {
         let mut pressures = WallPressures { axis: f64::NAN, anywhere: f64::NEG_INFINITY };
-        for (first, &slot) in self.wall_blocks.iter().enumerate() {
+        for (first, &slot) in self.interface().blocks().iter().enumerate() {
             for j in 0..N {
                 let pressure = self.cell(slot, 0, j).pressure;
                 if first + j == 0 {
@@ -125,15 +125,23 @@ impl<const N: usize> FluidSolver<N> {
         pressures
     }
 
+    /// Mean pressure of its level's present or last step on each face of z_min, in the order of r, Pa.
+    pub fn wall_face_pressures(&self, pressures: &mut Vec<f64>) {
+        pressures.clear();
+        for slot in self.interface().blocks() {
+            pressures.extend_from_slice(&self.reports().pending[*slot].wall_pressure);
+        }
+    }
+
     /// Mass, axial momentum and energy in the domain, added up row by row and block by block.
     pub fn totals(&self) -> Totals {
         let mut totals = Totals::default();
-        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
             let mut block = [0.0; 3];
             for j in 0..N {
-                let volume = self.mesh.volume(*id, j);
+                let volume = self.mesh().volume(*id, j);
                 for (sum, component) in block.iter_mut().zip([RHO, MOMENTUM_Z, ENERGY]) {
-                    let row = &self.state.component(slot, component)[j * N..(j + 1) * N];
+                    let row = &self.state().component(slot, component)[j * N..(j + 1) * N];
                     *sum += volume * row.iter().sum::<f64>();
                 }
             }
@@ -146,11 +154,11 @@ impl<const N: usize> FluidSolver<N> {
 
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
     pub fn sample(&self, point: [f64; 2]) -> Option<Primitive> {
-        let (slot, i, j) = self.mesh.locate(point)?;
-        let id = self.mesh.tree().leaves()[slot];
-        let (centre, widths) = (self.mesh.centre(id, i, j), self.mesh.widths(id.level));
+        let (slot, i, j) = self.mesh().locate(point)?;
+        let id = self.mesh().tree().leaves()[slot];
+        let (centre, widths) = (self.mesh().centre(id, i, j), self.mesh().widths(id.level));
         let (a, b) = ((point[0] - centre[0]) / widths[0], (point[1] - centre[1]) / widths[1]);
-        Some(self.scratch.with(|scratch| {
+        Some(self.with_scratch(|scratch| {
             reconstruct(&self.context(0.0), slot, scratch);
             let k = Padded::<N>::index(i as isize, j as isize);
             let BlockScratch { cells, s_z, s_r, .. } = scratch;
@@ -163,9 +171,9 @@ impl<const N: usize> FluidSolver<N> {
     /// All fields, cell by cell.
     pub fn snapshot(&self) -> Snapshot {
         let mut snapshot = Snapshot::default();
-        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
-            let [h_z, h_r] = self.mesh.widths(id.level);
-            self.scratch.with(|scratch| {
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
+            let [h_z, h_r] = self.mesh().widths(id.level);
+            self.with_scratch(|scratch| {
                 reconstruct(&self.context(0.0), slot, scratch);
                 let BlockScratch { cells, s_z, s_r, .. } = scratch;
                 limited_differences(
@@ -190,27 +198,5 @@ impl<const N: usize> FluidSolver<N> {
             });
         }
         snapshot
-    }
-
-    /// The context of a step of length `dt` from the present state; of no length, to look at that.
-    pub(crate) fn context(&self, dt: f64) -> StepContext<'_, N> {
-        StepContext {
-            mesh: &self.mesh,
-            mixture: &self.mixture,
-            analysis: &self.analysis,
-            limiter: self.limiter,
-            riemann: self.riemann,
-            two_phase: self.two_phase,
-            has_gas: &self.has_gas,
-            marks: &self.marks,
-            boundaries: &self.boundaries,
-            impulses: &self.impulses,
-            sources: &self.sources,
-            old: &self.state,
-            time: self.time,
-            dt,
-            wall: &self.wall,
-            wall_first: &self.wall_first,
-        }
     }
 }

@@ -3,8 +3,9 @@
 use mesh::{Padded, Side};
 
 use crate::Boundary;
-use crate::block::{BlockScratch, StepContext};
+use crate::block::BlockScratch;
 use crate::boundary::{beside, normal};
+use crate::model::FluidStep;
 use crate::rows::half_step;
 use crate::state::conserved::{PHI, RHO};
 
@@ -24,7 +25,7 @@ const ONE_PHASE: f64 = 1e-6;
 /// - `scratch`: its slopes have been made with mirror images for ghosts; where the next cell holds another phase they stay.
 /// - tested by: the height of a spherical pulse that a wall throws back.
 pub(crate) fn even_slopes<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
@@ -52,7 +53,7 @@ pub(crate) fn even_slopes<const N: usize>(
 ///
 /// - `inverse_h`: 1/h_z, 1/h_r.
 pub(crate) fn predict_beside_mirrors<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     slot: usize,
     inverse_h: [f64; 2],
     scratch: &mut BlockScratch<N>,
@@ -62,7 +63,8 @@ pub(crate) fn predict_beside_mirrors<const N: usize>(
         for [k, _] in along_mirror::<N>(side) {
             let of = |rows: &Padded<N>| [0, 1, 2, 3, 4].map(|c| rows.component(c)[k]);
             let (w, s_z, s_r) = (of(cells), of(s_z), of(s_r));
-            let (state, kept) = half_step(w, s_z, s_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, ctx.mixture);
+            let (state, kept) =
+                half_step(w, s_z, s_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, &ctx.model.mixture);
             for (component, value) in state.into_iter().enumerate() {
                 half.component_mut(component)[k] = value;
             }
@@ -77,9 +79,10 @@ fn along_mirror<const N: usize>(side: Side) -> impl Iterator<Item = [usize; 2]> 
 }
 
 /// The sides of a block that are walls at rest or the axis.
-fn mirrors<const N: usize>(ctx: &StepContext<'_, N>, slot: usize) -> impl Iterator<Item = Side> {
+fn mirrors<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> impl Iterator<Item = Side> {
     let is_mirror = move |side: &Side| {
-        ctx.mesh.touches(slot, *side) && matches!(ctx.boundaries.kind(*side), Boundary::Wall | Boundary::Axis)
+        ctx.mesh.touches(slot, *side)
+            && matches!(ctx.model.boundaries.kind(*side), Boundary::Wall | Boundary::Axis)
     };
     Side::ALL.into_iter().filter(is_mirror)
 }

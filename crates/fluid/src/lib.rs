@@ -5,7 +5,6 @@
 
 #![forbid(unsafe_code)]
 
-mod adapt;
 mod analysis;
 mod block;
 mod boundary;
@@ -26,7 +25,9 @@ mod five_equation;
 mod godunov;
 mod hllc;
 mod initial;
+mod initial_mesh;
 mod mixture;
+mod model;
 mod options;
 mod participant;
 mod predictor;
@@ -34,15 +35,13 @@ mod rayleigh;
 mod reflux;
 mod report;
 mod rows;
-mod saved;
 mod solver;
 mod state;
-mod steps;
 mod update;
 mod wall_trace;
 
 pub use analysis::Scales;
-pub use boundary::{PressureHistory, WallState};
+pub use boundary::PressureHistory;
 pub use bubbles::{BubbleCuts, TRACE_GAS};
 pub use clips::Clips;
 pub use diagnostics::{AxisState, Bubble, Snapshot, Totals, WallPressures};
@@ -52,8 +51,8 @@ pub use far_field::{FarField, FarFieldError};
 pub use hllc::{Face, flux_hllc};
 pub use initial::{InitialCondition, InitialPressure, Phase, PhaseState, Pulse, PulseShape, Region, Shape};
 pub use mixture::Mixture;
+pub use model::Fluid;
 pub use options::{Boundary, Model, RiemannSolver, Sharpening};
 pub use rayleigh::{RayleighError, RayleighField};
-pub use saved::FluidState;
-pub use solver::{BoundaryLedger, Fixups, FluidSetup, FluidSolver};
+pub use solver::{BoundaryLedger, Fixups, FluidSetup, FluidSolver, FluidState};
 pub use state::Primitive;

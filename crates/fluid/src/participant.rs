@@ -1,31 +1,16 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
-use coupler::{FluidTrace, TraceRow, WallRegister};
+use coupler::{FluidTrace, TraceRow};
 use mesh::{GroupStep, Padded};
 
 use crate::block::{BlockScratch, reconstruct};
 use crate::five_equation::{Cells, FaceStates, Stencil, Window, face_states};
+use crate::model::Scheme;
 use crate::rows::{half_step, rates};
 use crate::wall_trace::Trace;
-use crate::{FluidSolver, Mixture, TRACE_GAS, WallState};
+use crate::{FluidSolver, Mixture, TRACE_GAS};
 
 impl<const N: usize> FluidSolver<N> {
-    /// Number of faces on the wall to the solid; 0 without one.
-    pub fn wall_faces(&self) -> usize {
-        self.wall.len()
-    }
-
-    /// The outer radius of each face on the wall, ascending, m; the first one begins at the domain's r_min.
-    pub fn wall_edges(&self) -> Vec<f64> {
-        let mut edges = Vec::with_capacity(self.wall.len());
-        for &slot in &self.wall_blocks {
-            let id = self.mesh.tree().leaves()[slot];
-            let h_r = self.mesh.widths(id.level)[1];
-            edges.extend((0..N).map(|j| self.mesh.centre(id, 0, j)[1] + 0.5 * h_r));
-        }
-        edges
-    }
-
     /// Writes the traces on the wall at the present time and their rates of change.
     ///
     /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the
@@ -40,12 +25,7 @@ impl<const N: usize> FluidSolver<N> {
 
     /// [`FluidSolver::write_trace`] for the faces of the levels that are about to make a step.
     pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.levels.group_of(&self.mesh, slot) == step.group, put);
-    }
-
-    /// The group of levels that a face of the wall belongs to.
-    pub fn group_of_face(&self, face: usize) -> usize {
-        self.levels.group_of(&self.mesh, self.wall_blocks[face / N])
+        self.write_trace_of(step.dt, |slot| self.steps_in(step, slot), put);
     }
 
     fn write_trace_of(
@@ -56,40 +36,40 @@ impl<const N: usize> FluidSolver<N> {
     ) {
         let context = self.context(dt);
         let mut scaled = 0;
-        for slot in self.wall_blocks.iter().copied().filter(|slot| is_due(*slot)) {
-            let first = self.wall_first[slot];
-            let id = self.mesh.tree().leaves()[slot];
-            let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
-            self.scratch.with(|scratch| {
+        for slot in self.interface().blocks().iter().copied().filter(|slot| is_due(*slot)) {
+            let Some(first) = self.interface().first_face(slot) else { continue };
+            let id = self.mesh().tree().leaves()[slot];
+            let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
+            self.with_scratch(|scratch| {
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = &*scratch;
                 let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);
                 for j in 0..N {
                     let k = Padded::<N>::index(0, j as isize);
                     if let Some(state) = at_interface(k) {
-                        put_rows(Trace::steady(state), &self.mixture, first + j, &mut put);
+                        put_rows(Trace::steady(state), self.mixture(), first + j, &mut put);
                         continue;
                     }
                     let w: [f64; 5] = std::array::from_fn(|c| cells.component(c)[k]);
                     let d_z: [f64; 5] = std::array::from_fn(|c| s_z.component(c)[k]);
                     let d_r: [f64; 5] = std::array::from_fn(|c| s_r.component(c)[k]);
-                    let (_, keep) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, &self.mixture);
+                    let (_, keep) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, self.mixture());
                     let slope = d_r.map(|d| keep * d * inverse_h[1]);
                     let rate = rates(
                         w,
                         d_z.map(|d| d * inverse_h[0]),
                         d_r.map(|d| d * inverse_h[1]),
                         inverse_r[k],
-                        &self.mixture,
+                        self.mixture(),
                     )
                     .map(|rate| keep * rate);
                     let mut state: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
-                    let curvature = context.curvature(id.level, 0);
+                    let curvature = context.model.curvature(context.mesh, dt, id.level, 0);
                     let more = |c: usize, component: usize| {
                         let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
                         let stride = Padded::<N>::STRIDE;
                         let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
-                        let sound = (self.mixture.stiffness(w[3], w[4]) / w[0]).sqrt();
+                        let sound = (self.mixture().stiffness(w[3], w[4]) / w[0]).sqrt();
                         let speed = w[1].abs() + sound;
                         keep * curvature.on_wall(c, [w[3], w[4], d_z[3]], speed, across, along)
                     };
@@ -101,14 +81,14 @@ impl<const N: usize> FluidSolver<N> {
                     state[4] = phi.clamp(0.0, 1.0);
                     let whole = Trace { state, rate, slope };
                     let reach = [0.5 * dt, 0.5 / inverse_h[1]];
-                    let trace = whole.admissible(w, reach, &self.mixture);
+                    let trace = whole.admissible(w, reach, self.mixture());
                     let is_bounded = (phi - state[4]).abs() > TRACE_GAS;
                     scaled += u64::from(is_bounded || trace != whole);
-                    put_rows(trace, &self.mixture, first + j, &mut put);
+                    put_rows(trace, self.mixture(), first + j, &mut put);
                 }
             });
         }
-        self.scaled_traces.add(scaled);
+        self.model().tally.scaled_traces.add(scaled);
     }
 
     /// The fluid's own states on the wall in the middle of a step of length `dt`, face by face.
@@ -118,7 +98,7 @@ impl<const N: usize> FluidSolver<N> {
         const NOTHING: FluidTrace =
             FluidTrace { pressure: 0.0, velocity: 0.0, density: 0.0, gamma: 0.0, pi: 0.0 };
         traces.clear();
-        traces.resize(self.wall_faces(), NOTHING);
+        traces.resize(self.interface().faces(), NOTHING);
         if traces.is_empty() {
             return;
         }
@@ -148,10 +128,11 @@ impl<const N: usize> FluidSolver<N> {
         k: usize,
         dt: f64,
     ) -> Option<[f64; 5]> {
-        let options = self.two_phase?;
+        let Scheme { limiter, two_phase, .. } = self.model().scheme;
+        let options = two_phase?;
         let cells = Cells { rows: cells.split::<6>(), stride: Padded::<N>::STRIDE };
-        let mixture = &self.mixture;
-        let stencil = Stencil { limiter: self.limiter, inverse_h, inverse_r, dt, mixture, options };
+        let mixture = self.mixture();
+        let stencil = Stencil { limiter, inverse_h, inverse_r, dt, mixture, options };
         cells.is_at_interface(k, mixture).then(|| {
             let mut states = FaceStates::default();
             face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &stencil, &mut states);
@@ -159,40 +140,12 @@ impl<const N: usize> FluidSolver<N> {
         })
     }
 
-    /// Sets the wall's state for the next step from what the other side returned.
-    pub fn set_wall(&mut self, register: &WallRegister<'_>) {
-        for (face, wall) in self.wall.iter_mut().enumerate() {
-            *wall = WallState {
-                pressure: register.pressure[face],
-                velocity: register.velocity[face],
-                power: register.power[face],
-            };
-        }
-    }
-
-    /// Sets the state of one face of the wall for the next step of its level: p*, v*, p*v*.
-    pub fn set_wall_face(&mut self, face: usize, [pressure, velocity, power]: [f64; 3]) {
-        self.wall[face] = WallState { pressure, velocity, power };
-    }
-
-    /// Sets the wall's state for the next step face by face.
-    pub fn set_wall_from(&mut self, state: impl Fn(usize) -> WallState) {
-        for (face, wall) in self.wall.iter_mut().enumerate() {
-            *wall = state(face);
-        }
-    }
-
-    /// The wall's state during the last step.
-    pub fn wall(&self) -> &[WallState] {
-        &self.wall
-    }
-
     /// Cell means next to the wall: pressure and normal velocity, face by face; what the paper's schemes exchange.
     ///
     /// - `trial`: of the new state of a step that has been run and not finished, in which all levels step alike.
     pub fn wall_cells(&self, trial: bool, mut put: impl FnMut(usize, f64, f64)) {
-        let state = if trial { &self.next } else { &self.state };
-        for (first, &slot) in self.wall_blocks.iter().enumerate().map(|(k, slot)| (k * N, slot)) {
+        let state = if trial { self.trial_state() } else { self.state() };
+        for (first, &slot) in self.interface().blocks().iter().enumerate().map(|(k, slot)| (k * N, slot)) {
             for j in 0..N {
                 let cell = self.cell_of(state, slot, 0, j);
                 put(first + j, cell.pressure, cell.v_z);

@@ -1,11 +1,11 @@
 //! Flux correction at level jumps: the finer side's fluxes pass for both.
 
-use mesh::{CorrectedFace, FluxRegister, Mesh, Side};
+use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
 
 use crate::Mixture;
-use crate::block::StepContext;
 use crate::face_rows::FaceRows;
 use crate::five_equation::{Compression, is_mixed};
+use crate::model::FluidStep;
 use crate::report::BlockReport;
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
 use crate::state::primitive;
@@ -18,9 +18,6 @@ use crate::state::primitive;
 /// faces keep uniform p and u as single faces do.
 pub(crate) const QUANTITIES: usize = 8;
 
-/// The fluid's register.
-pub(crate) type Register<const N: usize> = FluxRegister<N, QUANTITIES>;
-
 /// Keeps the fluxes on those sides of a block that meet another level.
 pub(crate) fn register_fluxes<const N: usize>(
     mesh: &Mesh<N>,
@@ -29,7 +26,7 @@ pub(crate) fn register_fluxes<const N: usize>(
     r_faces: &FaceRows,
     values: &mut [f64],
 ) {
-    Register::<N>::record(mesh, slot, values, |side, k| {
+    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, |side, k| {
         let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
         let velocity = faces.velocity[k];
         [
@@ -52,9 +49,8 @@ pub(crate) fn register_fluxes<const N: usize>(
 /// The formulas are those of `update.rs` for one face; the floors of pressure and of the phases' masses hold for the corrected cells,
 /// too.
 pub(crate) fn correct<const N: usize>(
-    ctx: &StepContext<'_, N>,
-    register: &Register<N>,
-    finer: &Register<N>,
+    ctx: &FluidStep<'_, N>,
+    finer: FinerSide<'_, N>,
     slot: usize,
     new: &mut [f64],
     report: &mut BlockReport<N>,
@@ -63,7 +59,7 @@ pub(crate) fn correct<const N: usize>(
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let (dt_z, dt_r) = (ctx.dt / h_z, ctx.dt / h_r);
     let r_low = ctx.mesh.origin(id)[1];
-    register.for_corrected_faces(finer, ctx.mesh, slot, |face| {
+    finer.for_corrected_faces(ctx.mesh, slot, |face: CorrectedFace<QUANTITIES>| {
         let CorrectedFace { side, outward, cell: [i, j], difference } = face;
         let [mass, carried, pressure, shear, energy, velocity, velocity_phi, gas] = difference;
         let cell = |c: usize| (c * N + j) * N + i;
@@ -79,14 +75,14 @@ pub(crate) fn correct<const N: usize>(
                 .map(|change| outward * dt_r * change)
         };
         let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
-        let added = settle(&mut u, ctx.mixture, report);
+        let added = settle(&mut u, &ctx.model.mixture, report);
         if added > 0.0 {
             report.lift_pressure(added, ctx.mesh.volume(id, j));
         }
         for (c, value) in u.into_iter().enumerate() {
             new[cell(c)] = value;
         }
-        if ctx.two_phase.is_some() {
+        if ctx.model.scheme.two_phase.is_some() {
             new[cell(GAS)] -= changes[GAS];
             report.lift_phase(new[cell(RHO)], &mut new[cell(GAS)], ctx.mesh.volume(id, j));
             report.has_gas |= new[cell(GAS)] != 0.0 || new[cell(PHI)] != 0.0;
@@ -97,12 +93,12 @@ pub(crate) fn correct<const N: usize>(
 /// What the closure adds to the gas fraction of a mixed cell per change of its volume, see
 /// [`Compression::expansion`]. (Where the interface is on the finest level, as adaptation keeps it, no such cell is
 /// corrected.)
-fn expansion<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, [i, j]: [usize; 2]) -> f64 {
+fn expansion<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize, [i, j]: [usize; 2]) -> f64 {
     let u: [f64; COUNT] = std::array::from_fn(|c| ctx.old.component(slot, c)[j * N + i]);
-    match ctx.two_phase {
+    match ctx.model.scheme.two_phase {
         Some(options) if is_mixed(u[PHI]) => {
-            let [_, _, _, p, phi] = primitive(u, ctx.mixture);
-            Compression::at(p, phi, ctx.mixture, options.has_closure).expansion(phi)
+            let [_, _, _, p, phi] = primitive(u, &ctx.model.mixture);
+            Compression::at(p, phi, &ctx.model.mixture, options.has_closure).expansion(phi)
         }
         _ => 0.0,
     }

@@ -3,47 +3,47 @@
 use mesh::{Padded, Side};
 use serde::{Deserialize, Serialize};
 
-use crate::block::StepContext;
 use crate::boundary::{beside, normal};
 use crate::clips::Clips;
 use crate::face_rows::FaceRows;
 use crate::far_field::face_centre;
 use crate::five_equation::missing_mass;
+use crate::model::FluidStep;
 use crate::update::Extremes;
 
 /// What one block tells of its step.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(crate) struct BlockReport<const N: usize> {
-    pub extremes: Extremes,
+pub struct BlockReport<const N: usize> {
+    pub(crate) extremes: Extremes,
     /// Whether there is gas in the block, or a trace of its mass.
-    pub has_gas: bool,
+    pub(crate) has_gas: bool,
     /// Cells that should be done again at first order: a phase was drained, or the pressure floor would act.
-    pub marked: CellBits<N>,
+    pub(crate) marked: CellBits<N>,
     /// Cells that were done again.
-    pub redone: u32,
-    pub redone_volume: f64,
+    pub(crate) redone: u32,
+    pub(crate) redone_volume: f64,
     /// Cells that fell back to first order.
-    pub fallbacks: u32,
+    pub(crate) fallbacks: u32,
     /// How often other bounds acted.
-    pub clips: Clips,
+    pub(crate) clips: Clips,
     /// Mass that the gas and the liquid got where they had less than none, kg (per radian in axial symmetry).
-    pub phase_mass_added: [f64; 2],
+    pub(crate) phase_mass_added: [f64; 2],
     /// Cells lifted to the pressure floor, their volume and the energy that took (per radian in axial symmetry), J.
-    pub floored: u32,
-    pub floored_volume: f64,
-    pub floor_energy: f64,
+    pub(crate) floored: u32,
+    pub(crate) floored_volume: f64,
+    pub(crate) floor_energy: f64,
     /// What came in through each side of the domain: mass, axial momentum, energy (per radian).
-    pub inflow: [[f64; 3]; 4],
+    pub(crate) inflow: [[f64; 3]; 4],
     /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
     #[serde(with = "mesh::array")]
-    pub wall_pressure: [f64; N],
+    pub(crate) wall_pressure: [f64; N],
     /// What the far field's impulse on the faces of each side has gained, Pa s.
-    pub impulse: [FaceRow<N>; 4],
+    pub(crate) impulse: [FaceRow<N>; 4],
 }
 
 /// Some of the cells of a block: bit i of number j is cell (i, j).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct CellBits<const N: usize>(#[serde(with = "mesh::array")] [u32; N]);
+pub struct CellBits<const N: usize>(#[serde(with = "mesh::array")] [u32; N]);
 
 impl<const N: usize> Default for CellBits<N> {
     fn default() -> Self {
@@ -71,7 +71,7 @@ impl<const N: usize> CellBits<N> {
 
 /// A number on each face along a side of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct FaceRow<const N: usize>(#[serde(with = "mesh::array")] pub [f64; N]);
+pub struct FaceRow<const N: usize>(#[serde(with = "mesh::array")] pub [f64; N]);
 
 impl<const N: usize> Default for BlockReport<N> {
     fn default() -> Self {
@@ -138,17 +138,17 @@ pub(crate) fn count_kept<const N: usize>(keep: &[f64]) -> [u32; 2] {
 ///
 /// - `half`: the cells at mid-step.
 pub(crate) fn far_field_gains<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     slot: usize,
     half: &Padded<N>,
     z_faces: &FaceRows,
     r_faces: &FaceRows,
 ) -> [FaceRow<N>; 4] {
     let mut gains = [FaceRow([0.0; N]); 4];
-    let Some(far_field) = ctx.boundaries.far_field() else { return gains };
+    let Some(far_field) = ctx.model.boundaries.far_field() else { return gains };
     let id = ctx.mesh.tree().leaves()[slot];
     for side in Side::ALL {
-        if !(ctx.boundaries.has_far_field(side) && ctx.mesh.touches(slot, side)) {
+        if !(ctx.model.boundaries.has_far_field(side) && ctx.mesh.touches(slot, side)) {
             continue;
         }
         let faces = if normal(side) == 1 { z_faces } else { r_faces };
@@ -160,7 +160,7 @@ pub(crate) fn far_field_gains<const N: usize>(
             let [rho, u_t] = [0, 3 - normal(side)].map(|component| half.component(component)[inner]);
             let centre = face_centre(ctx.mesh, side, id.level, id.first_face::<N>(side) + along);
             let state = [u_n, u_t, faces.pressure[k]];
-            gains[side as usize].0[along] = far_field.gain(side, centre, rho, state, ctx.moment());
+            gains[side as usize].0[along] = far_field.gain(side, centre, rho, state, ctx.model.moment(ctx));
         }
     }
     gains
@@ -168,7 +168,7 @@ pub(crate) fn far_field_gains<const N: usize>(
 
 /// Mass, axial momentum and energy that a block took in through the sides of the domain.
 pub(crate) fn boundary_inflow<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &FluidStep<'_, N>,
     slot: usize,
     z_faces: &FaceRows,
     r_faces: &FaceRows,

@@ -1,24 +1,20 @@
-//! `FluidSolver`: owns the mesh and the fields, and advances them.
+//! `FluidSolver`: how a fluid is made.
 
-use mesh::{
-    Adaptation, Domain, Field, Horizon, LevelSteps, Limiter, Mesh, Patch, ScratchPool, Side, SideStates,
-    maximum,
-};
+use std::ops::{Deref, DerefMut};
 
+use mesh::{Adaptation, BlockSolver, Domain, Limiter, SavedBlocks, Side, SideStates};
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::{Analysis, Scales};
-use crate::block::{BlockScratch, Marks};
-use crate::boundary::{Boundaries, PressureHistory, WallState};
-use crate::clips::{Clips, SharedCount};
-use crate::far_field::{SideImpulses, SourceHistory};
+use crate::block::BlockScratch;
+use crate::boundary::{Boundaries, PressureHistory};
+use crate::bubbles::follow_sources;
+use crate::clips::Clips;
+use crate::model::{Fluid, FluidMemory, Scheme, Tally};
 use crate::options::TwoPhaseOptions;
-use crate::reflux::{QUANTITIES, Register};
 use crate::report::BlockReport;
 use crate::state::Contents;
-use crate::state::conserved::{COUNT, GAS, PHI};
-use crate::steps::check;
-use crate::update::Extremes;
+use crate::state::conserved::COUNT;
 use crate::{
     Boundary, FarField, FluidError, InitialCondition, Mixture, Model, Primitive, RayleighField,
     RiemannSolver, Sharpening, StiffenedGas,
@@ -104,47 +100,13 @@ pub struct BoundaryLedger {
     pub wall_work: f64,
 }
 
-/// The fluid: state, time, and how to advance it.
+/// The fluid: a [`BlockSolver`] of compressible two-phase flow, which says how it is advanced, adapted, kept and taken up again.
 ///
 /// `N` is the number of cells along a block's side.
-pub struct FluidSolver<const N: usize> {
-    pub(crate) mesh: Mesh<N>,
-    pub(crate) mixture: Mixture,
-    pub(crate) limiter: Limiter,
-    pub(crate) riemann: RiemannSolver,
-    pub(crate) two_phase: Option<TwoPhaseOptions>,
-    pub(crate) boundaries: Boundaries,
-    pub(crate) impulses: SideImpulses,
-    pub(crate) sources: SourceHistory,
-    pub(crate) state: Field,
-    pub(crate) next: Field,
-    pub(crate) register: Register<N>,
-    pub(crate) levels: LevelSteps<N, QUANTITIES>,
-    /// Of each block's last finished step, and of the one it is in.
-    pub(crate) reports: Vec<BlockReport<N>>,
-    pub(crate) pending: Vec<BlockReport<N>>,
-    /// Whether there is gas in each block, as the reports have it.
-    pub(crate) has_gas: Vec<bool>,
-    pub(crate) marks: Marks,
-    pub(crate) analysis: Analysis,
-    pub(crate) adaptation: Option<Adaptation>,
-    pub(crate) horizon: Horizon,
-    pub(crate) patches: ScratchPool<Patch<N>>,
-    pub(crate) scratch: ScratchPool<BlockScratch<N>>,
-    pub(crate) wall: Vec<WallState>,
-    pub(crate) wall_first: Vec<usize>,
-    /// Slots of the blocks along z_min and along r_min, in order.
-    pub(crate) wall_blocks: Vec<usize>,
-    pub(crate) axis_blocks: Vec<usize>,
-    pub(crate) time: f64,
-    pub(crate) steps: u64,
-    pub(crate) cell_updates: u64,
-    pub(crate) common_updates: u64,
-    pub(crate) fixups: Fixups,
-    /// Traces of the wall that were scaled since the fluid was made or taken up again; they are shown, not made, in a step.
-    pub(crate) scaled_traces: SharedCount,
-    pub(crate) ledger: BoundaryLedger,
-}
+pub struct FluidSolver<const N: usize>(BlockSolver<Fluid, N>);
+
+/// What of a fluid changes in time.
+pub type FluidState<'a, const N: usize> = SavedBlocks<'a, BlockReport<N>, FluidMemory>;
 
 impl<const N: usize> FluidSolver<N> {
     /// A fluid filled with an initial condition. Scratch is made for the current rayon pool's threads.
@@ -192,173 +154,61 @@ impl<const N: usize> FluidSolver<N> {
         let components = setup.model.components();
         let has_phases = components > COUNT;
         let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales, has_phases };
-        let scratch = ScratchPool::new(|| BlockScratch::new(components));
-        let (mesh, state) = crate::adapt::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
+        let (mesh, state) =
+            crate::initial_mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
         let sides = SideStates::new(&mesh, |centre, widths| {
             let Contents { state, gas } = initial(centre, widths);
             (Primitive::from_conserved(state.to_conserved(&mixture), &mixture), gas / state.density)
         });
         let boundaries = Boundaries::new(kinds, sides, setup.inflow.clone(), setup.far_field.clone());
-        let mut solver = Self {
+        let fluid = Fluid {
             impulses: boundaries.initial_impulses(&mesh, &mixture),
             sources: boundaries.source_history(&setup.domain),
-            reports: vec![BlockReport::default(); mesh.blocks()],
-            pending: Vec::new(),
-            levels: LevelSteps::new(components),
             has_gas: Vec::new(),
-            marks: Marks::new(),
-            next: state.clone(),
-            register: Register::new(mesh.blocks()),
-            state,
-            limiter: setup.limiter,
-            riemann: setup.riemann,
-            two_phase: TwoPhaseOptions::of(setup.model, setup.sharpening),
+            axis_blocks: Vec::new(),
+            scheme: Scheme {
+                limiter: setup.limiter,
+                riemann: setup.riemann,
+                two_phase: TwoPhaseOptions::of(setup.model, setup.sharpening),
+            },
             boundaries,
             analysis,
-            adaptation: setup.adaptation.clone(),
-            horizon: Horizon::default(),
-            patches: ScratchPool::new(|| Patch::zeros(components)),
-            scratch,
-            wall: Vec::new(),
-            wall_first: Vec::new(),
-            wall_blocks: Vec::new(),
-            axis_blocks: Vec::new(),
-            time: 0.0,
-            steps: 0,
-            cell_updates: 0,
-            common_updates: 0,
-            fixups: Fixups::default(),
-            scaled_traces: SharedCount::default(),
-            ledger: BoundaryLedger::default(),
+            tally: Tally::default(),
             mixture,
-            mesh,
         };
-        solver.index_sides();
-        for slot in 0..solver.mesh.blocks() {
-            solver.measure_speeds(slot);
-        }
-        solver.pending.clone_from(&solver.reports);
-        solver.note_gas();
-        solver.follow_sources();
-        check(&solver.mesh, &solver.mixture, &solver.state, &solver.reports, 0.0, 1)?;
-        Ok(solver)
-    }
-
-    /// Numbers the faces of the wall to the solid and the blocks along it and along the axis.
-    pub(crate) fn index_sides(&mut self) {
-        self.wall_blocks = self.mesh.blocks_along(Side::ZMin);
-        self.axis_blocks = self.mesh.blocks_along(Side::RMin);
-        self.wall_first = vec![usize::MAX; self.mesh.blocks()];
-        let mut faces = 0;
-        if self.boundaries.kind(Side::ZMin) == Boundary::Interface {
-            for slot in &self.wall_blocks {
-                self.wall_first[*slot] = faces;
-                faces += N;
-            }
-        }
-        self.wall = vec![WallState::default(); faces];
-    }
-
-    /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
-    pub fn watch(&mut self, point: [f64; 2]) {
-        self.levels.watch(point);
-    }
-
-    /// The mesh.
-    pub fn mesh(&self) -> &Mesh<N> {
-        &self.mesh
+        let scratch = || BlockScratch::new(components);
+        let mut blocks = BlockSolver::new(fluid, mesh, state, setup.adaptation.clone(), scratch)?;
+        follow_sources(&mut blocks);
+        Ok(Self(blocks))
     }
 
     /// The equations of state.
     pub fn mixture(&self) -> &Mixture {
-        &self.mixture
-    }
-
-    /// Time, s.
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// Steps made, of the finest level.
-    pub fn steps(&self) -> u64 {
-        self.steps
-    }
-
-    /// Cells advanced so far, step by step.
-    pub fn cell_updates(&self) -> u64 {
-        self.cell_updates
-    }
-
-    /// Cells that would have been advanced if all levels made the steps of the finest.
-    pub fn common_updates(&self) -> u64 {
-        self.common_updates
+        &self.model().mixture
     }
 
     /// Corrections made so far.
     pub fn fixups(&self) -> Fixups {
-        let mut fixups = self.fixups;
-        fixups.clips.scaled_traces += self.scaled_traces.get();
-        fixups
+        self.model().tally.fixups()
     }
 
     /// What crossed the domain's sides so far.
     pub fn ledger(&self) -> &BoundaryLedger {
-        &self.ledger
+        &self.model().tally.ledger
     }
+}
 
-    /// Conserved variables ρ, ρv_z, ρv_r, ρE, φ of all blocks.
-    pub fn state(&self) -> &Field {
-        &self.state
+impl<const N: usize> Deref for FluidSolver<N> {
+    type Target = BlockSolver<Fluid, N>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
     }
+}
 
-    /// Speeds in a block of the initial state or one that is new; else they come with each step.
-    pub(crate) fn measure_speeds(&mut self, slot: usize) {
-        let mut extremes = Extremes::default();
-        for k in 0..N * N {
-            let u: [f64; COUNT] = std::array::from_fn(|c| self.state.component(slot, c)[k]);
-            let w = Primitive::from_conserved(u, &self.mixture);
-            let sound = (self.mixture.stiffness(w.pressure, w.phi) / w.density).sqrt();
-            let sane = w.density > 0.0 && sound < f64::MAX;
-            let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
-            extremes.speed_z = extremes.speed_z.max(speed(w.v_z));
-            extremes.speed_r = extremes.speed_r.max(speed(w.v_r));
-        }
-        extremes.phi = maximum(self.state.component(slot, PHI));
-        self.reports[slot].extremes = extremes;
-        let has_any =
-            |component: usize| self.state.component(slot, component).iter().any(|value| *value != 0.0);
-        self.reports[slot].has_gas = self.two_phase.is_some() && (has_any(PHI) || has_any(GAS));
-    }
-
-    /// Tells the far field what the bubbles do; between two steps of the whole.
-    pub(crate) fn follow_sources(&mut self) {
-        if !self.sources.is_due(self.time) {
-            return;
-        }
-        let mut sources = std::mem::take(&mut self.sources);
-        sources.cuts.follow(self);
-        sources.sample(self.time, &self.bubbles(&sources.cuts));
-        self.sources = sources;
-    }
-
-    /// Takes from the reports which blocks have gas, or will have at the end of the step they are in.
-    pub(crate) fn note_gas(&mut self) {
-        self.has_gas.clear();
-        let both = self.reports.iter().zip(&self.pending);
-        self.has_gas.extend(both.map(|(report, pending)| report.has_gas | pending.has_gas));
-    }
-
-    /// Mean pressure of its level's present or last step on each face of z_min, in the order of r, Pa.
-    pub fn wall_face_pressures(&self, pressures: &mut Vec<f64>) {
-        pressures.clear();
-        for slot in &self.wall_blocks {
-            pressures.extend_from_slice(&self.pending[*slot].wall_pressure);
-        }
-    }
-
-    /// The largest gas fraction in a block, for diagnostics that skip pure liquid.
-    pub(crate) fn largest_phi(&self, slot: usize) -> f64 {
-        self.reports[slot].extremes.phi
+impl<const N: usize> DerefMut for FluidSolver<N> {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.0
     }
 }

@@ -2,33 +2,85 @@
 
 use rayon::prelude::*;
 
-use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Neighbour};
+use crate::{CorrectedFace, Field, FluxRegister, GroupStep, LevelClock, Mesh, Neighbour, Side};
 
-/// Clock and storage of local time steps.
+/// Clock and storage of local time steps (subcycling), and what passes between levels.
 ///
 /// The finest group of levels reads `state` and writes `next`, and the two are exchanged after each of its steps. Coarser
 /// groups write where they will be at the end of their step into a field of its own; until then those of their blocks
 /// that finer ones read move there linearly in time (Osher & Sanders 1983; Berger & Colella 1989), and the others stay
 /// as they were. What finer blocks pass to coarser ones is kept as the mean over the coarser one's step.
 #[derive(Clone, Debug)]
-pub struct LevelSteps<const N: usize, const K: usize> {
+pub struct LevelSteps<const N: usize> {
     clock: LevelClock,
     ahead: Field,
-    means: FluxRegister<N, K>,
+    registers: Registers<N>,
     follows: Vec<bool>,
     points: Vec<[f64; 2]>,
 }
 
-impl<const N: usize, const K: usize> LevelSteps<N, K> {
-    /// For fields of so many components.
-    pub fn new(components: usize) -> Self {
+/// What the blocks have passed over faces between levels in their own steps, and its means over the steps of coarser ones.
+#[derive(Clone, Debug)]
+pub struct Registers<const N: usize> {
+    own: FluxRegister<N>,
+    means: FluxRegister<N>,
+}
+
+impl<const N: usize> Registers<N> {
+    /// What finer neighbours of a block on a level have passed during its step.
+    pub fn finer_side(&self, clock: &LevelClock, level: u8) -> FinerSide<'_, N> {
+        let is_one_step = clock.group(level) == clock.group(level + 1);
+        FinerSide { own: &self.own, finer: if is_one_step { &self.own } else { &self.means } }
+    }
+}
+
+/// What a block has passed over its faces, and its finer neighbours meanwhile.
+#[derive(Clone, Copy)]
+pub struct FinerSide<'a, const N: usize> {
+    own: &'a FluxRegister<N>,
+    finer: &'a FluxRegister<N>,
+}
+
+impl<const N: usize> FinerSide<'_, N> {
+    /// [`FluxRegister::for_corrected_faces`].
+    pub fn for_corrected_faces<const K: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        correct: impl FnMut(CorrectedFace<K>),
+    ) {
+        self.own.for_corrected_faces(self.finer, mesh, slot, correct);
+    }
+
+    /// [`FluxRegister::for_corrected_sides`].
+    pub fn for_corrected_sides<const K: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        correct: impl FnMut(Side, f64, &[[f64; N]; K]),
+    ) {
+        self.own.for_corrected_sides(self.finer, mesh, slot, correct);
+    }
+}
+
+impl<const N: usize> LevelSteps<N> {
+    /// For fields of so many components and registers of so many quantities.
+    pub fn new(components: usize, quantities: usize, blocks: usize) -> Self {
         Self {
             clock: LevelClock::default(),
             ahead: Field::zeros(0, N * N, components),
-            means: FluxRegister::new(0),
+            registers: Registers {
+                own: FluxRegister::new(blocks, quantities),
+                means: FluxRegister::new(0, quantities),
+            },
             follows: Vec::new(),
             points: Vec::new(),
         }
+    }
+
+    /// Makes room for the blocks of another mesh.
+    pub fn resize(&mut self, blocks: usize) {
+        self.registers.own.resize(blocks);
     }
 
     /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
@@ -54,7 +106,7 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
             return;
         }
         self.ahead.resize(mesh.blocks());
-        self.means.resize(mesh.blocks());
+        self.registers.means.resize(mesh.blocks());
         let is_read = |slot: usize| {
             mesh.tree().neighbours(slot).iter().any(|neighbour| matches!(neighbour, Neighbour::Finer(_)))
         };
@@ -82,54 +134,50 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
         self.clock.start(limit)
     }
 
-    /// The group of a block.
-    pub fn group_of(&self, mesh: &Mesh<N>, slot: usize) -> usize {
-        self.clock.group(mesh.tree().leaves()[slot].level)
+    /// The clock, where a group writes its new state (into `next` if it is the finest), and the register of its faces.
+    pub fn target<'a>(
+        &'a mut self,
+        group: usize,
+        next: &'a mut Field,
+    ) -> (&'a LevelClock, &'a mut Field, &'a mut FluxRegister<N>) {
+        let is_finest = group == self.clock.finest();
+        let target = if is_finest { next } else { &mut self.ahead };
+        (&self.clock, target, &mut self.registers.own)
     }
 
-    /// Where a group writes its new state: into `next` if it is the finest.
-    pub fn take_target(&mut self, group: usize, next: &mut Field) -> Field {
-        let field = if group == self.clock.finest() { next } else { &mut self.ahead };
-        std::mem::replace(field, Field::zeros(0, 0, 0))
-    }
-
-    /// Gives the target back.
-    pub fn put_target(&mut self, group: usize, next: &mut Field, target: Field) {
-        *(if group == self.clock.finest() { next } else { &mut self.ahead }) = target;
+    /// The clock, the new state of a group, and what finer neighbours have passed.
+    pub fn corrected<'a>(
+        &'a mut self,
+        group: usize,
+        next: &'a mut Field,
+    ) -> (&'a LevelClock, &'a mut Field, &'a Registers<N>) {
+        let is_finest = group == self.clock.finest();
+        let target = if is_finest { next } else { &mut self.ahead };
+        (&self.clock, target, &self.registers)
     }
 
     /// Takes what the blocks of a group have passed in their step into the means over the coarser group's step.
-    pub fn gather(&mut self, mesh: &Mesh<N>, register: &FluxRegister<N, K>, group: usize) {
+    pub fn gather(&mut self, mesh: &Mesh<N>, group: usize) {
         if group == 0 {
             return;
         }
         let (clock, weight) = (&self.clock, self.clock.weight(group));
         let is_due = |slot: usize| {
-            clock.group(mesh.tree().leaves()[slot].level) == group
+            clock.group_of(mesh, slot) == group
                 && mesh.tree().neighbours(slot).iter().any(|n| matches!(n, Neighbour::Coarser(_)))
         };
-        let means = self.means.values_mut();
+        let Registers { own, means } = &mut self.registers;
+        let means = means.values_mut();
         let len = means.block_len();
         means.as_mut_slice().par_chunks_mut(len).enumerate().with_min_len(16).for_each(|(slot, means)| {
             if !is_due(slot) {
                 return;
             }
-            for (mean, value) in means.iter_mut().zip(register.values().block(slot)) {
+            for (mean, value) in means.iter_mut().zip(own.values().block(slot)) {
                 // By differences, so that the mean of what stays the same is the same to the last bit.
                 *mean = if weight == 1.0 { *value } else { *mean + weight * (*value - *mean) };
             }
         });
-    }
-
-    /// The register that holds what the finer neighbours of a block have passed during its step.
-    pub fn finer_side<'a>(
-        &'a self,
-        mesh: &Mesh<N>,
-        slot: usize,
-        register: &'a FluxRegister<N, K>,
-    ) -> &'a FluxRegister<N, K> {
-        let level = mesh.tree().leaves()[slot].level;
-        if self.clock.group(level) == self.clock.group(level + 1) { register } else { &self.means }
     }
 
     /// Ends the finest group's step: `state` is then that of its end.
@@ -170,6 +218,13 @@ impl<const N: usize, const K: usize> LevelSteps<N, K> {
         }
         std::mem::swap(state, next);
         self.clock.advance();
+    }
+}
+
+impl LevelClock {
+    /// The group of a block.
+    pub fn group_of<const N: usize>(&self, mesh: &Mesh<N>, slot: usize) -> usize {
+        self.group(mesh.tree().leaves()[slot].level)
     }
 }
 

@@ -8,6 +8,7 @@
 //! - [`limited_differences`]: the slopes of a linear reconstruction.
 //! - [`Multiresolution`], [`Patch`], [`Adapted`]: details, the mesh they ask for, and fields carried over to it.
 //! - [`FluxRegister`]: what passes a face between levels.
+//! - [`BlockSolver`]: state, time and steps of any physics that is a [`Model`]: subcycling, flux correction, adaptation, checkpoints.
 //!
 //! Only the cells themselves are stored; ghost layers are assembled block by block into scratch. So every
 //! block can be advanced in parallel from the old field into the new one without locks or `unsafe`, and
@@ -19,6 +20,7 @@ mod adaptation;
 mod ahead;
 mod aligned;
 pub mod array;
+mod block_solver;
 mod courant;
 mod curvature;
 mod details;
@@ -47,6 +49,9 @@ mod side_states;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use aligned::{AlignedRow, whole_lines};
+pub use block_solver::{
+    BlockSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks, Step,
+};
 pub use courant::longest_step;
 pub use curvature::{curvature_share, oblique_shares};
 pub use domain::{Domain, Mesh, MeshError, Misfit};
@@ -54,7 +59,7 @@ pub use field::Field;
 pub use geometry::{Geometry, Side};
 pub use horizon::Horizon;
 pub use level_clock::{GroupStep, LevelClock, steps_in};
-pub use level_steps::{LevelSteps, MOST_HALVINGS, Part};
+pub use level_steps::{FinerSide, LevelSteps, MOST_HALVINGS, Part, Registers};
 pub use limiter::{Limiter, limited_differences};
 pub use multiresolution::{MOST_COMPONENTS, Multiresolution};
 pub use padded::{GHOSTS, Padded};

@@ -2,13 +2,13 @@
 
 use crate::{Field, Mesh, Neighbour, Padded, Side};
 
-/// Values of K quantities on the outer faces of the blocks, kept where a block meets another level.
+/// Values of some quantities on the outer faces of the blocks, kept where a block meets another level.
 ///
 /// A coarse block first steps with its own face values; then [`FluxRegister::for_corrected_faces`] gives, face by face, the
 /// mean of the finer side's values minus its own, and the solver corrects the cell behind the face. What leaves
 /// one side then enters the other, to round-off.
 #[derive(Clone, Debug)]
-pub struct FluxRegister<const N: usize, const K: usize> {
+pub struct FluxRegister<const N: usize> {
     values: Field,
 }
 
@@ -25,10 +25,10 @@ pub struct CorrectedFace<const K: usize> {
     pub difference: [f64; K],
 }
 
-impl<const N: usize, const K: usize> FluxRegister<N, K> {
-    /// For a mesh of that many blocks.
-    pub fn new(blocks: usize) -> Self {
-        Self { values: Field::zeros(blocks, N, K * Side::ALL.len()) }
+impl<const N: usize> FluxRegister<N> {
+    /// For a mesh of that many blocks, and so many quantities.
+    pub fn new(blocks: usize, quantities: usize) -> Self {
+        Self { values: Field::zeros(blocks, N, quantities * Side::ALL.len()) }
     }
 
     /// Makes room for so many blocks; nothing is kept.
@@ -49,12 +49,17 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
     /// Keeps the values on those sides of a block that meet another level.
     ///
     /// - `block`: its part of the register; `values`: what passes the outer face of a side above the padded cell `k`.
-    pub fn record(mesh: &Mesh<N>, slot: usize, block: &mut [f64], values: impl Fn(Side, usize) -> [f64; K]) {
+    pub fn record<const K: usize>(
+        mesh: &Mesh<N>,
+        slot: usize,
+        block: &mut [f64],
+        values: impl Fn(Side, usize) -> [f64; K],
+    ) {
         for side in Side::ALL {
             if !Self::is_needed(mesh, slot, side) {
                 continue;
             }
-            let rows = Self::rows(block, side);
+            let rows = Self::rows::<K>(block, side);
             for along in 0..N {
                 let (n, at) = (N as isize, along as isize);
                 let k = match side {
@@ -78,14 +83,14 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
     /// Calls `correct` for every face of a block that has finer neighbours beyond it, side by side.
     ///
     /// - `finer`: what the finer side has passed; this register, unless levels step by themselves.
-    pub fn for_corrected_faces(
+    pub fn for_corrected_faces<const K: usize>(
         &self,
         finer: &Self,
         mesh: &Mesh<N>,
         slot: usize,
         mut correct: impl FnMut(CorrectedFace<K>),
     ) {
-        self.for_corrected_sides(finer, mesh, slot, |side, outward, differences| {
+        self.for_corrected_sides(finer, mesh, slot, |side, outward, differences: &[[f64; N]; K]| {
             for along in 0..N {
                 let cell = match side {
                     Side::ZMin => [0, along],
@@ -101,7 +106,7 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
 
     /// Calls `correct(side, outward, differences)` for every side of a block that has finer neighbours beyond it, with
     /// what [`CorrectedFace`] holds: quantity by quantity, along the side.
-    pub fn for_corrected_sides(
+    pub fn for_corrected_sides<const K: usize>(
         &self,
         finer: &Self,
         mesh: &Mesh<N>,
@@ -117,7 +122,7 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
     }
 
     /// The rows of one side in a block's part of the register: quantity by quantity, along the side.
-    pub fn rows(block: &mut [f64], side: Side) -> &mut [f64] {
+    pub fn rows<const K: usize>(block: &mut [f64], side: Side) -> &mut [f64] {
         let len = K * N;
         &mut block[side as usize * len..(side as usize + 1) * len]
     }
@@ -136,7 +141,7 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
     /// mean is weighted with the areas of the fine faces.
     ///
     /// - `children`: the finer blocks beyond the side, see [`Neighbour::Finer`].
-    fn differences(
+    fn differences<const K: usize>(
         &self,
         finer: &Self,
         mesh: &Mesh<N>,
@@ -160,7 +165,7 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
             }
         }
         fn row<const N: usize, const K: usize>(
-            of: &FluxRegister<N, K>,
+            of: &FluxRegister<N>,
             slot: usize,
             side: Side,
             quantity: usize,
@@ -170,8 +175,8 @@ impl<const N: usize, const K: usize> FluxRegister<N, K> {
                 .expect("a row has as many faces as a block has cells along a side")
         }
         std::array::from_fn(|quantity| {
-            let own = row(self, slot, side, quantity);
-            let fine = children.map(|child| row(finer, child, opposite, quantity));
+            let own = row::<N, K>(self, slot, side, quantity);
+            let fine = children.map(|child| row::<N, K>(finer, child, opposite, quantity));
             std::array::from_fn(|along| {
                 let (child, first) = (fine[along / (N / 2)], 2 * (along % (N / 2)));
                 let (low, high) = (child[first], child[first + 1]);

@@ -8,14 +8,14 @@ use coupler::{
     FluidTrace, InterfaceStar, SolidTrace, fluid_at_moving_wall, fluid_under_pressure, solid_moved,
     solid_under_pressure,
 };
-use fluid::WallState;
 use mesh::BLOCK;
+use mesh::FaceState;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::ThreadPool;
-use solid::{SurfaceState, SurfaceTrace};
+use solid::SurfaceTrace;
 
 use crate::case::Case;
 use crate::error::{Failure, guarded};
@@ -130,7 +130,7 @@ pub struct FluidSolver {
 
 fn wall_traces(solver: &fluid::FluidSolver<BLOCK>, dt: f64) -> Vec<FluidTrace> {
     let mut traces = Vec::new();
-    if solver.wall_faces() > 0 {
+    if solver.interface().faces() > 0 {
         solver.traces_at_mid_step(dt, &mut traces);
     }
     traces
@@ -175,8 +175,8 @@ impl FluidSolver {
     #[getter]
     fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let alone = locked(&self.alone)?;
-        let has_interface = alone.solver.wall_faces() > 0;
-        Ok(if has_interface { alone.solver.wall_edges() } else { Vec::new() }.into_pyarray(py))
+        let has_interface = alone.solver.interface().faces() > 0;
+        Ok(if has_interface { alone.solver.interface_edges() } else { Vec::new() }.into_pyarray(py))
     }
 
     /// The fluid's own state on the wall in the middle of a step of length `dt`, arrays of shape (faces,).
@@ -208,17 +208,17 @@ impl FluidSolver {
     ) -> PyResult<()> {
         checked(dt)?;
         let mut alone = locked(&self.alone)?;
-        let given = Given::new(alone.solver.wall_faces(), pressure, velocity, power)?;
+        let given = Given::new(alone.solver.interface().faces(), pressure, velocity, power)?;
         let Alone { solver, pool, .. } = &mut *alone;
         py.detach(|| {
             guarded(|| {
                 let traces = wall_traces(solver, dt);
-                solver.set_wall_from(|face| {
+                solver.interface_mut().set_all(|face| {
                     let trace = &traces[face];
                     let under = |pressure| fluid_under_pressure(trace, pressure);
                     let moved = |velocity| fluid_at_moving_wall(trace, velocity);
                     let [pressure, velocity, power] = given.state(face, under, moved);
-                    WallState { pressure, velocity, power }
+                    FaceState { pressure, velocity, power }
                 });
                 pool.install(|| {
                     solver.step(dt)?;
@@ -234,7 +234,14 @@ impl FluidSolver {
     #[getter]
     fn surface_pressure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let alone = locked(&self.alone)?;
-        Ok(alone.solver.wall().iter().map(|wall| wall.pressure).collect::<Vec<f64>>().into_pyarray(py))
+        Ok(alone
+            .solver
+            .interface()
+            .states()
+            .iter()
+            .map(|wall| wall.pressure)
+            .collect::<Vec<f64>>()
+            .into_pyarray(py))
     }
 
     /// Equivalent radius of the gas, m.
@@ -265,7 +272,7 @@ pub struct SolidSolver {
 
 fn surface_traces(solver: &solid::SolidSolver<BLOCK>, dt: f64) -> Vec<SurfaceTrace> {
     let mut traces = Vec::new();
-    if solver.surface_faces() > 0 {
+    if solver.interface().faces() > 0 {
         solver.traces_at_mid_step(dt, &mut traces);
     }
     traces
@@ -310,8 +317,8 @@ impl SolidSolver {
     #[getter]
     fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let alone = locked(&self.alone)?;
-        let has_interface = alone.solver.surface_faces() > 0;
-        Ok(if has_interface { alone.solver.surface_edges() } else { Vec::new() }.into_pyarray(py))
+        let has_interface = alone.solver.interface().faces() > 0;
+        Ok(if has_interface { alone.solver.interface_edges() } else { Vec::new() }.into_pyarray(py))
     }
 
     /// The solid's own state on its surface in the middle of a step of length `dt`, arrays of shape (faces,).
@@ -342,19 +349,19 @@ impl SolidSolver {
     ) -> PyResult<()> {
         checked(dt)?;
         let mut alone = locked(&self.alone)?;
-        let given = Given::new(alone.solver.surface_faces(), pressure, velocity, power)?;
+        let given = Given::new(alone.solver.interface().faces(), pressure, velocity, power)?;
         let Alone { solver, pool, .. } = &mut *alone;
         py.detach(|| {
             guarded(|| {
                 let traces = surface_traces(solver, dt);
                 let impedance = solver.setup().speeds.z1();
-                solver.set_surface(|face| {
+                solver.interface_mut().set_all(|face| {
                     let own = &traces[face];
                     let trace = SolidTrace { pressure: own.pressure, velocity: own.velocity, impedance };
                     let under = |pressure| solid_under_pressure(&trace, pressure);
                     let moved = |velocity| solid_moved(&trace, velocity);
                     let [pressure, velocity, power] = given.state(face, under, moved);
-                    SurfaceState { pressure, velocity, power }
+                    FaceState { pressure, velocity, power }
                 });
                 pool.install(|| -> Result<(), Failure> {
                     let adapts = solver.adaptation_follows(dt, 1);
@@ -373,7 +380,14 @@ impl SolidSolver {
     #[getter]
     fn surface_velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let alone = locked(&self.alone)?;
-        Ok(alone.solver.surface().iter().map(|face| face.velocity).collect::<Vec<f64>>().into_pyarray(py))
+        Ok(alone
+            .solver
+            .interface()
+            .states()
+            .iter()
+            .map(|face| face.velocity)
+            .collect::<Vec<f64>>()
+            .into_pyarray(py))
     }
 
     fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

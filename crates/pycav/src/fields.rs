@@ -1,6 +1,6 @@
 //! Cells and samples of a solver as arrays, all of them copies.
 
-use mesh::{BLOCK, Mesh};
+use mesh::{BLOCK, BlockSolver, Mesh};
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -24,7 +24,8 @@ impl Readable for fluid::FluidSolver<BLOCK> {
         &["density", "velocity_z", "velocity_r", "pressure", "gas_fraction"];
 
     fn mesh(&self) -> &Mesh<BLOCK> {
-        self.mesh()
+        // Not this method itself.
+        BlockSolver::mesh(self)
     }
 
     fn scalars(&self) -> Vec<(&'static str, Vec<f64>)> {
@@ -50,7 +51,8 @@ impl Readable for solid::SolidSolver<BLOCK> {
         &["velocity_z", "velocity_r", "stress_zz", "stress_zr", "stress_rr", "stress_phiphi", "von_mises"];
 
     fn mesh(&self) -> &Mesh<BLOCK> {
-        self.mesh()
+        // Not this method itself.
+        BlockSolver::mesh(self)
     }
 
     fn scalars(&self) -> Vec<(&'static str, Vec<f64>)> {

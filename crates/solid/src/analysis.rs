@@ -7,12 +7,12 @@ use crate::boundary::parity;
 
 /// The solid's part in multiresolution analysis.
 #[derive(Clone, Debug)]
-pub(crate) struct Analysis {
-    pub boundaries: [Boundary; 4],
+pub struct Analysis {
+    pub(crate) boundaries: [Boundary; 4],
     /// Reference value of the stresses, Pa.
-    pub stress_scale: f64,
+    pub(crate) stress_scale: f64,
     /// ρ̄c₁, with which velocities count as stresses, Pa s/m.
-    pub impedance: f64,
+    pub(crate) impedance: f64,
 }
 
 impl Multiresolution for Analysis {

@@ -1,60 +1,45 @@
 //! One MUSCL-Hancock step of one block: the algorithm, part by part.
 
-use mesh::{Field, Limiter, Mesh, Padded, Patch, Side, curvature_share, limited_differences, maximum};
+use mesh::{Mesh, Padded, Patch, Side, curvature_share, limited_differences, maximum};
 use serde::{Deserialize, Serialize};
 
-use crate::Boundary;
-use crate::absorbing::SideMemory;
-use crate::analysis::Analysis;
-use crate::boundary::{Boundaries, SurfaceState};
+use crate::boundary::Boundaries;
+use crate::model::{Solid, SolidStep};
 use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::reflux::register_stars;
 use crate::rows::{self, Elasticity, FaceRows, Reconstruction};
 use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R};
 use crate::update::{Metric, update};
 
-/// What all blocks of a step share.
-pub(crate) struct StepContext<'a, const N: usize> {
-    pub mesh: &'a Mesh<N>,
-    pub elasticity: &'a Elasticity,
-    pub analysis: &'a Analysis,
-    pub limiter: Limiter,
-    pub boundaries: &'a Boundaries,
-    /// The state at the beginning of the step.
-    pub old: &'a Field,
-    pub dt: f64,
-    /// The faces of the surface under the fluid in the order of r, and each block's first one.
-    pub surface: &'a [SurfaceState],
-    pub surface_first: &'a [usize],
-    /// What absorbing sides remember.
-    pub sides: &'a SideMemory,
-    /// Squared yield strength, Pa².
-    pub yield_squared: f64,
-}
-
-impl<const N: usize> StepContext<'_, N> {
-    /// For the faces normal to an axis (0: z, 1: r) of a block of a level.
-    pub fn curvature(&self, level: u8, axis: usize) -> [f64; 2] {
-        let per_speed = self.dt / self.mesh.widths(level)[axis];
+impl Solid {
+    /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.
+    pub(crate) fn curvature<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        dt: f64,
+        level: u8,
+        axis: usize,
+    ) -> [f64; 2] {
+        let per_speed = dt / mesh.widths(level)[axis];
         let Elasticity { inverse_density, z1, z2, .. } = self.elasticity;
         [z1, z2].map(|impedance| curvature_share(per_speed * inverse_density * impedance))
     }
 }
 
 /// Scratch of one thread.
-pub(crate) struct BlockScratch<const N: usize> {
-    pub cells: Padded<N>,
-    pub patch: Patch<N>,
-    pub s_z: Padded<N>,
-    pub s_r: Padded<N>,
+pub struct BlockScratch<const N: usize> {
+    pub(crate) cells: Padded<N>,
+    pub(crate) patch: Patch<N>,
+    pub(crate) s_z: Padded<N>,
+    pub(crate) s_r: Padded<N>,
     half: Padded<N>,
-    pub inverse_r: Vec<f64>,
+    pub(crate) inverse_r: Vec<f64>,
     z_faces: FaceRows,
     r_faces: FaceRows,
 }
 
 impl<const N: usize> BlockScratch<N> {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let len = Padded::<N>::LEN;
         Self {
             cells: Padded::zeros(COUNT),
@@ -71,27 +56,27 @@ impl<const N: usize> BlockScratch<N> {
 
 /// What one block tells of its step.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct BlockReport {
+pub struct BlockReport {
     /// Largest squared von Mises stress, Pa²; infinite if a number is not finite.
-    pub mises_squared: f64,
+    pub(crate) mises_squared: f64,
     /// Volume in which the yield strength is exceeded (per radian).
-    pub yielded: f64,
+    pub(crate) yielded: f64,
     /// What came in through each side of the domain: axial momentum, energy (per radian).
-    pub inflow: [[f64; 2]; 4],
+    pub(crate) inflow: [[f64; 2]; 4],
 }
 
 /// Assembles a block with its ghosts: the state in `cells`.
-fn assemble<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+fn assemble<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    cells.assemble(ctx.mesh, ctx.old, slot, ctx.analysis, patch);
-    ctx.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    cells.assemble(ctx.mesh, ctx.old, slot, &ctx.model.analysis, patch);
+    ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     ctx.mesh.inverse_radii(ctx.mesh.tree().leaves()[slot], inverse_r);
 }
 
 /// Assembles a block with its ghosts and reconstructs it: the state in `cells`, limited differences in `s_z`, `s_r`.
 /// A step makes the differences together with the state at mid-step instead.
 pub(crate) fn reconstruct<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &SolidStep<'_, N>,
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
@@ -100,7 +85,7 @@ pub(crate) fn reconstruct<const N: usize>(
     // No derivative of the hoop stress enters.
     for component in 0..S_PHIPHI {
         limited_differences(
-            ctx.limiter,
+            ctx.model.setup.limiter,
             cells.component(component),
             Padded::<N>::STRIDE,
             s_z.component_mut(component),
@@ -111,7 +96,7 @@ pub(crate) fn reconstruct<const N: usize>(
 
 /// Advances one block by one step from `ctx.old` into `new`; `stars` is its part of the flux register.
 pub(crate) fn step_block<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &SolidStep<'_, N>,
     slot: usize,
     new: &mut [f64],
     stars: &mut [f64],
@@ -123,7 +108,7 @@ pub(crate) fn step_block<const N: usize>(
 
     assemble(ctx, slot, scratch);
     let predictor = Predictor {
-        limiter: ctx.limiter,
+        limiter: ctx.model.setup.limiter,
         stride,
         inverse_h,
         inverse_r: &scratch.inverse_r,
@@ -134,41 +119,38 @@ pub(crate) fn step_block<const N: usize>(
     predict(
         scratch.cells.split(),
         predictor,
-        ctx.elasticity,
+        &ctx.model.elasticity,
         [z0, z1, z2, z3],
         [r0, r1, r3, r4],
         scratch.half.split_mut(),
     );
     ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
     let BlockScratch { cells, half, s_z, s_r, .. } = scratch;
-    ctx.boundaries.impose_outer(ctx, slot, cells, half, s_z, s_r);
-    let has_surface =
-        ctx.boundaries.kind(Side::ZMax) == Boundary::Interface && ctx.mesh.touches(slot, Side::ZMax);
-    if has_surface {
-        Boundaries::complete_shear_differences(ctx.limiter, &scratch.half, &mut scratch.s_z);
+    ctx.model.boundaries.impose_outer(ctx, slot, cells, half, s_z, s_r);
+    let surface = ctx.interface.states_of::<N>(slot);
+    if surface.is_some() {
+        Boundaries::complete_shear_differences(ctx.model.setup.limiter, &scratch.half, &mut scratch.s_z);
     }
 
     let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
     let differences = scratch.s_z.split::<COUNT>();
-    let curvature = ctx.curvature(id.level, 0);
+    let curvature = ctx.model.curvature(ctx.mesh, ctx.dt, id.level, 0);
     let along_z =
         Reconstruction { half: [v_z, v_r, zz, zr], differences: ALONG_Z.map(|c| differences[c]), curvature };
     let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
-    rows::faces(&along_z, 1, stride, z_range, ctx.elasticity, &mut scratch.z_faces);
-    if has_surface {
-        let first = ctx.surface_first[slot];
-        let surface = &ctx.surface[first..first + N];
-        Boundaries::impose_surface::<N>(surface, &along_z, ctx.elasticity, &mut scratch.z_faces);
+    rows::faces(&along_z, 1, stride, z_range, &ctx.model.elasticity, &mut scratch.z_faces);
+    if let Some(surface) = surface {
+        Boundaries::impose_surface::<N>(surface, &along_z, &ctx.model.elasticity, &mut scratch.z_faces);
     }
 
     ctx.mesh.look_ahead(ctx.old, slot, new, 1, 3);
     let differences = scratch.s_r.split::<COUNT>();
     let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
-    let curvature = ctx.curvature(id.level, 1);
+    let curvature = ctx.model.curvature(ctx.mesh, ctx.dt, id.level, 1);
     let along_r =
         Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr], curvature };
     let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
-    rows::faces(&along_r, stride, stride, r_range, ctx.elasticity, &mut scratch.r_faces);
+    rows::faces(&along_r, stride, stride, r_range, &ctx.model.elasticity, &mut scratch.r_faces);
 
     ctx.mesh.look_ahead(ctx.old, slot, new, 2, 3);
     register_stars(ctx.mesh, slot, &scratch.z_faces, &scratch.r_faces, stars);
@@ -182,26 +164,28 @@ pub(crate) fn step_block<const N: usize>(
         [V_R, S_NORMAL[1], S_PHIPHI].map(|c| scratch.half.component(c)),
         ctx.dt,
         &metric,
-        ctx.elasticity,
+        &ctx.model.elasticity,
         split_block::<N>(new),
     );
     BlockReport {
         mises_squared: largest,
-        yielded: if largest > ctx.yield_squared { yielded_volume(ctx, slot, new) } else { 0.0 },
+        yielded: yielded_volume(ctx.mesh, slot, new, largest, ctx.model.yield_squared()),
         inflow: boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces),
     }
 }
 
 /// Reports the von Mises stresses of a block anew.
+///
+/// - `yield_squared`: squared yield strength, Pa².
 pub(crate) fn report_stresses<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    mesh: &Mesh<N>,
     slot: usize,
     block: &[f64],
+    yield_squared: f64,
     report: &mut BlockReport,
 ) {
     report.mises_squared = largest_mises::<N>(block);
-    report.yielded =
-        if report.mises_squared > ctx.yield_squared { yielded_volume(ctx, slot, block) } else { 0.0 };
+    report.yielded = yielded_volume(mesh, slot, block, report.mises_squared, yield_squared);
 }
 
 /// The largest squared von Mises stress of a block, infinite if one is not a number.
@@ -236,16 +220,27 @@ pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COU
 }
 
 /// The volume in which the yield strength is exceeded (per radian).
-fn yielded_volume<const N: usize>(ctx: &StepContext<'_, N>, slot: usize, block: &[f64]) -> f64 {
-    let id = ctx.mesh.tree().leaves()[slot];
+///
+/// - `largest`: squared von Mises stress of the block, Pa².
+fn yielded_volume<const N: usize>(
+    mesh: &Mesh<N>,
+    slot: usize,
+    block: &[f64],
+    largest: f64,
+    yield_squared: f64,
+) -> f64 {
+    if largest <= yield_squared {
+        return 0.0;
+    }
+    let id = mesh.tree().leaves()[slot];
     let cells_of_row =
-        |j| mises_of_row::<N>(block, j).into_iter().filter(|mises| *mises > ctx.yield_squared).count();
-    (0..N).map(|j| cells_of_row(j) as f64 * ctx.mesh.volume(id, j)).sum()
+        |j| mises_of_row::<N>(block, j).into_iter().filter(|mises| *mises > yield_squared).count();
+    (0..N).map(|j| cells_of_row(j) as f64 * mesh.volume(id, j)).sum()
 }
 
 /// Axial momentum and energy that a block took in through the sides of the domain.
 fn boundary_inflow<const N: usize>(
-    ctx: &StepContext<'_, N>,
+    ctx: &SolidStep<'_, N>,
     slot: usize,
     z_faces: &FaceRows,
     r_faces: &FaceRows,
@@ -278,10 +273,11 @@ fn boundary_inflow<const N: usize>(
             total[0] += outward * ctx.dt * area * traction_z;
             total[1] += outward * ctx.dt * area * power;
         }
-        if side == Side::ZMax && ctx.boundaries.kind(side) == Boundary::Interface {
+        if side == Side::ZMax
+            && let Some(surface) = ctx.interface.states_of::<N>(slot)
+        {
             // The mean of the product, not the product of the means, is what the fluid gave.
-            let first = ctx.surface_first[slot];
-            total[1] = -(ctx.surface[first..first + N].iter().enumerate())
+            total[1] = -(surface.iter().enumerate())
                 .map(|(j, s)| ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]) * h_r * s.power)
                 .sum::<f64>()
                 * ctx.dt;

@@ -1,10 +1,9 @@
 //! What bounds the solid: ghost cells before the slopes, outer states and interface tractions after them.
 
-use mesh::{Limiter, Mesh, Padded, Side, SideStates};
-use serde::{Deserialize, Serialize};
+use mesh::{FaceState, Limiter, Mesh, Padded, Side, SideStates};
 
 use crate::absorbing::Absorption;
-use crate::block::StepContext;
+use crate::model::SolidStep;
 use crate::riemann::{Outward, star_interface};
 use crate::rows::{Elasticity, FaceRows, Reconstruction};
 use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
@@ -16,17 +15,6 @@ pub(crate) struct Boundaries {
     kinds: [Boundary; 4],
     /// The initial state in the cells along each side.
     initial: SideStates<ElasticState>,
-}
-
-/// The state of the surface under the fluid during a step: means over it of p*, v* and p*v*.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SurfaceState {
-    /// Mean pressure of the fluid, Pa.
-    pub pressure: f64,
-    /// Mean velocity along +z, m/s.
-    pub velocity: f64,
-    /// Mean of their product, W/m².
-    pub power: f64,
 }
 
 impl Boundaries {
@@ -62,7 +50,7 @@ impl Boundaries {
     /// - `cells`: the state at the beginning of the step.
     pub fn impose_outer<const N: usize>(
         &self,
-        ctx: &StepContext<'_, N>,
+        ctx: &SolidStep<'_, N>,
         slot: usize,
         cells: &Padded<N>,
         half: &mut Padded<N>,
@@ -79,7 +67,10 @@ impl Boundaries {
             let across_z = side.axis_across() == 0;
             let first = id.first_face::<N>(side);
             let mut absorption = (kind == Boundary::Absorbing).then(|| {
-                (Absorption::new(mesh, side, id.level, ctx.dt, ctx.elasticity), ctx.sides.follow(side))
+                (
+                    Absorption::new(mesh, side, id.level, ctx.dt, &ctx.model.elasticity),
+                    ctx.model.sides.follow(side),
+                )
             });
             for along in 0..N {
                 let (n, a) = (N as isize, along as isize);
@@ -101,7 +92,7 @@ impl Boundaries {
                 let mut outer = *self.initial.at(side, id.level, first + along);
                 let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
                 if let Some((absorption, followed)) = &mut absorption {
-                    let before = ctx.sides.at(side, id.level, first + along);
+                    let before = ctx.model.sides.at(side, id.level, first + along);
                     let (di, dj) = (i - i.clamp(0, n - 1), j - j.clamp(0, n - 1));
                     let within =
                         |depth: isize| Padded::<N>::index(i - (1 + depth) * di, j - (1 + depth) * dj);
@@ -145,7 +136,7 @@ impl Boundaries {
     ///
     /// - `surface`: the states of the surface's faces in the block, in the order of r.
     pub fn impose_surface<const N: usize>(
-        surface: &[SurfaceState],
+        surface: &[FaceState],
         cells: &Reconstruction<'_>,
         elasticity: &Elasticity,
         faces: &mut FaceRows,

@@ -52,49 +52,54 @@ pub struct Snapshot {
 impl<const N: usize> SolidSolver<N> {
     /// The state of one cell.
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> ElasticState {
-        ElasticState::from_array(std::array::from_fn(|c| self.state.component(slot, c)[j * N + i]))
+        ElasticState::from_array(std::array::from_fn(|c| self.state().component(slot, c)[j * N + i]))
     }
 
     /// The largest von Mises stress and where it is.
     pub fn mises_peak(&self) -> MisesPeak {
         let (slot, _) = (self.mises_by_block().enumerate())
             .fold((0, -1.0), |best, (slot, stress)| if stress > best.1 { (slot, stress) } else { best });
-        let id = self.mesh.tree().leaves()[slot];
+        let id = self.mesh().tree().leaves()[slot];
         let mut peak = MisesPeak { stress: -1.0, position: [f64::NAN; 2] };
         for j in 0..N {
             for i in 0..N {
                 let w = self.cell(slot, i, j);
                 let stress = von_mises(w.stress_zz, w.stress_zr, w.stress_rr, w.stress_phiphi);
                 if stress > peak.stress {
-                    peak = MisesPeak { stress, position: self.mesh.centre(id, i, j) };
+                    peak = MisesPeak { stress, position: self.mesh().centre(id, i, j) };
                 }
             }
         }
         peak
     }
 
+    /// The largest von Mises stress in each block, Pa.
+    fn mises_by_block(&self) -> impl Iterator<Item = f64> + '_ {
+        self.reports().finished.iter().map(|report| report.mises_squared.sqrt())
+    }
+
     /// The volume in which the von Mises stress exceeds the yield strength, m³ (planar: m² per metre of depth).
     pub fn yielded_volume(&self) -> f64 {
-        let turn = match self.mesh.domain().geometry {
+        let turn = match self.mesh().domain().geometry {
             Geometry::Axisymmetric => std::f64::consts::TAU,
             Geometry::Planar => 1.0,
         };
-        turn * self.yielded()
+        turn * self.reports().finished.iter().map(|report| report.yielded).sum::<f64>()
     }
 
     /// Mass, axial momentum, kinetic and elastic energy in the domain.
     ///
     /// The elastic energy per volume is tr(σ)²/(18K) + s:s/(4μ) with the deviator s and the bulk modulus K.
     pub fn totals(&self) -> Totals {
-        let (density, mu) = (self.setup.speeds.density, self.elasticity.mu);
-        let bulk = self.elasticity.lambda + 2.0 / 3.0 * mu;
+        let (density, mu) = (self.setup().speeds.density, self.model().elasticity.mu);
+        let bulk = self.model().elasticity.lambda + 2.0 / 3.0 * mu;
         let mut totals = Totals::default();
-        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
             let mut block = [0.0; 4];
             for j in 0..N {
-                let volume = self.mesh.volume(*id, j);
+                let volume = self.mesh().volume(*id, j);
                 let [v_z, v_r, zz, zr, rr, pp]: [&[f64]; COUNT] =
-                    std::array::from_fn(|c| &self.state.component(slot, c)[j * N..(j + 1) * N]);
+                    std::array::from_fn(|c| &self.state().component(slot, c)[j * N..(j + 1) * N]);
                 let (mut velocity, mut speed_squared, mut strain) = (0.0, 0.0, 0.0);
                 for i in 0..N {
                     let mean = (zz[i] + rr[i] + pp[i]) / 3.0;
@@ -119,17 +124,17 @@ impl<const N: usize> SolidSolver<N> {
 
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
     pub fn sample(&self, point: [f64; 2]) -> Option<ElasticState> {
-        let (slot, i, j) = self.mesh.locate(point)?;
-        let id = self.mesh.tree().leaves()[slot];
-        let (centre, widths) = (self.mesh.centre(id, i, j), self.mesh.widths(id.level));
+        let (slot, i, j) = self.mesh().locate(point)?;
+        let id = self.mesh().tree().leaves()[slot];
+        let (centre, widths) = (self.mesh().centre(id, i, j), self.mesh().widths(id.level));
         let (a, b) = ((point[0] - centre[0]) / widths[0], (point[1] - centre[1]) / widths[1]);
-        Some(self.scratch.with(|scratch| {
+        Some(self.with_scratch(|scratch| {
             reconstruct(&self.context(0.0), slot, scratch);
             let k = Padded::<N>::index(i as isize, j as isize);
             let BlockScratch { cells, s_z, s_r, .. } = scratch;
             let hoop = cells.component(S_PHIPHI);
             let stride = Padded::<N>::STRIDE;
-            let limiter = self.setup.limiter;
+            let limiter = self.setup().limiter;
             let hoop_slope =
                 |step: usize| limiter.difference(hoop[k] - hoop[k - step], hoop[k + step] - hoop[k]);
             ElasticState::from_array(std::array::from_fn(|c| {
@@ -146,7 +151,7 @@ impl<const N: usize> SolidSolver<N> {
     /// All fields, cell by cell.
     pub fn snapshot(&self) -> Snapshot {
         let mut snapshot = Snapshot::default();
-        for (slot, id) in self.mesh.tree().leaves().iter().enumerate() {
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
             for j in 0..N {
                 for i in 0..N {
                     let w = self.cell(slot, i, j);
@@ -157,7 +162,7 @@ impl<const N: usize> SolidSolver<N> {
                     snapshot.stress_rr.push(w.stress_rr);
                     snapshot.stress_phiphi.push(w.stress_phiphi);
                     snapshot.von_mises.push(mises);
-                    snapshot.yield_function.push(yield_function(mises, self.setup.yield_strength));
+                    snapshot.yield_function.push(yield_function(mises, self.setup().yield_strength));
                     snapshot.level.push(f64::from(id.level));
                 }
             }

@@ -5,7 +5,6 @@
 #![forbid(unsafe_code)]
 
 mod absorbing;
-mod adapt;
 mod analysis;
 mod block;
 mod boundary;
@@ -13,28 +12,27 @@ mod diagnostics;
 #[cfg(test)]
 mod eigen;
 mod error;
+mod initial;
 mod material;
+mod model;
 mod options;
 mod participant;
 mod predictor;
 mod reflux;
 pub mod riemann;
 mod rows;
-mod saved;
 mod solver;
 mod state;
-mod steps;
 mod update;
 mod yield_criterion;
 
-pub use boundary::SurfaceState;
 pub use diagnostics::{MisesPeak, Snapshot, Totals};
 pub use error::SolidError;
 pub use material::{Material, MaterialError};
+pub use model::Solid;
 pub use options::{Boundary, InitialStress, PotentialPulse};
 pub use participant::{Interface, SurfaceTrace};
 pub use riemann::WaveSpeeds;
-pub use saved::SolidState;
-pub use solver::{BoundaryLedger, SolidSetup, SolidSolver};
+pub use solver::{BoundaryLedger, SolidSetup, SolidSolver, SolidState};
 pub use state::ElasticState;
 pub use yield_criterion::{von_mises, yield_function};

@@ -1,13 +1,13 @@
 //! The solid as one side of the interface: the only place where it meets the coupler.
 
-use coupler::{CommonRefinement, InterfaceStar, RegisterRow, TraceRow, WallRegister};
+use coupler::{CommonRefinement, InterfaceStar, RegisterRow, TraceRow};
 use mesh::{Geometry, GroupStep, Padded};
 
+use crate::SolidSolver;
 use crate::block::{BlockScratch, reconstruct};
 use crate::boundary::Boundaries;
 use crate::rows::rates;
 use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
-use crate::{SolidSolver, SurfaceState};
 
 /// What the solid knows of its interface with the fluid in the weak scheme: faces, sub-faces, and the last step's states.
 #[derive(Clone, Debug, Default)]
@@ -36,22 +36,6 @@ pub struct SurfaceTrace {
 }
 
 impl<const N: usize> SolidSolver<N> {
-    /// Number of faces on the surface under the fluid; 0 without one.
-    pub fn surface_faces(&self) -> usize {
-        self.surface.len()
-    }
-
-    /// The outer radius of each face of the surface, ascending, m; the first one begins at the domain's r_min.
-    pub fn surface_edges(&self) -> Vec<f64> {
-        let mut edges = Vec::with_capacity(self.surface.len());
-        for &slot in &self.surface_blocks {
-            let id = self.mesh.tree().leaves()[slot];
-            let h_r = self.mesh.widths(id.level)[1];
-            edges.extend((0..N).map(|j| self.mesh.centre(id, 0, j)[1] + 0.5 * h_r));
-        }
-        edges
-    }
-
     /// Writes the traces on the surface at the present time and their rates of change.
     ///
     /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the predictor uses; at
@@ -65,12 +49,7 @@ impl<const N: usize> SolidSolver<N> {
 
     /// [`SolidSolver::write_trace`] for the faces of the levels that are about to make a step.
     pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.levels.group_of(&self.mesh, slot) == step.group, put);
-    }
-
-    /// The group of levels that a face of the surface belongs to.
-    pub fn group_of_face(&self, face: usize) -> usize {
-        self.levels.group_of(&self.mesh, self.surface_blocks[face / N])
+        self.write_trace_of(step.dt, |slot| self.steps_in(step, slot), put);
     }
 
     fn write_trace_of(
@@ -80,15 +59,15 @@ impl<const N: usize> SolidSolver<N> {
         mut put: impl FnMut(TraceRow, usize, f64),
     ) {
         let context = self.context(dt);
-        for slot in self.surface_blocks.iter().copied().filter(|slot| is_due(*slot)) {
-            let first = self.surface_first[slot];
-            let id = self.mesh.tree().leaves()[slot];
-            let inverse_h = self.mesh.widths(id.level).map(|h| 1.0 / h);
-            self.scratch.with(|scratch| {
-                let [share, _] = context.curvature(id.level, 0);
+        for slot in self.interface().blocks().iter().copied().filter(|slot| is_due(*slot)) {
+            let Some(first) = self.interface().first_face(slot) else { continue };
+            let id = self.mesh().tree().leaves()[slot];
+            let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
+            self.with_scratch(|scratch| {
+                let [share, _] = context.model.curvature(context.mesh, dt, id.level, 0);
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
-                Boundaries::complete_shear_differences(context.limiter, cells, s_z);
+                Boundaries::complete_shear_differences(self.setup().limiter, cells, s_z);
                 for j in 0..N {
                     let k = Padded::<N>::index(N as isize - 1, j as isize);
                     let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);
@@ -97,7 +76,7 @@ impl<const N: usize> SolidSolver<N> {
                         |rows: &Padded<N>, c: usize| if c == S_PHIPHI { 0.0 } else { rows.component(c)[k] };
                     let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
                     let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
-                    let rate = rates(w, d_z, d_r, inverse_r[k], &self.elasticity);
+                    let rate = rates(w, d_z, d_r, inverse_r[k], &self.model().elasticity);
                     let trace = |c: usize| w[c] + 0.5 * of(s_z, c);
                     // What face states within get besides, with the differences continued in a line beyond the surface.
                     let more = |c: usize| share * (of(s_z, c) - s_z.component(c)[k - 1]);
@@ -106,13 +85,13 @@ impl<const N: usize> SolidSolver<N> {
                     put(TraceRow::NormalVelocity, face, trace(V_Z) + more(V_Z));
                     put(TraceRow::TangentialVelocity, face, trace(V_R));
                     put(TraceRow::Shear, face, trace(S_ZR));
-                    put(TraceRow::Density, face, self.setup.speeds.density);
+                    put(TraceRow::Density, face, self.setup().speeds.density);
                     put(TraceRow::PressureRate, face, -rate[S_NORMAL[0]]);
                     put(TraceRow::NormalVelocityRate, face, rate[V_Z]);
                     put(TraceRow::TangentialVelocityRate, face, rate[V_R]);
                     put(TraceRow::PressureSlope, face, -of(s_r, S_NORMAL[0]) * inverse_h[1]);
                     put(TraceRow::NormalVelocitySlope, face, d_r[V_Z]);
-                    put(TraceRow::Impedance, face, self.elasticity.z1);
+                    put(TraceRow::Impedance, face, self.model().elasticity.z1);
                     for row in [TraceRow::DensityRate, TraceRow::DensitySlope, TraceRow::Gamma, TraceRow::Pi]
                     {
                         put(row, face, 0.0);
@@ -165,40 +144,12 @@ impl<const N: usize> SolidSolver<N> {
         self.refine(interface, edges);
         let Interface { refinement, cells, .. } = interface;
         cells.clear();
-        for &slot in &self.surface_blocks {
-            let state = if trial { &self.next } else { &self.state };
+        for &slot in self.interface().blocks() {
+            let state = if trial { self.trial_state() } else { self.state() };
             cells.extend((0..N).map(|j| state.component(slot, V_Z)[j * N + N - 1]));
         }
         let velocity = |k: usize| cells[refinement.sub_faces()[k].second];
         refinement.means(false, velocity, |f, v| put(RegisterRow::NormalVelocity, f, v));
-    }
-
-    /// The surface's state during the last step.
-    pub fn surface(&self) -> &[SurfaceState] {
-        &self.surface
-    }
-
-    /// Sets the surface's state for the next step from what the fluid returned.
-    pub fn set_surface_register(&mut self, register: &WallRegister<'_>) {
-        for (face, surface) in self.surface.iter_mut().enumerate() {
-            *surface = SurfaceState {
-                pressure: register.pressure[face],
-                velocity: register.velocity[face],
-                power: register.power[face],
-            };
-        }
-    }
-
-    /// Sets the state of one face of the surface for the next step of its level: p*, v*, p*v*.
-    pub fn set_surface_face(&mut self, face: usize, [pressure, velocity, power]: [f64; 3]) {
-        self.surface[face] = SurfaceState { pressure, velocity, power };
-    }
-
-    /// Sets the surface's state for the next step, face by face: a load without a fluid.
-    pub fn set_surface(&mut self, state: impl Fn(usize) -> SurfaceState) {
-        for (face, surface) in self.surface.iter_mut().enumerate() {
-            *surface = state(face);
-        }
     }
 
     /// The own traces on the surface at the middle of a step of length `dt`, face by face.
@@ -208,12 +159,12 @@ impl<const N: usize> SolidSolver<N> {
 
     /// [`SolidSolver::traces_at_mid_step`] for the faces of the levels that are about to make a step; of others, nothing.
     pub fn group_traces_at_mid_step(&self, step: GroupStep, traces: &mut Vec<SurfaceTrace>) {
-        self.mid_step_of(step.dt, |slot| self.levels.group_of(&self.mesh, slot) == step.group, traces);
+        self.mid_step_of(step.dt, |slot| self.steps_in(step, slot), traces);
     }
 
     fn mid_step_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, traces: &mut Vec<SurfaceTrace>) {
         traces.clear();
-        traces.resize(self.surface.len(), SurfaceTrace::default());
+        traces.resize(self.interface().faces(), SurfaceTrace::default());
         if traces.is_empty() {
             return;
         }
@@ -234,18 +185,18 @@ impl<const N: usize> SolidSolver<N> {
     }
 
     fn refine(&self, interface: &mut Interface, fluid_edges: &[f64]) {
-        if interface.generation != Some(self.mesh.generation()) {
-            interface.edges = self.surface_edges();
-            interface.generation = Some(self.mesh.generation());
+        if interface.generation != Some(self.mesh().generation()) {
+            interface.edges = self.interface_edges();
+            interface.generation = Some(self.mesh().generation());
         }
-        let domain = self.mesh.domain();
+        let domain = self.mesh().domain();
         let axisymmetric = domain.geometry == Geometry::Axisymmetric;
         interface.refinement.update(domain.r[0], fluid_edges, &interface.edges, axisymmetric);
     }
 
     fn set_surface_from(&mut self, interface: &Interface) {
         let Interface { refinement, stars, .. } = interface;
-        let surface = &mut self.surface;
+        let surface = self.interface_mut().states_mut();
         refinement.means(true, |k| stars[k].pressure, |face, mean| surface[face].pressure = mean);
         refinement.means(true, |k| stars[k].velocity, |face, mean| surface[face].velocity = mean);
         let power = |k: usize| stars[k].pressure * stars[k].velocity;

@@ -1,17 +1,15 @@
 //! Flux correction at level jumps: the finer side's star states pass for both.
 
-use mesh::{FluxRegister, Geometry, Mesh, Side};
+use mesh::{FinerSide, FluxRegister, Geometry, Mesh, Side};
 
-use crate::block::{BlockReport, StepContext, report_stresses};
+use crate::block::{BlockReport, report_stresses};
+use crate::model::SolidStep;
 use crate::rows::FaceRows;
 use crate::state::component::COUNT;
 use crate::update::FACES;
 
 /// What is registered of a face: v_n, v_t, σ_nn, σ_nt.
 pub(crate) const QUANTITIES: usize = 4;
-
-/// The solid's register.
-pub(crate) type Register<const N: usize> = FluxRegister<N, QUANTITIES>;
 
 /// Keeps the star states on those sides of a block that meet another level.
 pub(crate) fn register_stars<const N: usize>(
@@ -21,7 +19,7 @@ pub(crate) fn register_stars<const N: usize>(
     r_faces: &FaceRows,
     values: &mut [f64],
 ) {
-    Register::<N>::record(mesh, slot, values, |side, k| {
+    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, |side, k| {
         let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
         [faces.v_n[k], faces.v_t[k], faces.s_nn[k], faces.s_nt[k]]
     });
@@ -30,17 +28,16 @@ pub(crate) fn register_stars<const N: usize>(
 /// Corrects the cells of a block along its finer neighbours, after all blocks have made their step; the formulas
 /// are those of the update for one face.
 pub(crate) fn correct<const N: usize>(
-    ctx: &StepContext<'_, N>,
-    register: &Register<N>,
-    finer: &Register<N>,
+    ctx: &SolidStep<'_, N>,
+    finer: FinerSide<'_, N>,
     slot: usize,
     new: &mut [f64],
     report: &mut BlockReport,
 ) {
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);
-    let e = ctx.elasticity;
-    register.for_corrected_sides(finer, ctx.mesh, slot, |side, outward, [v_n, v_t, s_nn, s_nt]| {
+    let e = &ctx.model.elasticity;
+    finer.for_corrected_sides(ctx.mesh, slot, |side, outward, [v_n, v_t, s_nn, s_nt]: &[_; QUANTITIES]| {
         if matches!(side, Side::ZMin | Side::ZMax) {
             let i = if side == Side::ZMin { 0 } else { N - 1 };
             let scale = outward * ctx.dt / h_z;
@@ -80,7 +77,7 @@ pub(crate) fn correct<const N: usize>(
             }
         }
     });
-    report_stresses(ctx, slot, new, report);
+    report_stresses(ctx.mesh, slot, new, ctx.model.yield_squared(), report);
 }
 
 /// Adds to the cell `k` of a block, whose components are `len` numbers.

@@ -7,7 +7,7 @@ use mesh::Part;
 
 use super::SolidSide;
 use crate::run::RunError;
-use crate::run::medium::{self, Medium};
+use crate::run::medium;
 use crate::run::schedule::Plan;
 use crate::run::stop::Stop;
 
@@ -41,7 +41,7 @@ impl SolidSide {
             None => medium::begin_long(&mut self.solver, plan.dt, &self.rule)?,
         };
         self.trial = Some(step);
-        Medium::run(&mut self.solver, step, Part::AtInterface)?;
+        self.solver.run(step, Part::AtInterface)?;
         self.clock.computing += start.elapsed();
         self.answer_with_cells(link, (self.solver.steps(), self.solver.time()), stop)
     }

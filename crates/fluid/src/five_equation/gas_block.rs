@@ -1,14 +1,15 @@
 //! The part of a block's step that only the five-equation model has, where there is gas.
 
-use mesh::{AlignedRow, Mesh, Padded, Side};
+use mesh::{AlignedRow, Marks, Mesh, Padded, Side};
 
 use super::cells::Cells;
 use super::mixed::{MixedCells, Outer};
 use super::reconstruction::Stencil;
 use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
-use crate::block::{BlockScratch, Marks, StepContext, split_block};
+use crate::block::{BlockScratch, split_block};
 use crate::clips::Clips;
 use crate::face_rows::FaceRows;
+use crate::model::FluidStep;
 use crate::options::TwoPhaseOptions;
 use crate::report::BlockReport;
 use crate::rows::{Reconstruction, Rows};
@@ -54,18 +55,18 @@ impl GasScratch {
 
 /// Whether there may be gas in a block's padded cells. Where there is gas the paper's mixture does not know: its traces
 /// are nearly everywhere.
-pub(crate) fn may_have_gas<const N: usize>(ctx: &StepContext<'_, N>, slot: usize) -> bool {
-    let has_gas = |slot: &usize| ctx.has_gas[*slot];
-    ctx.two_phase.is_none()
+pub(crate) fn may_have_gas<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> bool {
+    let has_gas = |slot: &usize| ctx.model.has_gas[*slot];
+    ctx.model.scheme.two_phase.is_none()
         || has_gas(&slot)
-        || ctx.boundaries.may_let_gas_in(ctx.mesh, slot)
+        || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
         || (ctx.mesh.tree().neighbours(slot).iter())
             .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot)))
 }
 
 /// A block of the five-equation model with gas in its padded cells.
 pub(crate) struct GasBlock<'a, const N: usize> {
-    ctx: &'a StepContext<'a, N>,
+    ctx: &'a FluidStep<'a, N>,
     slot: usize,
     options: TwoPhaseOptions,
     inverse_h: [f64; 2],
@@ -76,12 +77,12 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     /// away. `None` for the paper's mixture.
     ///
     /// - `cells`: the padded cells, primitive.
-    pub fn of(ctx: &'a StepContext<'a, N>, slot: usize, cells: &Padded<N>) -> Option<Self> {
-        let options = ctx.two_phase?;
+    pub fn of(ctx: &'a FluidStep<'a, N>, slot: usize, cells: &Padded<N>) -> Option<Self> {
+        let options = ctx.model.scheme.two_phase?;
         let level = ctx.mesh.tree().leaves()[slot].level;
         let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
         let has_gas = !ctx.marks.is_empty()
-            || ctx.boundaries.may_let_gas_in(ctx.mesh, slot)
+            || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
             || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)));
         has_gas.then_some(Self { ctx, slot, options, inverse_h })
     }
@@ -91,11 +92,11 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         'a: 'b,
     {
         Stencil {
-            limiter: self.ctx.limiter,
+            limiter: self.ctx.model.scheme.limiter,
             inverse_h: self.inverse_h,
             inverse_r,
             dt: self.ctx.dt,
-            mixture: self.ctx.mixture,
+            mixture: &self.ctx.model.mixture,
             options: self.options,
         }
     }
@@ -115,7 +116,8 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         );
         // What the kernels made of these cells counts for nothing. What the wall to the solid asks for is on the lower
         // face along z; and the exact solver should not labour over what is no state.
-        let is_asked_for = self.outer(Side::ZMin) == Outer::Given || self.ctx.riemann == RiemannSolver::Exact;
+        let is_asked_for =
+            self.outer(Side::ZMin) == Outer::Given || self.ctx.model.scheme.riemann == RiemannSolver::Exact;
         for (k, state) in gas.mixed.listed() {
             keep[k] = NOT_THEIRS;
             if is_asked_for {
@@ -130,7 +132,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         if !self.ctx.mesh.touches(self.slot, side) {
             return Outer::Block;
         }
-        match self.ctx.boundaries.kind(side) {
+        match self.ctx.model.boundaries.kind(side) {
             Boundary::Axis | Boundary::Wall => Outer::Mirror,
             Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow | Boundary::Interface => {
                 Outer::Given
@@ -148,7 +150,8 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             for along in 0..N {
                 let [inner, ghost] =
                     crate::boundary::beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
-                let given = self.ctx.boundaries.initial_gas_share(self.ctx.mesh, self.slot, side, along);
+                let given =
+                    self.ctx.model.boundaries.initial_gas_share(self.ctx.mesh, self.slot, side, along);
                 shares[ghost] = given.unwrap_or(shares[inner]);
             }
         }
@@ -273,31 +276,32 @@ mod tests {
         let (mut added, before) = ([0.0; 2], fluid.totals());
         let mut changed = [0_u64; 2];
         for slot in 0..fluid.mesh().blocks() {
-            let id = fluid.mesh.tree().leaves()[slot];
-            let block = fluid.state.block_mut(slot);
+            let id = fluid.mesh().tree().leaves()[slot];
+            let block = fluid.state_mut().block_mut(slot);
             // In the middle of blocks all around holds the same phase, and nothing moves.
             let (cell, cells) = (8 * 4 + 4, 64);
             let near = [cell - 17, cell - 2, cell + 2, cell + 17].map(|k| block[PHI * cells + k]);
             if near == [0.0; 4] {
                 block[GAS * cells + cell] = -1e-4;
-                added[0] += 1e-4 * fluid.mesh.volume(id, 4);
+                added[0] += 1e-4 * fluid.mesh().volume(id, 4);
                 changed[0] += 1;
             } else if near == [1.0; 4] {
                 let more = 0.3 * block[cell];
                 block[GAS * cells + cell] = block[cell] + more;
-                added[1] += more * fluid.mesh.volume(id, 4);
+                added[1] += more * fluid.mesh().volume(id, 4);
                 changed[1] += 1;
             }
         }
         assert!(changed.iter().all(|blocks| *blocks > 0), "there are blocks of both phases: {changed:?}");
-        fluid.has_gas.fill(true);
+        fluid.model_mut().has_gas.fill(true);
         fluid.step(dt).expect("a step");
         let fixups = fluid.fixups();
         assert!(fixups.clips.lifted_phases >= changed[0] + changed[1], "{fixups:?}");
         approx::assert_relative_eq!(fixups.gas_mass_added, added[0], max_relative = 1e-2);
         approx::assert_relative_eq!(fixups.liquid_mass_added, added[1], max_relative = 1e-2);
         for slot in 0..fluid.mesh().blocks() {
-            for (rho, gas) in fluid.state.component(slot, 0).iter().zip(fluid.state.component(slot, GAS)) {
+            for (rho, gas) in fluid.state().component(slot, 0).iter().zip(fluid.state().component(slot, GAS))
+            {
                 assert!(*gas >= -1e-9 * rho && *gas <= 1.1 * rho, "{gas} of {rho}");
             }
         }
@@ -311,14 +315,18 @@ mod tests {
         for step in 0..120 {
             let dt = plain.time_step_limit(0.45);
             assert_eq!(dt, searched.time_step_limit(0.45), "step {step}");
-            searched.has_gas.fill(true);
+            searched.model_mut().has_gas.fill(true);
             for fluid in [&mut plain, &mut searched] {
                 fluid.step(dt).expect("a step");
                 fluid.adapt_if_due(dt, 1);
             }
-            assert_eq!(plain.state, searched.state, "step {step}");
+            assert_eq!(plain.state(), searched.state(), "step {step}");
         }
-        let with_gas = plain.has_gas.iter().filter(|has_gas| **has_gas).count();
-        assert!(with_gas > 4 && 2 * with_gas < plain.has_gas.len(), "{with_gas} of {}", plain.has_gas.len());
+        let with_gas = plain.model().has_gas.iter().filter(|has_gas| **has_gas).count();
+        assert!(
+            with_gas > 4 && 2 * with_gas < plain.model().has_gas.len(),
+            "{with_gas} of {}",
+            plain.model().has_gas.len()
+        );
     }
 }

@@ -1,16 +1,6 @@
 //! Which cells fall back to first order, as both sides of a block's edge see it.
 
-use std::collections::BTreeSet;
-
-use mesh::{Mesh, Padded};
-
-use crate::block::Marks;
-
-/// The blocks whose fluxes change because of marked cells: their own and the neighbours'.
-pub(crate) fn marked_blocks<const N: usize>(mesh: &Mesh<N>, marks: &Marks) -> BTreeSet<usize> {
-    let beside = |slot: &usize| mesh.tree().neighbours(*slot).iter().flat_map(|neighbour| neighbour.slots());
-    marks.keys().copied().chain(marks.keys().flat_map(beside)).collect()
-}
+use mesh::{Marks, Mesh, Padded};
 
 /// Writes which padded cells of a block are marked, ghosts in other blocks included: a fall-back changes the fluxes on
 /// both sides of a face alike.

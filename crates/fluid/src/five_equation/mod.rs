@@ -22,7 +22,6 @@ pub(crate) use cells::{Cells, FaceState};
 pub(crate) use closure::{Compression, is_compliant, is_mixed};
 pub(crate) use face_states::FaceStates;
 pub(crate) use gas_block::{GasBlock, GasScratch, may_have_gas};
-pub(crate) use marks::marked_blocks;
 pub(crate) use reconstruction::{Stencil, face_states};
 pub(crate) use update::missing_mass;
 pub(crate) use windows::Window;

@@ -56,7 +56,8 @@ fn recorded(mut fluid: FluidSolver<8>, has_local_steps: bool) -> Vec<[f64; 2]> {
             fluid.sub_step(CFL).unwrap();
             series.push([fluid.time(), fluid.sample(PROBE).unwrap().pressure - 1e5]);
         }
-        fluid.adapt_if_due(dt, (fluid.steps() - before) as u32);
+        let steps = (fluid.steps() - before) as u32;
+        fluid.adapt_if_due(dt, steps);
     }
     series
 }

@@ -1,6 +1,6 @@
 //! Waves leave through open sides, and what rests stays at rest.
 
-use coupler::{TraceRow, WallRegister};
+use coupler::TraceRow;
 use fluid::PressureHistory;
 use fluid::{Boundary, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Pulse, PulseShape};
 use mesh::Side;
@@ -73,7 +73,7 @@ fn a_limiter_clips_little_of_a_spherical_pulse_at_the_wall_below_it() {
         let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
         let mut highest = 0.0_f64;
         while fluid.time() < 0.7 / sound {
-            fluid.step(fluid.time_step_limit(CFL)).unwrap();
+            fluid.step_at(CFL).unwrap();
             highest = highest.max(fluid.cell(0, 0, 0).pressure - 1e5);
         }
         highest
@@ -133,8 +133,9 @@ fn rest_stays_at_rest_bitwise() {
             fluid = FluidSolver::from_fn(&setup, |_| still(5e7)).unwrap();
             let start = fluid.state().clone();
             for _ in 0..20 {
-                let (zeros, held) = (vec![0.0; fluid.wall_faces()], vec![pressure; fluid.wall_faces()]);
-                fluid.set_wall(&WallRegister { pressure: &held, velocity: &zeros, power: &zeros });
+                let (zeros, held) =
+                    (vec![0.0; fluid.interface().faces()], vec![pressure; fluid.interface().faces()]);
+                fluid.interface_mut().set_rows([&held, &zeros, &zeros]);
                 run_steps(&mut fluid, 1);
             }
             assert!(*fluid.state() == start, "{geometry:?} {kind:?}");

@@ -43,7 +43,7 @@ fn carried(
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
     let mut phi = [0.0_f64, 1.0_f64];
     for step in 0..steps {
-        fluid.step(fluid.time_step_limit(CFL)).unwrap();
+        fluid.step_at(CFL).unwrap();
         if step % 50 == 0 {
             each_cell(&fluid, |_, _, w| phi = [phi[0].min(w.phi), phi[1].max(w.phi)]);
         }

@@ -69,7 +69,7 @@ pub fn run_to<const N: usize>(fluid: &mut FluidSolver<N>, end: f64) {
 
 pub fn run_steps<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) {
     for _ in 0..steps {
-        fluid.step(fluid.time_step_limit(CFL)).unwrap();
+        fluid.step_at(CFL).unwrap();
     }
 }
 

@@ -1,6 +1,5 @@
 //! Totals change by what the ledger says came in, to round-off.
 
-use coupler::WallRegister;
 use fluid::{
     Boundary, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, PressureHistory, Primitive,
     Region, Shape,
@@ -110,7 +109,7 @@ fn moving_wall(kind: Kind) {
     let (mut impulse, mut work) = (0.0, 0.0);
     let balance = imbalance(&mut fluid, 200, |fluid, dt| {
         // Some motion of the wall, larger at the axis; the mean of pv is not the product of the means.
-        let n = fluid.wall_faces();
+        let n = fluid.interface().faces();
         let phase = 5e3 * fluid.time();
         let at = |face: usize| (-(face as f64 / 10.0).powi(2)).exp();
         let velocity: Vec<f64> = (0..n).map(|face| 2.0 * at(face) * phase.sin()).collect();
@@ -122,7 +121,7 @@ fn moving_wall(kind: Kind) {
             impulse += dt * area * pressure[face];
             work += dt * area * power[face];
         }
-        fluid.set_wall(&WallRegister { pressure: &pressure, velocity: &velocity, power: &power });
+        fluid.interface_mut().set_rows([&pressure, &velocity, &power]);
     });
     check(&balance);
     // The wall's impulse and work are in the ledger: what passes besides is what the moving fluid carries,

@@ -28,11 +28,11 @@ proptest! {
         let mut random = Random(plan.seed);
         let mesh = plan.grown(&mut random);
         let map = Map::paint(&mesh, plan.periodic);
-        let mut register = FluxRegister::<N, K>::new(mesh.blocks());
+        let mut register = FluxRegister::<N>::new(mesh.blocks(), K);
         let mut values = vec![[[[0.0; N]; K]; 4]; mesh.blocks()];
         for (slot, values) in values.iter_mut().enumerate() {
             for side in Side::ALL {
-                let rows = FluxRegister::<N, K>::rows(register.values_mut().block_mut(slot), side);
+                let rows = FluxRegister::<N>::rows::<K>(register.values_mut().block_mut(slot), side);
                 for (row, values) in rows.chunks_exact_mut(N).zip(&mut values[side as usize]) {
                     random.fill(row);
                     values.copy_from_slice(row);
@@ -43,7 +43,7 @@ proptest! {
             (Side::RMin, Side::RMax, [0, -1]), (Side::RMax, Side::RMin, [0, 1])];
         for (slot, id) in mesh.tree().leaves().iter().enumerate() {
             let mut corrected = [None; 4];
-            register.for_corrected_sides(&register, &mesh, slot, |side, outward, differences| {
+            register.for_corrected_sides(&register, &mesh, slot, |side, outward, differences: &[[f64; N]; K]| {
                 assert_eq!(outward > 0.0, matches!(side, Side::ZMax | Side::RMax));
                 corrected[side as usize] = Some(*differences);
             });
@@ -51,9 +51,9 @@ proptest! {
                 let beyond = map.beyond(&mesh, slot, offset);
                 let levels = beyond.iter().map(|other| mesh.tree().leaves()[*other].level);
                 let finer = levels.clone().any(|level| level > id.level);
-                assert_eq!(FluxRegister::<N, K>::is_corrected(&mesh, slot, side), finer);
+                assert_eq!(FluxRegister::<N>::is_corrected(&mesh, slot, side), finer);
                 let needed = levels.clone().any(|level| level != id.level);
-                assert_eq!(FluxRegister::<N, K>::is_needed(&mesh, slot, side), needed);
+                assert_eq!(FluxRegister::<N>::is_needed(&mesh, slot, side), needed);
                 assert_eq!(corrected[side as usize].is_some(), finer);
                 let Some(differences) = corrected[side as usize] else { continue };
                 for along in 0..N {

@@ -1,7 +1,7 @@
 //! What comes back from the sides, and what rests stays at rest.
 
-use mesh::{Domain, Limiter, Side};
-use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, SurfaceState};
+use mesh::{Domain, FaceState, Limiter, Side};
+use solid::{Boundary, ElasticState, SolidSetup, SolidSolver};
 
 use crate::helpers::*;
 
@@ -103,8 +103,8 @@ fn pre_stress_stays_at_rest_bitwise() {
             let mut solid = SolidSolver::<8>::new(setup, |_| state).unwrap();
             let start = solid.state().clone();
             for _ in 0..if boundaries[0] == Absorbing { 3000 } else { 20 } {
-                solid.set_surface(|_| SurfaceState { pressure: p, velocity: 0.0, power: 0.0 });
-                solid.step(solid.time_step_limit(CFL)).unwrap();
+                solid.interface_mut().set_all(|_| FaceState { pressure: p, velocity: 0.0, power: 0.0 });
+                solid.step_at(CFL).unwrap();
             }
             assert!(*solid.state() == start, "{geometry:?} {state:?} {boundaries:?} {limiter:?}");
         }

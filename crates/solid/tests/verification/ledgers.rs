@@ -1,7 +1,8 @@
 //! Axial momentum changes by what the ledger says came in; energy is never made.
 
+use mesh::FaceState;
 use mesh::Limiter;
-use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, SurfaceState, Totals};
+use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, Totals};
 
 use crate::helpers::*;
 
@@ -19,12 +20,12 @@ fn lump([z, r]: [f64; 2]) -> ElasticState {
 }
 
 /// The change of axial momentum that the ledger does not explain, relative to 1 m/s of the whole mass.
-fn imbalance(solid: &mut SolidSolver<8>, steps: usize, load: impl Fn(usize, f64) -> SurfaceState) -> f64 {
+fn imbalance(solid: &mut SolidSolver<8>, steps: usize, load: impl Fn(usize, f64) -> FaceState) -> f64 {
     let start = solid.totals();
     for _ in 0..steps {
         let time = solid.time();
-        solid.set_surface(|face| load(face, time));
-        solid.step(solid.time_step_limit(CFL)).unwrap();
+        solid.interface_mut().set_all(|face| load(face, time));
+        solid.step_at(CFL).unwrap();
     }
     let change = solid.totals().momentum_z - start.momentum_z - solid.ledger().momentum.iter().sum::<f64>();
     eprintln!("imbalance of axial momentum {:.1e}", change / start.mass);
@@ -36,7 +37,7 @@ const ROUND_OFF: f64 = 1e-14;
 
 #[test]
 fn momentum_balances() {
-    let rest = |_, _| SurfaceState::default();
+    let rest = |_, _| FaceState::default();
     for boundaries in [
         CYLINDER,
         [Boundary::Fixed, Boundary::Free, Boundary::Axis, Boundary::Fixed],
@@ -57,7 +58,7 @@ fn momentum_and_work_of_a_load_on_the_surface() {
     let mut solid =
         SolidSolver::<8>::new(setup(AXIAL, [32, 32], boundaries), |_| ElasticState::default()).unwrap();
     let bell = |face: usize| (-(face as f64 / 8.0).powi(2)).exp();
-    let load = |face: usize, time: f64| SurfaceState {
+    let load = |face: usize, time: f64| FaceState {
         pressure: 1e8 * bell(face) * (1e5 * time).sin(),
         velocity: -2.0 * bell(face) * (1e5 * time).sin(),
         power: -2.1e8 * (bell(face) * (1e5 * time).sin()).powi(2),
@@ -67,7 +68,7 @@ fn momentum_and_work_of_a_load_on_the_surface() {
     // mean of the product.
     let (mut impulse, mut work, dt) = (0.0, 0.0, solid.time_step_limit(CFL));
     for step in 0..300 {
-        for face in 0..solid.surface_faces() {
+        for face in 0..solid.interface().faces() {
             let h = 1.0 / 32.0;
             let area = (face as f64 + 0.5) * h * h;
             let state = load(face, step as f64 * dt);
@@ -92,7 +93,7 @@ fn energy_only_falls_in_the_long_run() {
             let mut solid = SolidSolver::<8>::new(setup, lump).unwrap();
             let mut last = energy(solid.totals());
             for step in 0..4000 {
-                solid.step(solid.time_step_limit(CFL)).unwrap();
+                solid.step_at(CFL).unwrap();
                 let now = energy(solid.totals());
                 // Round-off of the sum over a thousand cells.
                 assert!(now <= last * (1.0 + 1e-13), "{limiter:?} {step}: {last} -> {now}");
@@ -111,7 +112,7 @@ fn energy_only_falls_and_less_on_finer_grids() {
             let start = energy(solid.totals());
             let mut last = start;
             while solid.time() < 2e-4 {
-                solid.step(solid.time_step_limit(CFL)).unwrap();
+                solid.step_at(CFL).unwrap();
                 let now = energy(solid.totals());
                 assert!(now <= last * (1.0 + 1e-14), "{n}: {last} -> {now}");
                 last = now;

@@ -1,7 +1,7 @@
 //! Open sides: what comes back from a side of the waves of a load, what rests, what a load that stays does.
 
-use mesh::{Adaptation, Domain, Geometry};
-use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, SurfaceState, WaveSpeeds};
+use mesh::{Adaptation, Domain, FaceState, Geometry};
+use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
 
 use crate::helpers::*;
 
@@ -33,15 +33,15 @@ fn load<const N: usize>(
     pressure: impl Fn(f64, f64) -> f64,
 ) {
     let z1 = solid.setup().speeds.z1();
-    let (edges, time) = (solid.surface_edges(), solid.time() + 0.5 * dt);
+    let (edges, time) = (solid.interface_edges(), solid.time() + 0.5 * dt);
     let mut traces = vec![];
     solid.traces_at_mid_step(dt, &mut traces);
-    solid.set_surface(|face| {
+    solid.interface_mut().set_all(|face| {
         let r = 0.5 * (edges[face] + if face == 0 { 0.0 } else { edges[face - 1] });
         let (trace, given) = (traces[face], pressure(r, time));
         let velocity = (trace.velocity + (trace.pressure - given) / z1) / (1.0 + resistance / z1);
         let pressure = given + resistance * velocity;
-        SurfaceState { pressure, velocity, power: pressure * velocity }
+        FaceState { pressure, velocity, power: pressure * velocity }
     });
     let follows = solid.adaptation_follows(dt, 1);
     solid.step(dt).unwrap();
@@ -184,7 +184,7 @@ fn nothing_grows_in_the_long_run() {
         let energies: Vec<[f64; 2]> = (0..5)
             .map(|part| {
                 for _ in 0..if part == 0 { 0 } else { 5000 } {
-                    solid.step(solid.time_step_limit(CFL)).unwrap();
+                    solid.step_at(CFL).unwrap();
                 }
                 let totals = solid.totals();
                 [totals.kinetic, totals.elastic]

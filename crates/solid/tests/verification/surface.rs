@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use mesh::{Domain, Limiter};
-use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, SurfaceState};
+use mesh::{Domain, FaceState, Limiter};
+use solid::{Boundary, ElasticState, SolidSetup, SolidSolver};
 
 use crate::helpers::*;
 
@@ -78,11 +78,11 @@ fn error_on_surface(
     for _ in 0..steps as usize {
         // What a wave brings that the load does not take moves the surface.
         solid.traces_at_mid_step(dt, &mut traces);
-        solid.set_surface(|face| {
+        solid.interface_mut().set_all(|face| {
             let load = pressure((face as f64 + 0.5) / n as f64);
             let velocity =
                 traces[face].velocity + (traces[face].pressure - load) / (STEEL.density * STEEL.c1);
-            SurfaceState { pressure: load, velocity, power: load * velocity }
+            FaceState { pressure: load, velocity, power: load * velocity }
         });
         solid.step(dt).unwrap();
     }

@@ -30,7 +30,7 @@ fn after<const N: usize>(
     let index = |x: f64| (x * CELLS as f64) as usize;
     let mut solid = SolidSolver::<N>::new(setup.clone(), |[z, r]| start(index(z), index(r))).unwrap();
     for _ in 0..50 {
-        solid.step(solid.time_step_limit(CFL)).unwrap();
+        solid.step_at(CFL).unwrap();
     }
     global(&solid, CELLS)
 }

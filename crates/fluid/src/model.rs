@@ -1,0 +1,293 @@
+//! What the fluid is to the block solver.
+
+use mesh::{
+    Adapted, BlockSolver, Field, FinerSide, Interface, Limiter, Mesh, Misfit, Model, Patch, Place, Reports,
+    ScratchPool, Side, Step, maximum,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::analysis::Analysis;
+use crate::block::{BlockScratch, step_block};
+use crate::boundary::Boundaries;
+use crate::bubbles::follow_sources;
+use crate::clips::{CountedAnalysis, SharedCount};
+use crate::far_field::{Moment, SideImpulses, SourceHistory};
+use crate::options::TwoPhaseOptions;
+use crate::reflux::{self, QUANTITIES};
+use crate::report::BlockReport;
+use crate::state::conserved::{COUNT, GAS, PHI};
+use crate::update::Extremes;
+use crate::{Boundary, BoundaryLedger, Fixups, FluidError, Mixture, Primitive, RiemannSolver};
+
+/// A fluid of two phases: what its cells obey, and what bounds them.
+pub struct Fluid {
+    pub(crate) mixture: Mixture,
+    pub(crate) scheme: Scheme,
+    pub(crate) boundaries: Boundaries,
+    /// What the far field remembers along the open sides.
+    pub(crate) impulses: SideImpulses,
+    /// What the bubbles have done lately.
+    pub(crate) sources: SourceHistory,
+    pub(crate) analysis: Analysis,
+    /// Whether there is gas in each block, or will be at the end of the step it is in, as the reports have it.
+    pub(crate) has_gas: Vec<bool>,
+    /// Slots of the blocks along r_min, in order.
+    pub(crate) axis_blocks: Vec<usize>,
+    pub(crate) tally: Tally,
+}
+
+/// How face states and fluxes are made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scheme {
+    pub limiter: Limiter,
+    pub riemann: RiemannSolver,
+    /// What the five-equation model does in mixed cells; `None` for the paper's mixture.
+    pub two_phase: Option<TwoPhaseOptions>,
+}
+
+impl Scheme {
+    /// The limiter of the gas fraction's slopes.
+    pub fn fraction_limiter(&self) -> Limiter {
+        self.two_phase.map_or(self.limiter, |options| options.fraction_limiter(self.limiter))
+    }
+}
+
+/// What is added up over a run.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    fixups: Fixups,
+    /// Traces of the wall that were scaled since the fluid was made or taken up again; they are shown, not made, in a step.
+    pub scaled_traces: SharedCount,
+    pub ledger: BoundaryLedger,
+}
+
+impl Tally {
+    /// Corrections made so far.
+    pub fn fixups(&self) -> Fixups {
+        let mut fixups = self.fixups;
+        fixups.clips.scaled_traces += self.scaled_traces.get();
+        fixups
+    }
+}
+
+/// A step of the fluid.
+pub(crate) type FluidStep<'a, const N: usize> = Step<'a, Fluid, N>;
+
+/// What of a fluid changes in time besides its cells.
+#[derive(Serialize, Deserialize)]
+pub struct FluidMemory {
+    impulses: SideImpulses,
+    sources: SourceHistory,
+    fixups: Fixups,
+    ledger: BoundaryLedger,
+}
+
+impl Fluid {
+    /// A step as the far field sees it.
+    pub(crate) fn moment<const N: usize>(&self, step: &FluidStep<'_, N>) -> Moment<'_> {
+        Moment { middle: step.middle(), dt: step.dt, history: &self.sources }
+    }
+
+    /// What the gas fraction and the gas's mass of a block say: whether there is any.
+    fn has_any_gas(&self, components: &[&[f64]]) -> bool {
+        let has_any = |component: usize| components[component].iter().any(|value| *value != 0.0);
+        self.scheme.two_phase.is_some() && (has_any(PHI) || has_any(GAS))
+    }
+
+    /// The conserved variables of a cell that is not physical.
+    fn failed_state<const N: usize>(&self, block: &[f64], cell: usize) -> Option<[f64; COUNT]> {
+        let u: [f64; COUNT] = std::array::from_fn(|c| block[c * N * N + cell]);
+        let w = Primitive::from_conserved(u, &self.mixture);
+        let stiffness = self.mixture.stiffness(w.pressure, w.phi);
+        let is_physical = w.density > 0.0 && stiffness >= 0.0 && (stiffness / w.density).is_finite();
+        (!is_physical).then_some(u)
+    }
+}
+
+/// Whether all cells of a block are physical: else its speed is infinite.
+fn is_sane<const N: usize>(report: &BlockReport<N>) -> bool {
+    report.extremes.speed_z.is_finite() && report.extremes.speed_r.is_finite()
+}
+
+impl<const N: usize> Model<N> for Fluid {
+    const INTERFACE: Side = Side::ZMin;
+    const REGISTERED: usize = QUANTITIES;
+    type Analysis = Analysis;
+    type Report = BlockReport<N>;
+    type Scratch = BlockScratch<N>;
+    type Error = FluidError;
+    type Memory = FluidMemory;
+
+    fn analysis(&self) -> &Analysis {
+        &self.analysis
+    }
+
+    fn has_interface(&self) -> bool {
+        self.boundaries.kind(Side::ZMin) == Boundary::Interface
+    }
+
+    fn watched(&self) -> &[usize] {
+        &self.axis_blocks
+    }
+
+    fn step_block(
+        &self,
+        step: &FluidStep<'_, N>,
+        slot: usize,
+        new: &mut [f64],
+        register: &mut [f64],
+        scratch: &mut BlockScratch<N>,
+    ) -> BlockReport<N> {
+        step_block(step, slot, new, register, scratch)
+    }
+
+    fn correct(
+        &self,
+        step: &FluidStep<'_, N>,
+        finer: FinerSide<'_, N>,
+        slot: usize,
+        new: &mut [f64],
+        report: &mut BlockReport<N>,
+    ) {
+        reflux::correct(step, finer, slot, new, report);
+    }
+
+    fn measure(&self, _: &Mesh<N>, _: usize, block: &[f64], report: &mut BlockReport<N>) {
+        let mut extremes = Extremes::default();
+        for k in 0..N * N {
+            let u: [f64; COUNT] = std::array::from_fn(|c| block[c * N * N + k]);
+            let w = Primitive::from_conserved(u, &self.mixture);
+            let sound = (self.mixture.stiffness(w.pressure, w.phi) / w.density).sqrt();
+            let sane = w.density > 0.0 && sound < f64::MAX;
+            let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
+            extremes.speed_z = extremes.speed_z.max(speed(w.v_z));
+            extremes.speed_r = extremes.speed_r.max(speed(w.v_r));
+        }
+        let components: Vec<&[f64]> = block.chunks_exact(N * N).collect();
+        extremes.phi = maximum(components[PHI]);
+        report.extremes = extremes;
+        report.has_gas = self.has_any_gas(&components);
+    }
+
+    fn signal_speeds(&self, report: &BlockReport<N>) -> [f64; 2] {
+        [report.extremes.speed_z, report.extremes.speed_r]
+    }
+
+    fn inadmissible_cell(&self, report: &BlockReport<N>, block: &[f64]) -> Option<usize> {
+        if is_sane(report) {
+            return None;
+        }
+        (0..N * N).find(|cell| self.failed_state::<N>(block, *cell).is_some())
+    }
+
+    fn error(&self, block: &[f64], cell: usize, Place { z, r, time, step }: Place) -> FluidError {
+        let [density, _, _, energy, phi] = std::array::from_fn(|c| block[c * N * N + cell]);
+        FluidError::NonPhysical { z, r, time, step, density, energy, phi }
+    }
+
+    /// Mixed cells of which a phase would be drained, those that the pressure floor would lift, and any that are not physical
+    /// any more. What the floor still lifts after all then stays lifted.
+    fn cells_to_redo(&self, report: &BlockReport<N>, block: &[f64]) -> Vec<usize> {
+        if report.marked.is_empty() && is_sane(report) {
+            return Vec::new();
+        }
+        let mut cells: Vec<usize> = report.marked.cells().collect();
+        if !is_sane(report) {
+            cells.extend((0..N * N).filter(|cell| self.failed_state::<N>(block, *cell).is_some()));
+        }
+        cells
+    }
+
+    fn note_redone(&self, report: &mut BlockReport<N>, cells: usize, volume: f64) {
+        report.redone = cells as u32;
+        report.redone_volume = volume;
+    }
+
+    fn account(
+        &mut self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        dt: f64,
+        report: &BlockReport<N>,
+        interface: &Interface,
+    ) {
+        let Tally { fixups, ledger, .. } = &mut self.tally;
+        fixups.first_order += u64::from(report.fallbacks);
+        fixups.redone += u64::from(report.redone);
+        fixups.redone_volume += report.redone_volume;
+        fixups.floored_volume += report.floored_volume;
+        fixups.floored += u64::from(report.floored);
+        fixups.floor_energy += report.floor_energy;
+        fixups.gas_mass_added += report.phase_mass_added[0];
+        fixups.liquid_mass_added += report.phase_mass_added[1];
+        fixups.clips += report.clips;
+        for (side, [mass, momentum, energy]) in report.inflow.into_iter().enumerate() {
+            ledger.mass[side] += mass;
+            ledger.momentum[side] += momentum;
+            ledger.energy[side] += energy;
+        }
+        let id = mesh.tree().leaves()[slot];
+        if let Some(states) = interface.states_of::<N>(slot) {
+            let h_r = mesh.widths(id.level)[1];
+            for (j, state) in states.iter().enumerate() {
+                let area = mesh.weight(mesh.centre(id, 0, j)[1]) * h_r;
+                ledger.wall_impulse += dt * area * state.pressure;
+                ledger.wall_work += dt * area * state.power;
+            }
+        }
+        for side in Side::ALL {
+            if self.boundaries.has_far_field(side) && mesh.touches(slot, side) {
+                for (along, gain) in report.impulse[side as usize].0.into_iter().enumerate() {
+                    self.impulses.add(side, id.level, id.first_face::<N>(side) + along, gain);
+                }
+            }
+        }
+    }
+
+    fn reports_changed(&mut self, reports: &Reports<BlockReport<N>>) {
+        self.has_gas.clear();
+        let both = reports.finished.iter().zip(&reports.pending);
+        self.has_gas.extend(both.map(|(finished, pending)| finished.has_gas | pending.has_gas));
+    }
+
+    fn mesh_changed(&mut self, mesh: &Mesh<N>) {
+        self.axis_blocks = mesh.blocks_along(Side::RMin);
+    }
+
+    /// How many predictions are limited is counted.
+    fn remap(
+        &mut self,
+        adapted: &Adapted<N>,
+        (mesh, field): (&Mesh<N>, &Field),
+        patches: &ScratchPool<Patch<N>>,
+        new: &mut Field,
+    ) {
+        let analysis = CountedAnalysis::new(&self.analysis);
+        adapted.remap_into(mesh, field, &analysis, patches, new);
+        self.tally.fixups.clips.limited_predictions += analysis.limited();
+    }
+
+    fn whole_step_ended(solver: &mut BlockSolver<Self, N>) {
+        follow_sources(solver);
+    }
+
+    fn memory(&self) -> FluidMemory {
+        FluidMemory {
+            impulses: self.impulses.clone(),
+            sources: self.sources.clone(),
+            // Those of the traces shown are among them.
+            fixups: self.tally.fixups(),
+            ledger: self.tally.ledger,
+        }
+    }
+
+    fn restore(&mut self, memory: FluidMemory) -> Result<(), Misfit> {
+        let FluidMemory { impulses, sources, fixups, ledger } = memory;
+        if !impulses.fits(&self.impulses) {
+            return Err(Misfit("the far field's faces are not those of the fluid's sides".to_owned()));
+        }
+        (self.impulses, self.sources) = (impulses, sources);
+        self.tally = Tally { fixups, ledger, scaled_traces: SharedCount::default() };
+        Ok(())
+    }
+}

@@ -1,0 +1,59 @@
+//! The step from one mesh to the next.
+
+use super::{BlockSolver, Model};
+
+impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
+    /// Adapts the grid if it is time to; to be called after a step. Returns whether the mesh changed: slots, faces of the interface
+    /// and their number are then new ones.
+    ///
+    /// - `dt`: about the length of the steps to come, s; `steps`: how many of the finest level they are.
+    pub fn adapt_if_due(&mut self, dt: f64, steps: u32) -> bool {
+        self.is_adaptation_due(self.progress.time, dt, steps) && self.adapt(dt, steps)
+    }
+
+    /// Whether [`BlockSolver::adapt`] should follow the step about to be made, of length `dt`, which is `steps` of the finest
+    /// level; to be asked once before each step.
+    pub fn adaptation_follows(&mut self, dt: f64, steps: u32) -> bool {
+        self.is_adaptation_due(self.progress.time + dt, dt, steps)
+    }
+
+    fn is_adaptation_due(&mut self, time: f64, dt: f64, steps: u32) -> bool {
+        let every = self.adapting.settings.as_ref().map(|settings| settings.every);
+        every.is_some_and(|every| self.adapting.horizon.is_due(every, steps, time, dt))
+    }
+
+    /// Adapts the grid to the present state, as [`BlockSolver::adapt_if_due`].
+    pub fn adapt(&mut self, dt: f64, steps: u32) -> bool {
+        let Some(settings) = &self.adapting.settings else { return false };
+        let crossing: Vec<f64> = (0..self.mesh.blocks()).map(|slot| self.crossing_time(slot)).collect();
+        let shortest = crossing.iter().copied().fold(f64::INFINITY, f64::min);
+        let longest = (N as f64 - 2.0) * shortest;
+        let span = self.adapting.horizon.renew(settings.every, steps, self.progress.time, dt, longest);
+        let travel = |slot: usize| 1.0 + span / crossing[slot];
+        let (analysis, patches) = (self.model.analysis(), &self.adapting.patches);
+        let adapted = self.mesh.adapted(&self.state, analysis, settings, patches, travel, |_| 0);
+        let Some(adapted) = adapted else { return false };
+        self.model.remap(&adapted, (&self.mesh, &self.state), &self.adapting.patches, &mut self.next);
+        std::mem::swap(&mut self.state, &mut self.next);
+        let blocks = adapted.mesh.blocks();
+        self.next.resize(blocks);
+        self.levels.resize(blocks);
+        self.reports.finished = adapted.carried(&self.reports.finished);
+        let fresh: Vec<usize> = adapted.fresh().collect();
+        self.mesh = adapted.mesh;
+        self.measure(fresh);
+        self.interface.index(&self.mesh);
+        self.model.mesh_changed(&self.mesh);
+        true
+    }
+
+    /// Takes the reports of some blocks from their cells, and those of all for the steps to come.
+    pub(super) fn measure(&mut self, slots: impl IntoIterator<Item = usize>) {
+        let Self { model, mesh, state, reports, .. } = self;
+        for slot in slots {
+            model.measure(mesh, slot, state.block(slot), &mut reports.finished[slot]);
+        }
+        reports.pending.clone_from(&reports.finished);
+        model.reports_changed(reports);
+    }
+}

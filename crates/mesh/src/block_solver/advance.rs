@@ -1,0 +1,144 @@
+//! How the cells advance: in steps of the whole grid, or of its levels one by one (subcycling).
+//!
+//! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
+//! the finer ones have caught up. Without local time steps one sub-step is the whole.
+
+use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Step};
+use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part, for_each_block, for_some_blocks};
+
+impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
+    /// Advances all cells by `dt`. With another medium beyond the interface its states must have been set.
+    ///
+    /// - errors: a cell is no admissible state any more; the state before the step is then kept.
+    pub fn step(&mut self, dt: f64) -> Result<(), M::Error> {
+        self.begin_step(dt, u8::MAX);
+        self.sub_step(f64::INFINITY)
+    }
+
+    /// [`BlockSolver::step`] of the length that the Courant number allows.
+    pub fn step_at(&mut self, cfl: f64) -> Result<(), M::Error> {
+        self.step(self.time_step_limit(cfl))
+    }
+
+    /// Begins a step of length `dt` in which levels finer than `base` make steps of their own.
+    pub fn begin_step(&mut self, dt: f64, base: u8) {
+        let watched = self.interface.blocks().iter().chain(self.model.watched());
+        self.levels.begin(&self.mesh, base, self.progress.time, dt, watched);
+    }
+
+    /// Makes the next step of the finest level, and what coarser ones have to do before and after it.
+    ///
+    /// - `cfl`: bounds the steps of levels within the whole.
+    /// - errors: as [`BlockSolver::step`].
+    pub fn sub_step(&mut self, cfl: f64) -> Result<(), M::Error> {
+        while self.clock().due().is_some() {
+            let step = self.start(self.due_limit(cfl));
+            self.run(step, Part::All)?;
+        }
+        self.finish()
+    }
+
+    /// Starts the step of the group of levels that is due, of at most `limit`, see [`LevelClock::start`].
+    pub fn start(&mut self, limit: f64) -> GroupStep {
+        self.levels.start(limit)
+    }
+
+    /// Makes a part of a step that has been started. The parts of group 0 may be made one after the other.
+    ///
+    /// - errors: as [`BlockSolver::step`].
+    pub fn run(&mut self, step: GroupStep, part: Part) -> Result<(), M::Error> {
+        let Self { model, mesh, state, next, levels, reports, interface, scratch, progress, .. } = self;
+        let (clock, target, register) = levels.target(step.group, next);
+        let (time, dt, marks) = (progress.time, step.dt, &NO_MARKS);
+        let context = Step { model: &*model, mesh, old: state, interface, marks, time, dt };
+        let in_group = |slot: usize| clock.group_of(mesh, slot) == step.group;
+        let is_due = |slot: usize| part.has(interface.first_face(slot).is_some()) && in_group(slot);
+        let pending = &mut reports.pending;
+        for_each_block(target, register.values_mut(), pending, is_due, |slot, new, fluxes, report| {
+            *report = scratch.with(|scratch| model.step_block(&context, slot, new, fluxes, scratch));
+        });
+        // A cell that falls back changes what its neighbours get: first all parts must be there.
+        if part != Part::AwayFromInterface {
+            context.retry(target, register, pending, in_group, scratch);
+            check(model, mesh, target, pending, (progress.time + step.dt, progress.steps + 1))?;
+        }
+        let due = (0..mesh.blocks()).filter(|slot| is_due(*slot)).count();
+        progress.cell_updates += (due * N * N) as u64;
+        levels.gather(mesh, step.group);
+        model.reports_changed(reports);
+        Ok(())
+    }
+
+    /// Ends the present step of the finest level, and those of coarser ones that end with it.
+    ///
+    /// - errors: as [`BlockSolver::step`].
+    pub fn finish(&mut self) -> Result<(), M::Error> {
+        let later = self.clock().next();
+        let ended = |clock: &LevelClock, group: usize| clock.end(group) == later;
+        for group in (0..self.clock().groups()).rev() {
+            if ended(self.clock(), group) {
+                self.correct(group)?;
+            }
+        }
+        let Self { model, mesh, state, next, levels, reports, interface, progress, .. } = self;
+        // In the order of the slots, so that sums do not depend on threads.
+        for slot in 0..mesh.blocks() {
+            let group = levels.clock().group_of(mesh, slot);
+            if ended(levels.clock(), group) {
+                reports.finished[slot] = reports.pending[slot];
+                let dt = levels.clock().length(group);
+                model.account(mesh, slot, dt, &reports.finished[slot], interface);
+            }
+        }
+        levels.turn(mesh, state, next);
+        model.reports_changed(reports);
+        progress.time = later;
+        progress.steps += 1;
+        progress.common_updates += mesh.cells() as u64;
+        if self.clock().is_over() {
+            M::whole_step_ended(self);
+        }
+        Ok(())
+    }
+
+    /// Corrects the cells of a group along finer neighbours.
+    fn correct(&mut self, group: usize) -> Result<(), M::Error> {
+        let Self { model, mesh, state, next, levels, reports, interface, progress, .. } = self;
+        let (clock, target, registers) = levels.corrected(group, next);
+        let (time, dt, marks) = (progress.time, clock.length(group), &NO_MARKS);
+        let context = Step { model: &*model, mesh, old: state, interface, marks, time, dt };
+        let is_due = |slot: usize| clock.group_of(mesh, slot) == group && FluxRegister::is_due(mesh, slot);
+        for_some_blocks(target, &mut reports.pending, is_due, |slot, new, report| {
+            let finer = registers.finer_side(clock, mesh.tree().leaves()[slot].level);
+            model.correct(&context, finer, slot, new, report);
+        });
+        check(model, mesh, target, &reports.pending, (clock.next(), progress.steps + 1))
+    }
+}
+
+/// Fails if a cell of a new state is not admissible.
+///
+/// - `time`, `step`: of that state.
+pub(super) fn check<M: Model<N>, const N: usize>(
+    model: &M,
+    mesh: &Mesh<N>,
+    state: &Field,
+    reports: &[M::Report],
+    (time, step): (f64, u64),
+) -> Result<(), M::Error> {
+    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+        let block = state.block(slot);
+        if let Some(cell) = model.inadmissible_cell(&reports[slot], block) {
+            let [z, r] = mesh.centre(*id, cell % N, cell / N);
+            return Err(model.error(block, cell, Place { z, r, time, step }));
+        }
+    }
+    Ok(())
+}
+
+impl<R: Copy + Default> Reports<R> {
+    /// Of so many blocks, nothing yet.
+    pub(super) fn new(blocks: usize) -> Self {
+        Self { finished: vec![R::default(); blocks], pending: Vec::new() }
+    }
+}

@@ -1,0 +1,125 @@
+//! The faces between the two media, as one side has them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Mesh, Misfit, Side};
+
+/// The state of a face between the media during a step: means over it of p*, v* and p*v*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FaceState {
+    /// Mean pressure, Pa.
+    pub pressure: f64,
+    /// Mean velocity along +z, m/s.
+    pub velocity: f64,
+    /// Mean of their product, W/m².
+    pub power: f64,
+}
+
+impl From<[f64; 3]> for FaceState {
+    /// From p*, v*, p*v*.
+    fn from([pressure, velocity, power]: [f64; 3]) -> Self {
+        Self { pressure, velocity, power }
+    }
+}
+
+/// The blocks along the side that may meet another medium, and the faces on it if it does, in the order of r.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    side: Side,
+    is_there: bool,
+    blocks: Vec<usize>,
+    /// Of each block of the mesh, if it has faces.
+    first: Vec<Option<usize>>,
+    states: Vec<FaceState>,
+}
+
+impl Interface {
+    /// - `is_there`: whether another medium is beyond the side.
+    pub(super) fn new<const N: usize>(mesh: &Mesh<N>, side: Side, is_there: bool) -> Self {
+        let mut interface =
+            Self { side, is_there, blocks: Vec::new(), first: Vec::new(), states: Vec::new() };
+        interface.index(mesh);
+        interface
+    }
+
+    /// Numbers the faces anew; what they had is gone.
+    pub(super) fn index<const N: usize>(&mut self, mesh: &Mesh<N>) {
+        self.blocks = mesh.blocks_along(self.side);
+        self.first = vec![None; mesh.blocks()];
+        let mut faces = 0;
+        if self.is_there {
+            for slot in &self.blocks {
+                self.first[*slot] = Some(faces);
+                faces += N;
+            }
+        }
+        self.states = vec![FaceState::default(); faces];
+    }
+
+    /// Takes up what the faces had.
+    pub(super) fn restore(&mut self, states: Vec<FaceState>) -> Result<(), Misfit> {
+        if states.len() != self.states.len() {
+            return Err(Misfit(format!("{} faces of the interface are not the grid's", states.len())));
+        }
+        self.states = states;
+        Ok(())
+    }
+
+    /// Slots of the blocks along the side, ascending in r; with or without another medium.
+    pub fn blocks(&self) -> &[usize] {
+        &self.blocks
+    }
+
+    /// How many faces there are; none without another medium.
+    pub fn faces(&self) -> usize {
+        self.states.len()
+    }
+
+    /// The number of a block's first face, if it has any.
+    pub fn first_face(&self, slot: usize) -> Option<usize> {
+        self.first[slot]
+    }
+
+    /// The states of all faces.
+    pub fn states(&self) -> &[FaceState] {
+        &self.states
+    }
+
+    /// The states of a block's faces.
+    pub fn states_of<const N: usize>(&self, slot: usize) -> Option<&[FaceState]> {
+        self.first[slot].map(|first| &self.states[first..first + N])
+    }
+
+    /// Sets the state of a face.
+    pub fn set(&mut self, face: usize, state: FaceState) {
+        self.states[face] = state;
+    }
+
+    /// Sets the states of all faces.
+    pub fn set_all(&mut self, state: impl Fn(usize) -> FaceState) {
+        for (face, own) in self.states.iter_mut().enumerate() {
+            *own = state(face);
+        }
+    }
+
+    /// Sets the states of all faces from rows of p*, v*, p*v*.
+    pub fn set_rows(&mut self, [pressure, velocity, power]: [&[f64]; 3]) {
+        self.set_all(|face| [pressure[face], velocity[face], power[face]].into());
+    }
+
+    /// The states of all faces, to be changed one number at a time.
+    pub fn states_mut(&mut self) -> &mut [FaceState] {
+        &mut self.states
+    }
+
+    /// The outer radius of each cell along the side, with or without another medium, ascending, m; the first one begins at the
+    /// domain's r_min.
+    pub fn edges<const N: usize>(&self, mesh: &Mesh<N>) -> Vec<f64> {
+        let of_block = |slot: &usize| {
+            let id = mesh.tree().leaves()[*slot];
+            let h_r = mesh.widths(id.level)[1];
+            (0..N).map(move |j| mesh.centre(id, 0, j)[1] + 0.5 * h_r)
+        };
+        self.blocks.iter().flat_map(of_block).collect()
+    }
+}

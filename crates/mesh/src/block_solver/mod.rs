@@ -1,0 +1,208 @@
+//! The solver of both media: what it holds, and how it is made and looked at.
+
+mod adapt;
+mod advance;
+mod interface;
+mod limits;
+mod model;
+mod retry;
+mod saved;
+
+use serde::{Deserialize, Serialize};
+
+pub use interface::{FaceState, Interface};
+pub use model::{Marks, Model, Place, Step};
+pub use saved::SavedBlocks;
+
+use crate::{Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool};
+
+/// Cells, time, and how they advance: everything of a solver but the physics, which is its [`Model`].
+///
+/// It alone knows how a step of all levels, or of each by itself, is begun, made, corrected along level jumps and finished,
+/// how the grid adapts, and how all that is kept and taken up again.
+pub struct BlockSolver<M: Model<N>, const N: usize> {
+    model: M,
+    mesh: Mesh<N>,
+    state: Field,
+    next: Field,
+    levels: LevelSteps<N>,
+    reports: Reports<M::Report>,
+    interface: Interface,
+    adapting: Adapting<N>,
+    progress: Progress,
+    scratch: ScratchPool<M::Scratch>,
+}
+
+/// No cell falls back.
+static NO_MARKS: Marks = Marks::new();
+
+/// What each block has told of its steps.
+#[derive(Clone, Debug)]
+pub struct Reports<R> {
+    /// Of the last step that is finished.
+    pub finished: Vec<R>,
+    /// Of the step that it is in, or the same.
+    pub pending: Vec<R>,
+}
+
+/// How the grid adapts.
+struct Adapting<const N: usize> {
+    settings: Option<Adaptation>,
+    horizon: Horizon,
+    patches: ScratchPool<Patch<N>>,
+}
+
+/// How far a solver has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Progress {
+    /// Time, s.
+    pub time: f64,
+    /// Steps made, of the finest level.
+    pub steps: u64,
+    /// Cells advanced, step by step.
+    pub cell_updates: u64,
+    /// Cells that would have been advanced if all levels made the steps of the finest.
+    pub common_updates: u64,
+}
+
+impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
+    /// A solver at t = 0. Scratch is made for the current rayon pool's threads.
+    ///
+    /// - `adaptation`: how the grid adapts; it stays as it is without.
+    /// - errors: a cell is no admissible state.
+    pub fn new(
+        model: M,
+        mesh: Mesh<N>,
+        state: Field,
+        adaptation: Option<Adaptation>,
+        scratch: impl Fn() -> M::Scratch,
+    ) -> Result<Self, M::Error> {
+        let components = state.components();
+        let mut solver = Self {
+            next: state.clone(),
+            levels: LevelSteps::new(components, M::REGISTERED, mesh.blocks()),
+            reports: Reports::new(mesh.blocks()),
+            interface: Interface::new(&mesh, M::INTERFACE, model.has_interface()),
+            adapting: Adapting {
+                settings: adaptation,
+                horizon: Horizon::default(),
+                patches: ScratchPool::new(|| Patch::zeros(components)),
+            },
+            progress: Progress::default(),
+            scratch: ScratchPool::new(scratch),
+            model,
+            mesh,
+            state,
+        };
+        solver.model.mesh_changed(&solver.mesh);
+        solver.measure(0..solver.mesh.blocks());
+        advance::check(&solver.model, &solver.mesh, &solver.state, &solver.reports.finished, (0.0, 1))?;
+        Ok(solver)
+    }
+
+    /// The physics.
+    pub fn model(&self) -> &M {
+        &self.model
+    }
+
+    /// The physics, to be told what it cannot see by itself.
+    pub fn model_mut(&mut self) -> &mut M {
+        &mut self.model
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh<N> {
+        &self.mesh
+    }
+
+    /// The components of all blocks.
+    pub fn state(&self) -> &Field {
+        &self.state
+    }
+
+    /// The same, of the new state of a step that has been run and not finished, in which all levels step alike.
+    pub fn trial_state(&self) -> &Field {
+        &self.next
+    }
+
+    /// The state and the physics, to put something else into cells; for tests and studies.
+    pub fn state_mut(&mut self) -> &mut Field {
+        &mut self.state
+    }
+
+    /// What the blocks have told.
+    pub fn reports(&self) -> &Reports<M::Report> {
+        &self.reports
+    }
+
+    /// The faces towards the other medium.
+    pub fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    /// The same, to set their states for the next step.
+    pub fn interface_mut(&mut self) -> &mut Interface {
+        &mut self.interface
+    }
+
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.progress.time
+    }
+
+    /// Steps made, of the finest level.
+    pub fn steps(&self) -> u64 {
+        self.progress.steps
+    }
+
+    /// Cells advanced so far, step by step.
+    pub fn cell_updates(&self) -> u64 {
+        self.progress.cell_updates
+    }
+
+    /// Cells that would have been advanced if all levels made the steps of the finest.
+    pub fn common_updates(&self) -> u64 {
+        self.progress.common_updates
+    }
+
+    /// Which levels step when.
+    pub fn clock(&self) -> &LevelClock {
+        self.levels.clock()
+    }
+
+    /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
+    pub fn watch(&mut self, point: [f64; 2]) {
+        self.levels.watch(point);
+    }
+
+    /// The finest level at the interface.
+    pub fn finest_at_interface(&self) -> u8 {
+        self.mesh.finest_among(self.interface.blocks())
+    }
+
+    /// The group of levels that a face of the interface belongs to.
+    pub fn group_of_face(&self, face: usize) -> usize {
+        self.clock().group_of(&self.mesh, self.interface.blocks()[face / N])
+    }
+
+    /// Whether a block belongs to the levels that make a step.
+    pub fn steps_in(&self, step: GroupStep, slot: usize) -> bool {
+        self.clock().group_of(&self.mesh, slot) == step.group
+    }
+
+    /// [`Interface::edges`].
+    pub fn interface_edges(&self) -> Vec<f64> {
+        self.interface.edges(&self.mesh)
+    }
+
+    /// A step of length `dt` from the present state; of no length, to look at that.
+    pub fn context(&self, dt: f64) -> Step<'_, M, N> {
+        let Self { model, mesh, state, interface, progress, .. } = self;
+        Step { model, mesh, old: state, interface, marks: &NO_MARKS, time: progress.time, dt }
+    }
+
+    /// Runs `work` with this thread's scratch.
+    pub fn with_scratch<R>(&self, work: impl FnOnce(&mut M::Scratch) -> R) -> R {
+        self.scratch.with(work)
+    }
+}

@@ -1,0 +1,139 @@
+//! What a physics is to the block solver.
+
+use std::collections::BTreeMap;
+
+use crate::{
+    Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Patch, Reports,
+};
+use crate::{ScratchPool, Side};
+
+/// Cells that a step makes at first order, block by block: their places j N + i.
+pub type Marks = BTreeMap<usize, Vec<usize>>;
+
+/// What the [`BlockSolver`] must know of a physics, and what it tells it. Two implementers: the fluid and the solid.
+///
+/// `N` is the number of cells along a block's side. Everything that is about levels, time, storage and threads is the solver's;
+/// what is asked here is about one block at a time, from whatever thread.
+pub trait Model<const N: usize>: Sized + Sync {
+    /// The side of the domain beyond which the other medium is, if there is one.
+    const INTERFACE: Side;
+    /// Numbers that are registered of each face between levels.
+    const REGISTERED: usize;
+    /// What adaptation must know of the components.
+    type Analysis: Multiresolution;
+    /// What one block tells of its step.
+    type Report: Copy + Default + Send + Sync;
+    /// What a thread works in.
+    type Scratch: Send;
+    /// Why a step fails.
+    type Error;
+
+    /// What adaptation must know of the components.
+    fn analysis(&self) -> &Self::Analysis;
+    /// Whether another medium is beyond [`Model::INTERFACE`].
+    fn has_interface(&self) -> bool;
+    /// Blocks besides those at the interface whose state is asked for at all times within a step.
+    fn watched(&self) -> &[usize] {
+        &[]
+    }
+
+    /// Advances a block by one step from `step.old` into `new`; `register` is its part of the flux register.
+    fn step_block(
+        &self,
+        step: &Step<'_, Self, N>,
+        slot: usize,
+        new: &mut [f64],
+        register: &mut [f64],
+        scratch: &mut Self::Scratch,
+    ) -> Self::Report;
+    /// Corrects the cells of a block along its finer neighbours.
+    fn correct(
+        &self,
+        step: &Step<'_, Self, N>,
+        finer: FinerSide<'_, N>,
+        slot: usize,
+        new: &mut [f64],
+        report: &mut Self::Report,
+    );
+    /// Takes into the report of a block what its cells say; a step does so by itself.
+    fn measure(&self, mesh: &Mesh<N>, slot: usize, block: &[f64], report: &mut Self::Report);
+    /// The fastest signals of a block along z and r, m/s.
+    fn signal_speeds(&self, report: &Self::Report) -> [f64; 2];
+
+    /// The first cell of a block that is no admissible state.
+    fn inadmissible_cell(&self, report: &Self::Report, block: &[f64]) -> Option<usize>;
+    /// That a cell of a block is not, and where.
+    fn error(&self, block: &[f64], cell: usize, place: Place) -> Self::Error;
+    /// Cells of a block that should make their step again at first order.
+    fn cells_to_redo(&self, _report: &Self::Report, _block: &[f64]) -> Vec<usize> {
+        Vec::new()
+    }
+    /// Takes into a report that so many cells of this volume have made their step again.
+    fn note_redone(&self, _report: &mut Self::Report, _cells: usize, _volume: f64) {}
+
+    /// Takes the report of a block's step of length `dt` into what is added up over the run; in the order of the slots.
+    fn account(&mut self, mesh: &Mesh<N>, slot: usize, dt: f64, report: &Self::Report, interface: &Interface);
+    /// Takes notice that the blocks have new reports.
+    fn reports_changed(&mut self, _reports: &Reports<Self::Report>) {}
+    /// Takes notice of a new mesh.
+    fn mesh_changed(&mut self, _mesh: &Mesh<N>) {}
+    /// Carries a field over to another mesh.
+    fn remap(
+        &mut self,
+        adapted: &Adapted<N>,
+        (mesh, field): (&Mesh<N>, &Field),
+        patches: &ScratchPool<Patch<N>>,
+        new: &mut Field,
+    ) {
+        adapted.remap_into(mesh, field, self.analysis(), patches, new);
+    }
+    /// Called when all levels have come to the end of a whole step.
+    fn whole_step_ended(_solver: &mut BlockSolver<Self, N>) {}
+
+    /// What of it changes in time besides the cells and their reports.
+    type Memory;
+    /// That, to be kept.
+    fn memory(&self) -> Self::Memory;
+    /// Takes up what was kept.
+    ///
+    /// - errors: it is not of such a model.
+    fn restore(&mut self, memory: Self::Memory) -> Result<(), Misfit>;
+}
+
+/// What all blocks of a step share.
+pub struct Step<'a, M, const N: usize> {
+    /// The physics.
+    pub model: &'a M,
+    /// Where the cells are.
+    pub mesh: &'a Mesh<N>,
+    /// The state at the beginning of the step.
+    pub old: &'a Field,
+    /// The faces towards the other medium, with their states during the step.
+    pub interface: &'a Interface,
+    /// Cells that are made at first order.
+    pub marks: &'a Marks,
+    /// Time at the beginning of the step, s.
+    pub time: f64,
+    /// Its length, s.
+    pub dt: f64,
+}
+
+impl<M, const N: usize> Step<'_, M, N> {
+    /// The middle of the step, s.
+    pub fn middle(&self) -> f64 {
+        self.time + 0.5 * self.dt
+    }
+}
+
+/// Where and when a cell is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Its centre, m.
+    pub z: f64,
+    /// Its centre, m.
+    pub r: f64,
+    /// At the end of the step, s.
+    pub time: f64,
+    /// The step's number, from 1.
+    pub step: u64,
+}

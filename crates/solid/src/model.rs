@@ -1,0 +1,120 @@
+//! What the solid is to the block solver.
+
+use mesh::{FinerSide, Interface, Mesh, Misfit, Model, Place, Side, Step};
+use serde::{Deserialize, Serialize};
+
+use crate::absorbing::{SideFilters, SideMemory};
+use crate::analysis::Analysis;
+use crate::block::{BlockReport, BlockScratch, report_stresses, step_block};
+use crate::boundary::Boundaries;
+use crate::reflux::{self, QUANTITIES};
+use crate::rows::Elasticity;
+use crate::{Boundary, BoundaryLedger, SolidError, SolidSetup};
+
+/// An elastic solid: what its cells obey, and what bounds them.
+pub struct Solid {
+    pub(crate) setup: SolidSetup,
+    pub(crate) elasticity: Elasticity,
+    pub(crate) boundaries: Boundaries,
+    pub(crate) sides: SideMemory,
+    pub(crate) analysis: Analysis,
+    pub(crate) ledger: BoundaryLedger,
+}
+
+/// A step of the solid.
+pub(crate) type SolidStep<'a, const N: usize> = Step<'a, Solid, N>;
+
+/// What of a solid changes in time besides its cells.
+#[derive(Serialize, Deserialize)]
+pub struct SolidMemory {
+    sides: [SideFilters; 4],
+    ledger: BoundaryLedger,
+}
+
+impl Solid {
+    /// Squared yield strength, Pa².
+    pub(crate) fn yield_squared(&self) -> f64 {
+        self.setup.yield_strength * self.setup.yield_strength
+    }
+}
+
+impl<const N: usize> Model<N> for Solid {
+    const INTERFACE: Side = Side::ZMax;
+    const REGISTERED: usize = QUANTITIES;
+    type Analysis = Analysis;
+    type Report = BlockReport;
+    type Scratch = BlockScratch<N>;
+    type Error = SolidError;
+    type Memory = SolidMemory;
+
+    fn analysis(&self) -> &Analysis {
+        &self.analysis
+    }
+
+    fn has_interface(&self) -> bool {
+        self.boundaries.kind(Side::ZMax) == Boundary::Interface
+    }
+
+    fn step_block(
+        &self,
+        step: &SolidStep<'_, N>,
+        slot: usize,
+        new: &mut [f64],
+        register: &mut [f64],
+        scratch: &mut BlockScratch<N>,
+    ) -> BlockReport {
+        step_block(step, slot, new, register, scratch)
+    }
+
+    fn correct(
+        &self,
+        step: &SolidStep<'_, N>,
+        finer: FinerSide<'_, N>,
+        slot: usize,
+        new: &mut [f64],
+        report: &mut BlockReport,
+    ) {
+        reflux::correct(step, finer, slot, new, report);
+    }
+
+    fn measure(&self, mesh: &Mesh<N>, slot: usize, block: &[f64], report: &mut BlockReport) {
+        report_stresses(mesh, slot, block, self.yield_squared(), report);
+    }
+
+    fn signal_speeds(&self, _: &BlockReport) -> [f64; 2] {
+        [self.setup.speeds.c1; 2]
+    }
+
+    fn inadmissible_cell(&self, report: &BlockReport, block: &[f64]) -> Option<usize> {
+        if report.mises_squared.is_finite() {
+            return None;
+        }
+        let is_sane =
+            |cell: usize| block.iter().skip(cell).step_by(N * N).all(|w| w.abs() <= f64::MAX.sqrt());
+        (0..N * N).find(|cell| !is_sane(*cell))
+    }
+
+    fn error(&self, _: &[f64], _: usize, Place { z, r, time, step }: Place) -> SolidError {
+        SolidError::NotFinite { z, r, time, step }
+    }
+
+    fn account(&mut self, mesh: &Mesh<N>, slot: usize, _: f64, report: &BlockReport, _: &Interface) {
+        for (side, [momentum, energy]) in report.inflow.into_iter().enumerate() {
+            self.ledger.momentum[side] += momentum;
+            self.ledger.energy[side] += energy;
+        }
+        self.sides.take_over(mesh, slot);
+    }
+
+    fn memory(&self) -> SolidMemory {
+        SolidMemory { sides: self.sides.kept().clone(), ledger: self.ledger }
+    }
+
+    fn restore(&mut self, SolidMemory { sides, ledger }: SolidMemory) -> Result<(), Misfit> {
+        if !self.sides.restore(sides) {
+            return Err(Misfit("what absorbing sides remember is not of the solid's sides".to_owned()));
+        }
+        self.ledger = ledger;
+        Ok(())
+    }
+}
