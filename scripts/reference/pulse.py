@@ -49,7 +49,7 @@ def problem(places, box, end, bubble=None, **more):
     if bubble is not None:
         centre, radius = BUBBLE
         pulse += (f'[[fluid.region]]\nshape = "sphere"\ncentre = [{centre}, 0.0]\nradius = {radius}\nphase = "gas"\n'
-                  f"density = {1.2e-5 * bubble}\npressure = {bubble}\n")
+                  f"density = {bubble[1]}\npressure = {bubble[0]}\n")
     return Problem(box, end, fluid=water() + pulse, solid=elastic(), probes=probes, **more)
 
 
@@ -150,7 +150,9 @@ def arrivals(options):
 
 
 # What the bubble of `beside_bubble` holds, Pa.
-CONTENTS = [("no bubble", None), ("a bubble at rest, 1e5 Pa", 1e5), ("a collapsing bubble, 2118 Pa", 2118.0)]
+# What is in the case: pressure and density of the bubble. In the thin gas sound runs at 10.8 km/s, seven times as fast as in the water.
+CONTENTS = [("no bubble", None), ("a bubble at rest, 1e5 Pa", (1e5, 1.2)), ("one of thin gas, 1.2 g/m³", (1e5, 1.2e-3)),
+            ("a collapsing bubble, 2118 Pa", (2118.0, 0.0254))]
 
 
 def beside_bubble(options):
@@ -158,8 +160,8 @@ def beside_bubble(options):
     cells = (options.cells or [20])[0]
     print("| in the case | largest misfit in the fluid | in the solid and on the interface | head waves off by at most "
           "| cell updates |\n|---|---|---|---|---|")
-    for what, pressure in CONTENTS:
-        result, readings = solve(options, cells, *HEADS, bubble=pressure)
+    for what, gas in CONTENTS:
+        result, readings = solve(options, cells, *HEADS, bubble=gas)
         late = max(abs(found / wanted - 1) for _, wanted, found in precursors(options, result, HEADS[0]))
         print(f"| {what} | {100 * worst(readings, 'fluid'):.2f} % | {100 * worst(readings, 'solid'):.2f} % | {100 * late:.2f} % "
               f"| {result.updates():.2e} |", flush=True)

@@ -35,21 +35,6 @@ pub use read_adaptation::DEFAULT_ADAPT_EVERY;
 pub use steps::SMALLEST_STEP;
 pub use thresholds::DEFAULT_ERROR;
 
-/// Cell fields of the fluid that `output.fields` may name.
-pub const FLUID_FIELDS: [&str; 6] = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
-
-/// Cell fields of the solid that `output.fields` may name.
-pub const SOLID_FIELDS: [&str; 8] = [
-    "velocity",
-    "stress_zz",
-    "stress_zr",
-    "stress_rr",
-    "stress_phiphi",
-    "von_mises",
-    "yield_function",
-    "level",
-];
-
 /// A case: everything that says what a run computes, checked and with all defaults filled in.
 #[derive(Clone, Debug)]
 pub struct Case {

@@ -11,8 +11,8 @@ use super::error::{CaseError, suggest};
 use super::read_grid::MOST_CELLS;
 use super::reader::{Faults, Given, Table, array, pair};
 use super::{
-    Case, FLUID_FIELDS, Medium, OutputCase, Probe, SOLID_FIELDS, Time, cross, index, read_coupling,
-    read_fluid, read_solid, scales, steps, thresholds,
+    Case, Medium, OutputCase, Probe, Time, cross, index, read_coupling, read_fluid, read_solid, scales,
+    steps, thresholds,
 };
 
 /// More snapshots than this are a mistake.
@@ -221,10 +221,12 @@ fn output(root: &mut Table<'_>, end: Option<f64>, faults: &mut Faults) -> Output
         output.directory = Some(PathBuf::from(directory.value));
     }
     if let Some(given) = table.raw("fields") {
-        let allowed: Vec<&str> = FLUID_FIELDS
-            .into_iter()
-            .chain(SOLID_FIELDS.into_iter().filter(|field| !FLUID_FIELDS.contains(field)))
-            .collect();
+        let mut allowed: Vec<&str> = fluid::CELL_FIELDS.iter().map(|field| field.name).collect();
+        for field in solid::CELL_FIELDS {
+            if !allowed.contains(&field.name) {
+                allowed.push(field.name);
+            }
+        }
         let mut fields: Vec<String> = Vec::new();
         for element in array(&given, "a list of field names", "quotes", faults).unwrap_or_default() {
             match element.value.as_str() {

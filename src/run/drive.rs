@@ -39,6 +39,8 @@ pub trait Side {
     fn close(&mut self, failed: bool) -> Result<(), RunError>;
     /// Its part of the summary.
     fn summary(&self) -> Map<String, Value>;
+    /// How long the stages of its blocks' steps have taken since the run, or its going on, began, s.
+    fn stage_seconds(&self) -> Vec<(&'static str, f64)>;
     /// Simulated time and steps so far.
     fn reached(&self) -> (f64, u64);
     /// Where the wall time went.
@@ -256,7 +258,10 @@ fn progress_part<S: Side>(
             "largest": counters.latencies.percentile(1.0),
         },
     });
+    let stages: Map<String, Value> =
+        side.stage_seconds().into_iter().map(|(name, seconds)| (name.to_owned(), json!(seconds))).collect();
     let mut part = Map::new();
+    part.insert("stage_seconds".to_owned(), json!({ S::NAME: stages }));
     part.insert("completed".to_owned(), json!(completed));
     part.insert("t_end".to_owned(), json!(time));
     part.insert("steps".to_owned(), json!(steps));

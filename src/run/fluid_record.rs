@@ -11,16 +11,16 @@ use super::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
 use super::schedule::Plan;
 use super::side_files::{SideFiles, SideNames};
 use super::wall_faces::WallFaces;
-use crate::case::{Case, FLUID_FIELDS, Medium};
+use crate::case::{Case, Medium};
 use crate::output::run_directory::{FLUID_FIELDS as FIELDS_FILE, FLUID_HISTORY};
-use crate::output::{Column, FieldSpec, HistoryFile, OutputError, RunDirectory, SeriesId, Storage};
+use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 
 mod fixups;
 pub mod saved;
 
 /// Everything that the fluid's side writes.
 pub struct FluidRecord {
-    files: SideFiles,
+    files: SideFiles<fluid::Snapshot>,
     steps: SeriesId,
     /// How often bounds acted, every step.
     clips: SeriesId,
@@ -73,7 +73,11 @@ impl FluidRecord {
     }
 
     /// A record in these files of a fluid as it is, with nothing written.
-    fn on(case: &Case, mut files: SideFiles, solver: &FluidSolver<BLOCK>) -> Result<Self, OutputError> {
+    fn on(
+        case: &Case,
+        mut files: SideFiles<fluid::Snapshot>,
+        solver: &FluidSolver<BLOCK>,
+    ) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
         let history = &mut files.history;
         let cuts = case.fluid.as_ref().map(|fluid| BubbleCuts::of(&fluid.initial)).unwrap_or_default();
@@ -255,20 +259,7 @@ impl FluidRecord {
     }
 
     fn snapshot(&mut self, solver: &FluidSolver<BLOCK>) -> Result<(), OutputError> {
-        self.files.snapshot(solver.time(), solver.mesh(), |fields| {
-            let mut snapshot = solver.snapshot();
-            let field = |name: &&'static str| {
-                std::mem::take(match *name {
-                    "density" => &mut snapshot.density,
-                    "pressure" => &mut snapshot.pressure,
-                    "velocity" => &mut snapshot.velocity,
-                    "gas_fraction" => &mut snapshot.gas_fraction,
-                    "schlieren" => &mut snapshot.schlieren,
-                    _ => &mut snapshot.level,
-                })
-            };
-            fields.iter().map(field).collect()
-        })
+        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
     }
 
     /// The fluid's part of the summary.
@@ -402,24 +393,6 @@ const PROBE_COLUMNS: [Column<'static>; 6] = [
     column("gas_fraction", "1", "gas fraction"),
 ];
 
-fn names() -> SideNames {
-    SideNames {
-        history: FLUID_HISTORY,
-        snapshots: FIELDS_FILE,
-        fields: FLUID_FIELDS.to_vec(),
-        spec: field_spec,
-    }
-}
-
-fn field_spec(name: &'static str) -> FieldSpec<'static> {
-    let spec =
-        |components, unit, description, storage| FieldSpec { name, components, unit, description, storage };
-    match name {
-        "density" => spec(1, "kg/m3", "density", Storage::F64),
-        "pressure" => spec(1, "Pa", "pressure", Storage::F64),
-        "velocity" => spec(3, "m/s", "velocity (z, r, 0)", Storage::F64),
-        "gas_fraction" => spec(1, "1", "volume fraction of gas", Storage::F64),
-        "schlieren" => spec(1, "kg/m4", "magnitude of the density gradient", Storage::F64),
-        _ => spec(1, "1", "refinement level", Storage::U8),
-    }
+fn names() -> SideNames<fluid::Snapshot> {
+    SideNames { history: FLUID_HISTORY, snapshots: FIELDS_FILE, fields: fluid::CELL_FIELDS.iter().collect() }
 }

@@ -4,46 +4,52 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use mesh::{BLOCK, Mesh};
+use mesh::{BLOCK, CellField, Mesh};
 use serde::{Deserialize, Serialize};
 
 use super::record::{attributes, cell_geometry};
 use crate::case::Case;
 use crate::output::{
     BackgroundWriter, FieldSpec, HistoryFile, OutputError, OwnedQuadMesh, RunDirectory, SeriesWriter,
-    Snapshot, safe_file,
+    Snapshot, Storage, safe_file,
 };
 
 /// What the files of a side are called and what its snapshots may hold.
-pub struct SideNames {
+pub struct SideNames<S: 'static> {
     /// File of the histories.
     pub history: &'static str,
     /// File of the snapshots.
     pub snapshots: &'static str,
     /// The fields there are.
-    pub fields: Vec<&'static str>,
-    /// What each of them is.
-    pub spec: fn(&'static str) -> FieldSpec<'static>,
+    pub fields: Vec<&'static CellField<S>>,
 }
 
-impl SideNames {
+impl<S> SideNames<S> {
     /// The fields that the case asks for.
-    fn wanted(&self, case: &Case) -> Vec<&'static str> {
-        let is_wanted = |name: &&str| match &case.output.fields {
-            Some(wanted) => wanted.iter().any(|w| w == name),
+    fn wanted(&self, case: &Case) -> Vec<&'static CellField<S>> {
+        let is_wanted = |field: &&CellField<S>| match &case.output.fields {
+            Some(wanted) => wanted.iter().any(|name| name == field.name),
             None => true,
         };
         self.fields.iter().copied().filter(is_wanted).collect()
     }
 }
 
+/// How a field is written.
+fn spec<S>(field: &CellField<S>) -> FieldSpec<'static> {
+    let CellField { name, components, unit, description, .. } = *field;
+    // Levels are whole numbers, and few.
+    let storage = if name == "level" { Storage::U8 } else { Storage::F64 };
+    FieldSpec { name, components, unit, description, storage }
+}
+
 /// The files of one side.
-pub struct SideFiles {
+pub struct SideFiles<S: 'static> {
     /// Its histories.
     pub history: HistoryFile,
     /// Where snapshots go; without a directory nowhere.
     snapshots: Option<BackgroundWriter>,
-    fields: Vec<&'static str>,
+    fields: Vec<&'static CellField<S>>,
     /// How many snapshots there are.
     taken: u64,
     /// The generation of the last one's mesh.
@@ -60,12 +66,12 @@ pub struct FilesState {
     mesh_id: Option<u64>,
 }
 
-impl SideFiles {
+impl<S> SideFiles<S> {
     /// Makes the files, without any rows and snapshots. Without a directory histories stay in memory.
     pub fn create(
         case: &Case,
         directory: Option<&RunDirectory>,
-        names: SideNames,
+        names: SideNames<S>,
     ) -> Result<Self, OutputError> {
         let Some(directory) = directory else {
             return Ok(Self::of(HistoryFile::in_memory(), None, vec![]));
@@ -75,7 +81,7 @@ impl SideFiles {
             owned.iter().map(|(name, value)| (*name, value.as_str())).collect();
         let history = HistoryFile::create(&directory.file(names.history), &attributes)?;
         let fields = names.wanted(case);
-        let specs: Vec<FieldSpec<'_>> = fields.iter().map(|name| (names.spec)(name)).collect();
+        let specs: Vec<FieldSpec<'_>> = fields.iter().map(|field| spec(field)).collect();
         let path = directory.file(names.snapshots);
         let writer = SeriesWriter::create(&path, &specs, case.output.compression, &attributes)?;
         Ok(Self::of(history, Some(BackgroundWriter::start(writer)?), fields))
@@ -86,7 +92,7 @@ impl SideFiles {
     pub fn resume(
         case: &Case,
         directory: &RunDirectory,
-        names: SideNames,
+        names: SideNames<S>,
         state: &FilesState,
     ) -> Result<Self, OutputError> {
         let history = HistoryFile::open(&directory.file(names.history))?;
@@ -97,7 +103,11 @@ impl SideFiles {
         Ok(Self { taken: state.taken, mesh_id: state.mesh_id, ..files })
     }
 
-    fn of(history: HistoryFile, snapshots: Option<BackgroundWriter>, fields: Vec<&'static str>) -> Self {
+    fn of(
+        history: HistoryFile,
+        snapshots: Option<BackgroundWriter>,
+        fields: Vec<&'static CellField<S>>,
+    ) -> Self {
         Self { history, snapshots, fields, taken: 0, mesh_id: None, geometry: None }
     }
 
@@ -128,12 +138,12 @@ impl SideFiles {
         paths.first().and_then(|path| path.parent()).map_or(Ok(()), safe_file::sync)
     }
 
-    /// Hands a snapshot over to be written: `values` gives the fields of these names, cell by cell.
+    /// Hands a snapshot over to be written.
     pub fn snapshot(
         &mut self,
         time: f64,
         mesh: &Mesh<BLOCK>,
-        values: impl FnOnce(&[&'static str]) -> Vec<Vec<f64>>,
+        take: impl FnOnce() -> S,
     ) -> Result<(), OutputError> {
         let Some(snapshots) = &mut self.snapshots else { return Ok(()) };
         let start = Instant::now();
@@ -142,7 +152,8 @@ impl SideFiles {
         let known = self.geometry.take().filter(|_| is_same);
         let geometry = known.unwrap_or_else(|| Arc::new(cell_geometry(mesh)));
         self.geometry = Some(Arc::clone(&geometry));
-        let values = values(&self.fields);
+        let mut taken = take();
+        let values = self.fields.iter().map(|field| std::mem::take((field.values)(&mut taken))).collect();
         snapshots.append(Snapshot { time, mesh: geometry, mesh_id, values })?;
         self.taken += 1;
         self.mesh_id = Some(mesh_id);

@@ -12,13 +12,13 @@ use super::record::{
 use super::schedule::Plan;
 use super::side_files::{FilesState, SideFiles, SideNames};
 use super::wall_faces::WallFaces;
-use crate::case::{Case, Medium, SOLID_FIELDS};
+use crate::case::{Case, Medium};
 use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
-use crate::output::{Column, FieldSpec, HistoryFile, OutputError, RunDirectory, SeriesId, Storage};
+use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 
 /// Everything that the solid's side writes.
 pub struct SolidRecord {
-    files: SideFiles,
+    files: SideFiles<solid::Snapshot>,
     steps: SeriesId,
     /// `/time`, which the fluid writes where there is one.
     time: Option<SeriesId>,
@@ -116,7 +116,11 @@ impl SolidRecord {
     }
 
     /// A record in these files of a solid as it is, with nothing written.
-    fn on(case: &Case, mut files: SideFiles, solver: &SolidSolver<BLOCK>) -> Result<Self, OutputError> {
+    fn on(
+        case: &Case,
+        mut files: SideFiles<solid::Snapshot>,
+        solver: &SolidSolver<BLOCK>,
+    ) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
         let history = &mut files.history;
         let steps = history.add_series("/solid", &STEP_COLUMNS)?;
@@ -234,22 +238,7 @@ impl SolidRecord {
     }
 
     fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
-        self.files.snapshot(solver.time(), solver.mesh(), |fields| {
-            let mut snapshot = solver.snapshot();
-            let field = |name: &&'static str| {
-                std::mem::take(match *name {
-                    "velocity" => &mut snapshot.velocity,
-                    "stress_zz" => &mut snapshot.stress_zz,
-                    "stress_zr" => &mut snapshot.stress_zr,
-                    "stress_rr" => &mut snapshot.stress_rr,
-                    "stress_phiphi" => &mut snapshot.stress_phiphi,
-                    "von_mises" => &mut snapshot.von_mises,
-                    "yield_function" => &mut snapshot.yield_function,
-                    _ => &mut snapshot.level,
-                })
-            };
-            fields.iter().map(field).collect()
-        })
+        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
     }
 
     /// The solid's part of the summary.
@@ -311,24 +300,10 @@ const PROBE_COLUMNS: [Column<'static>; 7] = [
     column("stress_phiphi", "Pa", "hoop stress"),
 ];
 
-fn names(solver: &SolidSolver<BLOCK>) -> SideNames {
+fn names(solver: &SolidSolver<BLOCK>) -> SideNames<solid::Snapshot> {
     // A material without a yield strength has no yield function.
     let has_yield_strength = solver.setup().yield_strength.is_finite();
-    let fields = SOLID_FIELDS.into_iter().filter(|name| has_yield_strength || *name != "yield_function");
-    SideNames { history: SOLID_HISTORY, snapshots: FIELDS_FILE, fields: fields.collect(), spec: field_spec }
-}
-
-fn field_spec(name: &'static str) -> FieldSpec<'static> {
-    let spec =
-        |components, unit, description, storage| FieldSpec { name, components, unit, description, storage };
-    match name {
-        "velocity" => spec(3, "m/s", "velocity (z, r, 0)", Storage::F64),
-        "stress_zz" => spec(1, "Pa", "axial stress, positive in tension", Storage::F64),
-        "stress_zr" => spec(1, "Pa", "shear stress", Storage::F64),
-        "stress_rr" => spec(1, "Pa", "radial stress", Storage::F64),
-        "stress_phiphi" => spec(1, "Pa", "hoop stress", Storage::F64),
-        "von_mises" => spec(1, "Pa", "von Mises stress", Storage::F64),
-        "yield_function" => spec(1, "Pa", "von Mises stress minus yield strength", Storage::F64),
-        _ => spec(1, "1", "refinement level", Storage::U8),
-    }
+    let fields =
+        solid::CELL_FIELDS.iter().filter(|field| has_yield_strength || field.name != "yield_function");
+    SideNames { history: SOLID_HISTORY, snapshots: FIELDS_FILE, fields: fields.collect() }
 }

@@ -3,8 +3,8 @@
 use mesh::{Field, GHOSTS, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
-use crate::block::{BlockScratch, reconstruct};
 use crate::state::conserved::{COUNT, ENERGY, MOMENTUM_Z, PHI, RHO};
+use crate::step::{BlockScratch, reconstruct};
 use crate::{FluidSolver, Primitive};
 
 /// The gas as a whole, or of one of several bubbles.
@@ -54,21 +54,16 @@ pub struct Totals {
     pub energy: f64,
 }
 
-/// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Snapshot {
-    /// ρ, kg/m³.
-    pub density: Vec<f64>,
-    /// p, Pa.
-    pub pressure: Vec<f64>,
-    /// (v_z, v_r, 0), m/s, three numbers a cell.
-    pub velocity: Vec<f64>,
-    /// φ.
-    pub gas_fraction: Vec<f64>,
-    /// |∇ρ| from central differences, kg/m⁴.
-    pub schlieren: Vec<f64>,
-    /// Refinement level.
-    pub level: Vec<f64>,
+mesh::cell_fields! {
+    /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
+    Snapshot, CELL_FIELDS {
+        density: 1, "kg/m3", "density";
+        pressure: 1, "Pa", "pressure";
+        velocity: 3, "m/s", "velocity (z, r, 0)";
+        gas_fraction: 1, "1", "volume fraction of gas";
+        schlieren: 1, "kg/m4", "magnitude of the density gradient";
+        level: 1, "1", "refinement level";
+    }
 }
 
 impl<const N: usize> FluidSolver<N> {

@@ -3,11 +3,11 @@
 use mesh::{Padded, Side};
 
 use crate::Boundary;
-use crate::block::BlockScratch;
 use crate::boundary::{beside, normal};
 use crate::model::FluidStep;
 use crate::rows::half_step;
 use crate::state::conserved::{PHI, RHO};
+use crate::step::BlockScratch;
 
 /// Place of the pressure among the primitive variables.
 const PRESSURE: usize = 3;

@@ -1,12 +1,10 @@
 //! Compressible two-phase flow: equations of state, Riemann solvers, [`FluidSolver`].
 //!
-//! The algorithm of a step reads in one place, `block.rs`: assemble a block with its ghosts, limited
-//! differences, half-step predictor, outer states, one Riemann problem per face, wall fluxes, update.
+//! The algorithm of a step reads in one place, `step/mod.rs`, stage by stage.
 
 #![forbid(unsafe_code)]
 
 mod analysis;
-mod block;
 mod boundary;
 mod bubbles;
 mod clips;
@@ -37,6 +35,7 @@ mod report;
 mod rows;
 mod solver;
 mod state;
+mod step;
 mod update;
 mod wall_trace;
 
@@ -44,7 +43,7 @@ pub use analysis::Scales;
 pub use boundary::PressureHistory;
 pub use bubbles::{BubbleCuts, TRACE_GAS};
 pub use clips::Clips;
-pub use diagnostics::{AxisState, Bubble, Snapshot, Totals, WallPressures};
+pub use diagnostics::{AxisState, Bubble, CELL_FIELDS, Snapshot, Totals, WallPressures};
 pub use eos::StiffenedGas;
 pub use error::FluidError;
 pub use far_field::{FarField, FarFieldError};

@@ -2,12 +2,11 @@
 
 use mesh::{
     Adapted, BlockSolver, Field, FinerSide, Interface, Limiter, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Side, Step, maximum,
+    ScratchPool, Side, StageTimer, Step, maximum,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
-use crate::block::{BlockScratch, step_block};
 use crate::boundary::Boundaries;
 use crate::bubbles::follow_sources;
 use crate::clips::{CountedAnalysis, SharedCount};
@@ -16,6 +15,7 @@ use crate::options::TwoPhaseOptions;
 use crate::reflux::{self, QUANTITIES};
 use crate::report::BlockReport;
 use crate::state::conserved::{COUNT, GAS, PHI};
+use crate::step::{BlockScratch, STAGES, step_block};
 use crate::update::Extremes;
 use crate::{Boundary, BoundaryLedger, Fixups, FluidError, Mixture, Primitive, RiemannSolver};
 
@@ -117,6 +117,7 @@ impl<const N: usize> Model<N> for Fluid {
     type Scratch = BlockScratch<N>;
     type Error = FluidError;
     type Memory = FluidMemory;
+    const STAGES: &'static [&'static str] = STAGES;
 
     fn analysis(&self) -> &Analysis {
         &self.analysis
@@ -137,8 +138,9 @@ impl<const N: usize> Model<N> for Fluid {
         new: &mut [f64],
         register: &mut [f64],
         scratch: &mut BlockScratch<N>,
+        timer: &mut StageTimer,
     ) -> BlockReport<N> {
-        step_block(step, slot, new, register, scratch)
+        step_block(step, slot, new, register, scratch, timer)
     }
 
     fn correct(

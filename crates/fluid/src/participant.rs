@@ -3,10 +3,10 @@
 use coupler::{FluidTrace, TraceRow};
 use mesh::{GroupStep, Padded};
 
-use crate::block::{BlockScratch, reconstruct};
 use crate::five_equation::{Cells, FaceStates, Stencil, Window, face_states};
 use crate::model::Scheme;
 use crate::rows::{half_step, rates};
+use crate::step::{BlockScratch, reconstruct};
 use crate::wall_trace::Trace;
 use crate::{FluidSolver, Mixture, TRACE_GAS};
 

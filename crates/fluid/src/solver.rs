@@ -6,7 +6,6 @@ use mesh::{Adaptation, BlockSolver, Domain, Limiter, SavedBlocks, Side, SideStat
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::{Analysis, Scales};
-use crate::block::BlockScratch;
 use crate::boundary::{Boundaries, PressureHistory};
 use crate::bubbles::follow_sources;
 use crate::clips::Clips;
@@ -15,6 +14,7 @@ use crate::options::TwoPhaseOptions;
 use crate::report::BlockReport;
 use crate::state::Contents;
 use crate::state::conserved::COUNT;
+use crate::step::BlockScratch;
 use crate::{
     Boundary, FarField, FluidError, InitialCondition, Mixture, Model, Primitive, RayleighField,
     RiemannSolver, Sharpening, StiffenedGas,

@@ -21,6 +21,7 @@ mod ahead;
 mod aligned;
 pub mod array;
 mod block_solver;
+mod cell_fields;
 mod courant;
 mod curvature;
 mod details;
@@ -46,12 +47,14 @@ mod register;
 mod remap;
 mod side_faces;
 mod side_states;
+mod stage_timer;
 
 pub use adaptation::{Adaptation, LevelBound, Zone};
 pub use aligned::{AlignedRow, whole_lines};
 pub use block_solver::{
     BlockSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks, Step,
 };
+pub use cell_fields::CellField;
 pub use courant::longest_step;
 pub use curvature::{curvature_share, oblique_shares};
 pub use domain::{Domain, Mesh, MeshError, Misfit};
@@ -71,6 +74,7 @@ pub use register::{CorrectedFace, FluxRegister};
 pub use remap::{Adapted, Origin};
 pub use side_faces::SideFaces;
 pub use side_states::SideStates;
+pub use stage_timer::StageTimer;
 
 /// Cells along one side of a block, unless a test chooses otherwise.
 pub const BLOCK: usize = 16;

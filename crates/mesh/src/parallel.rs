@@ -67,4 +67,11 @@ impl<T> ScratchPool<T> {
         let mut scratch = self.slots[index].lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         work(&mut scratch)
     }
+
+    /// Looks at all of them, one after the other.
+    pub fn for_each(&self, mut look: impl FnMut(&T)) {
+        for slot in &self.slots {
+            look(&slot.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
+        }
+    }
 }

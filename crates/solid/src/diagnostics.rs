@@ -2,8 +2,8 @@
 
 use mesh::{Geometry, Padded};
 
-use crate::block::{BlockScratch, reconstruct};
 use crate::state::component::{COUNT, S_PHIPHI};
+use crate::step::{BlockScratch, reconstruct};
 use crate::{ElasticState, SolidSolver, von_mises, yield_function};
 
 /// The largest von Mises stress and where it is.
@@ -28,25 +28,18 @@ pub struct Totals {
     pub elastic: f64,
 }
 
-/// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Snapshot {
-    /// (v_z, v_r, 0), m/s, three numbers a cell.
-    pub velocity: Vec<f64>,
-    /// σ_zz, Pa.
-    pub stress_zz: Vec<f64>,
-    /// σ_zr, Pa.
-    pub stress_zr: Vec<f64>,
-    /// σ_rr, Pa.
-    pub stress_rr: Vec<f64>,
-    /// σ_φφ, Pa.
-    pub stress_phiphi: Vec<f64>,
-    /// Von Mises stress (44), Pa.
-    pub von_mises: Vec<f64>,
-    /// Yield function (45), (46): von Mises stress minus yield strength, Pa.
-    pub yield_function: Vec<f64>,
-    /// Refinement level.
-    pub level: Vec<f64>,
+mesh::cell_fields! {
+    /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
+    Snapshot, CELL_FIELDS {
+        velocity: 3, "m/s", "velocity (z, r, 0)";
+        stress_zz: 1, "Pa", "axial stress, positive in tension";
+        stress_zr: 1, "Pa", "shear stress";
+        stress_rr: 1, "Pa", "radial stress";
+        stress_phiphi: 1, "Pa", "hoop stress";
+        von_mises: 1, "Pa", "von Mises stress";
+        yield_function: 1, "Pa", "von Mises stress minus yield strength";
+        level: 1, "1", "refinement level";
+    }
 }
 
 impl<const N: usize> SolidSolver<N> {

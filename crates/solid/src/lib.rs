@@ -1,12 +1,11 @@
 //! The linear-elastic solid: materials, elastic waves, yield criterion, [`SolidSolver`].
 //!
-//! The algorithm of a step reads in one place, `block.rs`.
+//! The algorithm of a step reads in one place, `step/mod.rs`, stage by stage.
 
 #![forbid(unsafe_code)]
 
 mod absorbing;
 mod analysis;
-mod block;
 mod boundary;
 mod diagnostics;
 #[cfg(test)]
@@ -19,14 +18,16 @@ mod options;
 mod participant;
 mod predictor;
 mod reflux;
+mod report;
 pub mod riemann;
 mod rows;
 mod solver;
 mod state;
+mod step;
 mod update;
 mod yield_criterion;
 
-pub use diagnostics::{MisesPeak, Snapshot, Totals};
+pub use diagnostics::{CELL_FIELDS, MisesPeak, Snapshot, Totals};
 pub use error::SolidError;
 pub use material::{Material, MaterialError};
 pub use model::Solid;

@@ -1,14 +1,15 @@
 //! What the solid is to the block solver.
 
-use mesh::{FinerSide, Interface, Mesh, Misfit, Model, Place, Side, Step};
+use mesh::{FinerSide, Interface, Mesh, Misfit, Model, Place, Side, StageTimer, Step};
 use serde::{Deserialize, Serialize};
 
 use crate::absorbing::{SideFilters, SideMemory};
 use crate::analysis::Analysis;
-use crate::block::{BlockReport, BlockScratch, report_stresses, step_block};
 use crate::boundary::Boundaries;
 use crate::reflux::{self, QUANTITIES};
+use crate::report::{BlockReport, report_stresses};
 use crate::rows::Elasticity;
+use crate::step::{BlockScratch, STAGES, step_block};
 use crate::{Boundary, BoundaryLedger, SolidError, SolidSetup};
 
 /// An elastic solid: what its cells obey, and what bounds them.
@@ -46,6 +47,7 @@ impl<const N: usize> Model<N> for Solid {
     type Scratch = BlockScratch<N>;
     type Error = SolidError;
     type Memory = SolidMemory;
+    const STAGES: &'static [&'static str] = STAGES;
 
     fn analysis(&self) -> &Analysis {
         &self.analysis
@@ -62,8 +64,9 @@ impl<const N: usize> Model<N> for Solid {
         new: &mut [f64],
         register: &mut [f64],
         scratch: &mut BlockScratch<N>,
+        timer: &mut StageTimer,
     ) -> BlockReport {
-        step_block(step, slot, new, register, scratch)
+        step_block(step, slot, new, register, scratch, timer)
     }
 
     fn correct(

@@ -4,10 +4,10 @@ use coupler::{CommonRefinement, InterfaceStar, RegisterRow, TraceRow};
 use mesh::{Geometry, GroupStep, Padded};
 
 use crate::SolidSolver;
-use crate::block::{BlockScratch, reconstruct};
 use crate::boundary::Boundaries;
 use crate::rows::rates;
 use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
+use crate::step::{BlockScratch, reconstruct};
 
 /// What the solid knows of its interface with the fluid in the weak scheme: faces, sub-faces, and the last step's states.
 #[derive(Clone, Debug, Default)]

@@ -2,8 +2,8 @@
 
 use mesh::{FinerSide, FluxRegister, Geometry, Mesh, Side};
 
-use crate::block::{BlockReport, report_stresses};
 use crate::model::SolidStep;
+use crate::report::{BlockReport, report_stresses};
 use crate::rows::FaceRows;
 use crate::state::component::COUNT;
 use crate::update::FACES;

@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::absorbing::SideMemory;
 use crate::analysis::Analysis;
-use crate::block::{BlockReport, BlockScratch};
 use crate::boundary::Boundaries;
 use crate::model::{Solid, SolidMemory};
+use crate::report::BlockReport;
 use crate::rows::Elasticity;
+use crate::step::BlockScratch;
 use crate::{Boundary, ElasticState, SolidError, WaveSpeeds};
 
 /// Everything that defines a solid.

@@ -48,6 +48,10 @@ impl Side for FluidSide {
         part
     }
 
+    fn stage_seconds(&self) -> Vec<(&'static str, f64)> {
+        self.solver.stage_seconds()
+    }
+
     fn reached(&self) -> (f64, u64) {
         (self.solver.time(), self.solver.steps())
     }

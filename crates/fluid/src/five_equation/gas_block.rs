@@ -6,7 +6,6 @@ use super::cells::Cells;
 use super::mixed::{MixedCells, Outer};
 use super::reconstruction::Stencil;
 use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
-use crate::block::{BlockScratch, split_block};
 use crate::clips::Clips;
 use crate::face_rows::FaceRows;
 use crate::model::FluidStep;
@@ -14,6 +13,7 @@ use crate::options::TwoPhaseOptions;
 use crate::report::BlockReport;
 use crate::rows::{Reconstruction, Rows};
 use crate::state::conserved::{GAS, PHI, RHO};
+use crate::step::{BlockScratch, split_block};
 use crate::update::Metric;
 use crate::{Boundary, RiemannSolver};
 

@@ -10,13 +10,13 @@ use super::closure::{Compression, is_mixed};
 use super::face_states::FaceStates;
 use super::reconstruction::{Stencil, face_states};
 use super::windows::{LANES, Window, lanes, windows};
-use crate::block::used_face;
 use crate::boundary::beside;
 use crate::clips::Clips;
 use crate::exact_rows::{ListedFaces, exact_fluxes};
 use crate::face_rows::{FaceRows, set_face};
 use crate::hllc::Face;
 use crate::rows::Reconstruction;
+use crate::step::used_face;
 
 /// No mixed cell.
 const NONE: u32 = u32::MAX;

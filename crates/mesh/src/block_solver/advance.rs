@@ -47,7 +47,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     ///
     /// - errors: as [`BlockSolver::step`].
     pub fn run(&mut self, step: GroupStep, part: Part) -> Result<(), M::Error> {
-        let Self { model, mesh, state, next, levels, reports, interface, scratch, progress, .. } = self;
+        let Self { model, mesh, state, next, levels, reports, interface, workers, progress, .. } = self;
         let (clock, target, register) = levels.target(step.group, next);
         let (time, dt, marks) = (progress.time, step.dt, &NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, marks, time, dt };
@@ -55,11 +55,11 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let is_due = |slot: usize| part.has(interface.first_face(slot).is_some()) && in_group(slot);
         let pending = &mut reports.pending;
         for_each_block(target, register.values_mut(), pending, is_due, |slot, new, fluxes, report| {
-            *report = scratch.with(|scratch| model.step_block(&context, slot, new, fluxes, scratch));
+            *report = workers.with(|worker| worker.step_block(&context, slot, new, fluxes));
         });
         // A cell that falls back changes what its neighbours get: first all parts must be there.
         if part != Part::AwayFromInterface {
-            context.retry(target, register, pending, in_group, scratch);
+            context.retry(target, register, pending, in_group, workers);
             check(model, mesh, target, pending, (progress.time + step.dt, progress.steps + 1))?;
         }
         let due = (0..mesh.blocks()).filter(|slot| is_due(*slot)).count();

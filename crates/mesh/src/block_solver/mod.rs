@@ -14,7 +14,9 @@ pub use interface::{FaceState, Interface};
 pub use model::{Marks, Model, Place, Step};
 pub use saved::SavedBlocks;
 
-use crate::{Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool};
+use crate::{
+    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, StageTimer,
+};
 
 /// Cells, time, and how they advance: everything of a solver but the physics, which is its [`Model`].
 ///
@@ -30,11 +32,31 @@ pub struct BlockSolver<M: Model<N>, const N: usize> {
     interface: Interface,
     adapting: Adapting<N>,
     progress: Progress,
-    scratch: ScratchPool<M::Scratch>,
+    workers: ScratchPool<Worker<M::Scratch>>,
 }
 
 /// No cell falls back.
 static NO_MARKS: Marks = Marks::new();
+
+/// What a thread works with.
+struct Worker<S> {
+    scratch: S,
+    timer: StageTimer,
+}
+
+impl<S> Worker<S> {
+    /// Makes the step of a block.
+    fn step_block<M: Model<N, Scratch = S>, const N: usize>(
+        &mut self,
+        step: &Step<'_, M, N>,
+        slot: usize,
+        new: &mut [f64],
+        register: &mut [f64],
+    ) -> M::Report {
+        self.timer.begin();
+        step.model.step_block(step, slot, new, register, &mut self.scratch, &mut self.timer)
+    }
+}
 
 /// What each block has told of its steps.
 #[derive(Clone, Debug)]
@@ -89,7 +111,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
                 patches: ScratchPool::new(|| Patch::zeros(components)),
             },
             progress: Progress::default(),
-            scratch: ScratchPool::new(scratch),
+            workers: ScratchPool::new(|| Worker { scratch: scratch(), timer: StageTimer::default() }),
             model,
             mesh,
             state,
@@ -203,6 +225,17 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
 
     /// Runs `work` with this thread's scratch.
     pub fn with_scratch<R>(&self, work: impl FnOnce(&mut M::Scratch) -> R) -> R {
-        self.scratch.with(work)
+        self.workers.with(|worker| work(&mut worker.scratch))
+    }
+
+    /// The stages of the blocks' steps so far, and how long they have taken in all threads together, s; from a sample.
+    pub fn stage_seconds(&self) -> Vec<(&'static str, f64)> {
+        let mut seconds: Vec<(&'static str, f64)> = M::STAGES.iter().map(|name| (*name, 0.0)).collect();
+        self.workers.for_each(|worker| {
+            for (stage, (_, seconds)) in seconds.iter_mut().enumerate() {
+                *seconds += worker.timer.seconds(stage);
+            }
+        });
+        seconds
     }
 }

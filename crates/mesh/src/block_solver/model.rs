@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::{
     Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Patch, Reports,
 };
-use crate::{ScratchPool, Side};
+use crate::{ScratchPool, Side, StageTimer};
 
 /// Cells that a step makes at first order, block by block: their places j N + i.
 pub type Marks = BTreeMap<usize, Vec<usize>>;
@@ -37,7 +37,11 @@ pub trait Model<const N: usize>: Sized + Sync {
         &[]
     }
 
-    /// Advances a block by one step from `step.old` into `new`; `register` is its part of the flux register.
+    /// The names of the stages of a block's step, in their order.
+    const STAGES: &'static [&'static str];
+
+    /// Advances a block by one step from `step.old` into `new`; `register` is its part of the flux register. Tells the timer the
+    /// end of each stage.
     fn step_block(
         &self,
         step: &Step<'_, Self, N>,
@@ -45,6 +49,7 @@ pub trait Model<const N: usize>: Sized + Sync {
         new: &mut [f64],
         register: &mut [f64],
         scratch: &mut Self::Scratch,
+        timer: &mut StageTimer,
     ) -> Self::Report;
     /// Corrects the cells of a block along its finer neighbours.
     fn correct(

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Marks, Model, Step};
+use super::{Marks, Model, Step, Worker};
 use crate::{Field, FluxRegister, Mesh, ScratchPool, for_each_block};
 
 impl<M: Model<N>, const N: usize> Step<'_, M, N> {
@@ -14,7 +14,7 @@ impl<M: Model<N>, const N: usize> Step<'_, M, N> {
         register: &mut FluxRegister<N>,
         reports: &mut [M::Report],
         is_due: impl Fn(usize) -> bool + Sync,
-        scratch: &ScratchPool<M::Scratch>,
+        workers: &ScratchPool<Worker<M::Scratch>>,
     ) {
         /// The neighbours of a cell at first order may fail in turn.
         const ROUNDS: usize = 4;
@@ -33,7 +33,7 @@ impl<M: Model<N>, const N: usize> Step<'_, M, N> {
             if !is_new {
                 return;
             }
-            self.redo(&marks, next, register, reports, &is_due, scratch);
+            self.redo(&marks, next, register, reports, &is_due, workers);
         }
     }
 
@@ -46,13 +46,13 @@ impl<M: Model<N>, const N: usize> Step<'_, M, N> {
         register: &mut FluxRegister<N>,
         reports: &mut [M::Report],
         is_due: impl Fn(usize) -> bool + Sync,
-        scratch: &ScratchPool<M::Scratch>,
+        workers: &ScratchPool<Worker<M::Scratch>>,
     ) {
         let context = Step { marks, ..*self };
         let around = blocks_around(self.mesh, marks);
         let is_around = |slot: usize| is_due(slot) && around.contains(&slot);
         for_each_block(next, register.values_mut(), reports, is_around, |slot, new, fluxes, report| {
-            *report = scratch.with(|scratch| self.model.step_block(&context, slot, new, fluxes, scratch));
+            *report = workers.with(|worker| worker.step_block(&context, slot, new, fluxes));
         });
         for (slot, cells) in marks {
             let id = self.mesh.tree().leaves()[*slot];

@@ -40,7 +40,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             interface,
             adapting: Adapting { settings: _, horizon, patches: _ },
             progress,
-            scratch: _,
+            workers: _,
         } = self;
         SavedBlocks {
             leaves: Cow::Borrowed(mesh.tree().leaves()),

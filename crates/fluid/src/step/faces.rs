@@ -1,0 +1,109 @@
+//! The Riemann problems on the faces of a block.
+
+use mesh::Padded;
+
+use super::BlockStep;
+use super::scratch::BlockScratch;
+use crate::RiemannSolver;
+use crate::boundary::Boundaries;
+use crate::curvature::AlongFaces;
+use crate::exact_rows::exact_faces;
+use crate::face_rows::FaceRows;
+use crate::model::FluidStep;
+use crate::rows::{self, Reconstruction};
+use crate::state::conserved::COUNT;
+
+impl<const N: usize> BlockStep<'_, N> {
+    /// Fluxes through all faces: HLLC or exact between pure cells, the mixed cells' own, and those that the state of the wall to
+    /// another medium makes.
+    pub(super) fn solve_faces(&mut self, scratch: &mut BlockScratch<N>) {
+        let ctx = self.ctx;
+        let stride = Padded::<N>::STRIDE;
+        let BlockScratch { half, s_z, s_r, keep, sound, inverse_r, gas, z_faces, r_faces, .. } = scratch;
+        let [rho, v_z, v_r, p, phi] = half.split::<COUNT>();
+        let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_z.split::<COUNT>();
+        let along_z = Reconstruction {
+            half: [rho, v_z, v_r, p, phi],
+            differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
+            keep,
+            sound,
+            with_gas: self.with_gas,
+            curvature: ctx.model.curvature(ctx.mesh, ctx.dt, self.id.level, 0),
+            along_faces: AlongFaces::new([1, 3].map(|c| s_r.component(c)), stride),
+        };
+        let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
+        let wall = ctx.interface.states_of::<N>(self.slot);
+        let replaced = wall.map(|_| mesh::GHOSTS - 1);
+        self.clipped_roots = faces(ctx, &along_z, 1, z_range, replaced, z_faces);
+        if let Some(block) = &self.gas {
+            block.solve_faces(0, &along_z, inverse_r, gas, z_faces);
+        }
+        if let Some(wall) = wall {
+            Boundaries::impose_wall::<N>(wall, &along_z, &ctx.model.mixture, z_faces);
+        }
+
+        let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_r.split::<COUNT>();
+        let along_r = Reconstruction {
+            half: [rho, v_r, v_z, p, phi],
+            differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
+            curvature: ctx.model.curvature(ctx.mesh, ctx.dt, self.id.level, 1),
+            along_faces: AlongFaces::new([2, 3].map(|c| s_z.component(c)), 1),
+            ..along_z
+        };
+        let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
+        self.clipped_roots += faces(ctx, &along_r, stride, r_range, None, r_faces);
+        if let Some(block) = &self.gas {
+            block.solve_faces(1, &along_r, inverse_r, gas, r_faces);
+            block.gas_fluxes(gas, [z_faces, r_faces]);
+        }
+    }
+}
+
+/// Solves the faces of a block along z (`step` 1) or r.
+///
+/// - `replaced`: the column of padded cells whose upper faces get other fluxes.
+/// - returns: at how many of the faces that count HLLC's sound speed was bounded.
+fn faces<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    cells: &Reconstruction<'_>,
+    step: usize,
+    range: std::ops::Range<usize>,
+    replaced: Option<usize>,
+    faces: &mut FaceRows,
+) -> u64 {
+    match ctx.model.scheme.riemann {
+        RiemannSolver::Hllc => {
+            let has_all =
+                rows::hllc_faces(cells, step, Padded::<N>::STRIDE, range.clone(), &ctx.model.mixture, faces);
+            if has_all {
+                return 0;
+            }
+            // Mixed cells of the five-equation model have states and fluxes of their own: their share is −0.
+            let is_own = |k: usize| cells.keep[k].to_bits() >> 63 == 1;
+            let counts = |k: &usize| {
+                used_face::<N>(*k, step)
+                    && replaced != Some(*k % Padded::<N>::STRIDE)
+                    && !(is_own(*k) || is_own(*k + step))
+            };
+            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, &ctx.model.mixture)).count()
+                as u64
+        }
+        RiemannSolver::Exact => {
+            let stride = Padded::<N>::STRIDE;
+            exact_faces(cells, step, stride, range, used_face::<N>, &ctx.model.mixture, faces);
+            0
+        }
+    }
+}
+
+/// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block.
+pub(crate) fn used_face<const N: usize>(k: usize, step: usize) -> bool {
+    let (i, j) = (k % Padded::<N>::STRIDE, k / Padded::<N>::STRIDE);
+    let inner = mesh::GHOSTS..mesh::GHOSTS + N;
+    let faces = mesh::GHOSTS - 1..mesh::GHOSTS + N;
+    if step == 1 {
+        faces.contains(&i) && inner.contains(&j)
+    } else {
+        inner.contains(&i) && faces.contains(&j)
+    }
+}

@@ -1,0 +1,78 @@
+//! One MUSCL-Hancock step of one block: the algorithm, stage by stage.
+
+mod faces;
+mod scratch;
+mod stages;
+
+use mesh::{BlockId, StageTimer};
+
+pub(crate) use faces::used_face;
+pub use scratch::BlockScratch;
+pub(crate) use scratch::split_block;
+pub(crate) use stages::reconstruct;
+
+use crate::five_equation::GasBlock;
+use crate::model::FluidStep;
+use crate::report::BlockReport;
+
+/// The stages of a step, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    Assemble,
+    Predict,
+    Boundary,
+    MixedCells,
+    Faces,
+    Register,
+    Update,
+    Report,
+}
+
+/// Their names.
+pub(crate) const STAGES: &[&str] =
+    &["assemble", "predict", "boundary", "mixed_cells", "faces", "register", "update", "report"];
+
+/// A block in a step.
+struct BlockStep<'a, const N: usize> {
+    ctx: &'a FluidStep<'a, N>,
+    slot: usize,
+    id: BlockId,
+    /// 1/h_z, 1/h_r.
+    inverse_h: [f64; 2],
+    /// The five-equation model's part, where there is gas.
+    gas: Option<GasBlock<'a, N>>,
+    /// Whether the rows of the gas fraction count.
+    with_gas: bool,
+    limited_predictions: u64,
+    clipped_roots: u64,
+}
+
+/// Advances one block by one step from `ctx.old` into `new`; `fluxes` is its part of the flux register.
+pub(crate) fn step_block<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    new: &mut [f64],
+    fluxes: &mut [f64],
+    scratch: &mut BlockScratch<N>,
+    timer: &mut StageTimer,
+) -> BlockReport<N> {
+    let mut done = |stage: Stage| timer.end(stage as usize);
+    let mut report = BlockReport::default();
+    let mut block = BlockStep::assemble(ctx, slot, scratch);
+    done(Stage::Assemble);
+    block.predict(scratch);
+    done(Stage::Predict);
+    block.impose_boundaries(scratch);
+    done(Stage::Boundary);
+    block.collect_mixed_cells(scratch);
+    done(Stage::MixedCells);
+    block.solve_faces(scratch);
+    done(Stage::Faces);
+    block.register_fluxes(scratch, fluxes);
+    done(Stage::Register);
+    block.update(scratch, new, &mut report);
+    done(Stage::Update);
+    block.report(scratch, new, &mut report);
+    done(Stage::Report);
+    report
+}

@@ -1,0 +1,70 @@
+//! What a thread works in.
+
+use mesh::{AlignedRow, Padded, Patch};
+
+use crate::face_rows::FaceRows;
+use crate::five_equation::GasScratch;
+use crate::state::conserved::{COUNT, GAS, PHI};
+
+/// Scratch of one thread.
+pub struct BlockScratch<const N: usize> {
+    pub(crate) cells: Padded<N>,
+    pub(crate) patch: Patch<N>,
+    pub(crate) s_z: Padded<N>,
+    pub(crate) s_r: Padded<N>,
+    pub(crate) half: Padded<N>,
+    pub(crate) keep: AlignedRow,
+    /// Sound speeds at the beginning of the step.
+    pub(super) sound: AlignedRow,
+    pub(crate) inverse_r: Vec<f64>,
+    pub(super) z_faces: FaceRows,
+    pub(super) r_faces: FaceRows,
+    pub(super) speeds: Padded<N>,
+    pub(super) face_weight: Vec<f64>,
+    pub(super) inverse_weight: Vec<f64>,
+    pub(crate) gas: GasScratch,
+    /// Whether the rows of the gas fraction may hold anything but zeros.
+    pub(super) has_gas: bool,
+}
+
+impl<const N: usize> BlockScratch<N> {
+    /// For fields of so many components.
+    pub(crate) fn new(components: usize) -> Self {
+        let len = Padded::<N>::LEN;
+        Self {
+            cells: Padded::zeros(components),
+            patch: Patch::zeros(components),
+            s_z: Padded::zeros(COUNT),
+            s_r: Padded::zeros(COUNT),
+            half: Padded::zeros(COUNT),
+            keep: AlignedRow::zeros(len, Padded::<N>::STRIDE),
+            sound: AlignedRow::zeros(len, Padded::<N>::STRIDE),
+            inverse_r: vec![0.0; len],
+            z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
+            r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
+            speeds: Padded::zeros(3),
+            face_weight: vec![0.0; N + 1],
+            inverse_weight: vec![0.0; N],
+            gas: GasScratch::new::<N>(),
+            has_gas: false,
+        }
+    }
+
+    /// There is no gas in the block; most leave it at that.
+    pub(super) fn without_gas(&mut self) {
+        if std::mem::take(&mut self.has_gas) {
+            for rows in [&mut self.cells, &mut self.s_z, &mut self.s_r, &mut self.half] {
+                rows.component_mut(PHI).fill(0.0);
+            }
+            self.cells.component_mut(GAS).fill(0.0);
+        }
+        self.z_faces.without_gas();
+        self.r_faces.without_gas();
+    }
+}
+
+/// The first components of one block of a field.
+pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COUNT] {
+    let mut rows = block.chunks_exact_mut(N * N);
+    std::array::from_fn(|_| rows.next().expect("a block has that many components"))
+}

@@ -1,0 +1,213 @@
+//! The stages of a block's step; the faces have a file of their own.
+
+use mesh::{Padded, Side, limited_differences};
+
+use super::BlockStep;
+use super::scratch::{BlockScratch, split_block};
+use crate::clips::{Clips, CountedAnalysis};
+use crate::even::{even_slopes, predict_beside_mirrors};
+use crate::five_equation::{GasBlock, may_have_gas};
+use crate::model::FluidStep;
+use crate::predictor::{Predictor, predict};
+use crate::reflux::register_fluxes;
+use crate::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};
+use crate::rows;
+use crate::state::conserved::{COUNT, PHI};
+use crate::update::{Extremes, Metric, update};
+
+/// Assembles a block with its ghosts: primitive variables in `cells`.
+///
+/// - `with_gas`: whether the gas is looked at; else there is none, neither in the block nor in its neighbours.
+/// - returns: how many predictions of ghosts were limited.
+fn assemble<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    with_gas: bool,
+    scratch: &mut BlockScratch<N>,
+) -> u64 {
+    if !with_gas {
+        scratch.without_gas();
+    }
+    scratch.has_gas = with_gas;
+    let BlockScratch { cells, patch, inverse_r, .. } = scratch;
+    let components = if with_gas { ctx.old.components() } else { PHI };
+    let analysis = CountedAnalysis::new(&ctx.model.analysis);
+    cells.assemble_first(components, ctx.mesh, ctx.old, slot, &analysis, patch);
+    debug_assert!(with_gas || cells.component(PHI).iter().all(|phi| *phi == 0.0), "neighbours have no gas");
+    rows::to_primitive(cells.split_mut(), with_gas, &ctx.model.mixture);
+    ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    let id = ctx.mesh.tree().leaves()[slot];
+    ctx.mesh.inverse_radii(id, inverse_r);
+    analysis.limited()
+}
+
+/// Assembles a block with its ghosts and reconstructs it: primitive variables in `cells`, limited
+/// differences in `s_z`, `s_r`. A step makes the differences together with the state at mid-step instead.
+pub(crate) fn reconstruct<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    scratch: &mut BlockScratch<N>,
+) {
+    assemble(ctx, slot, may_have_gas(ctx, slot), scratch);
+    let BlockScratch { cells, s_z, s_r, .. } = scratch;
+    for component in 0..COUNT {
+        limited_differences(
+            if component == PHI { ctx.model.scheme.fraction_limiter() } else { ctx.model.scheme.limiter },
+            cells.component(component),
+            Padded::<N>::STRIDE,
+            s_z.component_mut(component),
+            s_r.component_mut(component),
+        );
+    }
+    even_slopes(ctx, slot, scratch);
+}
+
+impl<'a, const N: usize> BlockStep<'a, N> {
+    /// Primitive variables of the block and its ghosts.
+    pub(super) fn assemble(ctx: &'a FluidStep<'a, N>, slot: usize, scratch: &mut BlockScratch<N>) -> Self {
+        let id = ctx.mesh.tree().leaves()[slot];
+        let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
+        let may_have_gas = may_have_gas(ctx, slot);
+        let limited_predictions = assemble(ctx, slot, may_have_gas, scratch);
+        let gas = if may_have_gas { GasBlock::of(ctx, slot, &scratch.cells) } else { None };
+        let with_gas = ctx.model.scheme.two_phase.is_none() || gas.is_some();
+        if !with_gas {
+            scratch.without_gas();
+        }
+        Self { ctx, slot, id, inverse_h, gas, with_gas, limited_predictions, clipped_roots: 0 }
+    }
+
+    /// Limited differences, and the states at mid-step.
+    pub(super) fn predict(&self, scratch: &mut BlockScratch<N>) {
+        let scheme = &self.ctx.model.scheme;
+        let predictor = Predictor {
+            limiter: scheme.limiter,
+            fraction_limiter: scheme.fraction_limiter(),
+            stride: Padded::<N>::STRIDE,
+            inverse_h: self.inverse_h,
+            inverse_r: &scratch.inverse_r,
+            half_dt: 0.5 * self.ctx.dt,
+            with_gas: self.with_gas,
+            with_mixed: scheme.two_phase.is_none(),
+        };
+        predict(
+            scratch.cells.split(),
+            predictor,
+            &self.ctx.model.mixture,
+            scratch.s_z.split_mut(),
+            scratch.s_r.split_mut(),
+            scratch.half.split_mut(),
+            &mut scratch.keep,
+            &mut scratch.sound,
+        );
+        even_slopes(self.ctx, self.slot, scratch);
+        predict_beside_mirrors(self.ctx, self.slot, self.inverse_h, scratch);
+    }
+
+    /// States beyond the sides of the domain, and cells that make this step at first order.
+    pub(super) fn impose_boundaries(&self, scratch: &mut BlockScratch<N>) {
+        let BlockScratch { half, s_z, s_r, keep, .. } = scratch;
+        self.ctx.model.boundaries.impose_outer(self.ctx, self.slot, [s_z, s_r], half, keep);
+        if !self.ctx.marks.is_empty() {
+            at_first_order(self.ctx, self.slot, scratch);
+        }
+    }
+
+    /// Cells with gas and liquid in them, which have face states of their own.
+    pub(super) fn collect_mixed_cells(&self, scratch: &mut BlockScratch<N>) {
+        if let Some(gas) = &self.gas {
+            gas.collect(scratch);
+        }
+    }
+
+    /// What passes to blocks of other levels.
+    pub(super) fn register_fluxes(&self, scratch: &BlockScratch<N>, fluxes: &mut [f64]) {
+        register_fluxes(self.ctx.mesh, self.slot, &scratch.z_faces, &scratch.r_faces, fluxes);
+    }
+
+    /// The new cells.
+    pub(super) fn update(&self, scratch: &mut BlockScratch<N>, new: &mut [f64], report: &mut BlockReport<N>) {
+        let ctx = self.ctx;
+        let h_r = ctx.mesh.widths(self.id.level)[1];
+        let BlockScratch {
+            z_faces, r_faces, face_weight, inverse_weight, speeds, gas, cells, inverse_r, ..
+        } = scratch;
+        let r_low = ctx.mesh.origin(self.id)[1];
+        for (j, weight) in face_weight.iter_mut().enumerate() {
+            *weight = ctx.mesh.weight(r_low + j as f64 * h_r);
+        }
+        for (j, inverse) in inverse_weight.iter_mut().enumerate() {
+            *inverse = 1.0 / ctx.mesh.weight(ctx.mesh.centre(self.id, 0, j)[1]);
+        }
+        let metric = Metric {
+            stride: Padded::<N>::STRIDE,
+            origin: Padded::<N>::index(0, 0),
+            inverse_h: self.inverse_h,
+            face_weight,
+            inverse_weight,
+        };
+        let old = ctx.old.block(self.slot);
+        let old_rows: [&[f64]; COUNT] = std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]);
+        let mut speeds = speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
+        let [speed_z, speed_r, floor] = &mut speeds;
+        update::<N>(
+            old_rows,
+            z_faces,
+            r_faces,
+            ctx.dt,
+            &metric,
+            self.with_gas,
+            &ctx.model.mixture,
+            split_block::<N>(new),
+            [speed_z, speed_r, floor],
+        );
+        if let Some(block) = &self.gas {
+            let faces = [&*z_faces, &*r_faces];
+            let pressure = cells.component(3);
+            block.update(gas, old_rows, pressure, faces, &metric, inverse_r, new, &mut speeds, report);
+        } else if !self.with_gas {
+            new[PHI * N * N..].fill(0.0);
+        }
+    }
+
+    /// What the block tells of the step.
+    pub(super) fn report(&self, scratch: &mut BlockScratch<N>, new: &[f64], report: &mut BlockReport<N>) {
+        let ctx = self.ctx;
+        let [fallbacks, halved] = count_kept::<N>(&scratch.keep);
+        report.fallbacks += fallbacks;
+        report.clips += Clips {
+            halved_slopes: u64::from(halved),
+            limited_predictions: self.limited_predictions,
+            clipped_roots: self.clipped_roots,
+            ..Clips::default()
+        };
+        let speeds = scratch.speeds.split::<3>().map(|row| &row[..N * N]);
+        let [_, _, floor] = speeds;
+        report.extremes = Extremes::of(&new[PHI * N * N..(PHI + 1) * N * N], speeds);
+        if report.extremes.floor > 0.0 {
+            for (cell, added) in floor.iter().enumerate().filter(|(_, added)| **added > 0.0) {
+                report.marked.insert(cell);
+                report.lift_pressure(*added, ctx.mesh.volume(self.id, cell / N));
+            }
+        }
+        let BlockScratch { z_faces, r_faces, face_weight, half, .. } = &*scratch;
+        if ctx.mesh.touches(self.slot, Side::ZMin) {
+            for (j, pressure) in report.wall_pressure.iter_mut().enumerate() {
+                *pressure = z_faces.pressure[Padded::<N>::index(-1, j as isize)];
+            }
+        }
+        report.inflow = boundary_inflow(ctx, self.slot, z_faces, r_faces, face_weight);
+        report.impulse = far_field_gains(ctx, self.slot, half, z_faces, r_faces);
+    }
+}
+
+/// Takes the marked cells' means for the states on their faces.
+fn at_first_order<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+    let BlockScratch { cells, half, keep, gas, .. } = scratch;
+    for k in gas.mark(ctx.mesh, slot, ctx.marks) {
+        keep[k] = 0.0;
+        for component in 0..COUNT {
+            half.component_mut(component)[k] = cells.component(component)[k];
+        }
+    }
+}

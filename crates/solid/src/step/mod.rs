@@ -1,0 +1,67 @@
+//! One MUSCL-Hancock step of one block: the algorithm, stage by stage.
+
+mod scratch;
+mod stages;
+
+use mesh::{BlockId, StageTimer};
+
+pub use scratch::BlockScratch;
+pub(crate) use stages::reconstruct;
+
+use crate::model::SolidStep;
+use crate::report::BlockReport;
+
+/// The stages of a step, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    Assemble,
+    Predict,
+    Boundary,
+    Faces,
+    Register,
+    Update,
+    Report,
+}
+
+/// Their names.
+pub(crate) const STAGES: &[&str] =
+    &["assemble", "predict", "boundary", "faces", "register", "update", "report"];
+
+/// A block in a step.
+struct BlockStep<'a, const N: usize> {
+    ctx: &'a SolidStep<'a, N>,
+    slot: usize,
+    id: BlockId,
+    /// 1/h_z, 1/h_r.
+    inverse_h: [f64; 2],
+}
+
+/// Advances one block by one step from `ctx.old` into `new`; `stars` is its part of the flux register.
+pub(crate) fn step_block<const N: usize>(
+    ctx: &SolidStep<'_, N>,
+    slot: usize,
+    new: &mut [f64],
+    stars: &mut [f64],
+    scratch: &mut BlockScratch<N>,
+    timer: &mut StageTimer,
+) -> BlockReport {
+    let mut done = |stage: Stage| timer.end(stage as usize);
+    let mut report = BlockReport::default();
+    let block = BlockStep::assemble(ctx, slot, scratch);
+    done(Stage::Assemble);
+    block.predict(scratch);
+    done(Stage::Predict);
+    ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
+    block.impose_boundaries(scratch);
+    done(Stage::Boundary);
+    block.solve_faces(scratch, new);
+    done(Stage::Faces);
+    ctx.mesh.look_ahead(ctx.old, slot, new, 2, 3);
+    block.register_stars(scratch, stars);
+    done(Stage::Register);
+    block.update(scratch, new, &mut report);
+    done(Stage::Update);
+    block.report(scratch, new, &mut report);
+    done(Stage::Report);
+    report
+}

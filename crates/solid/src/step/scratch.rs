@@ -1,0 +1,40 @@
+//! What a thread works in.
+
+use mesh::{Padded, Patch};
+
+use crate::rows::FaceRows;
+use crate::state::component::COUNT;
+
+/// Scratch of one thread.
+pub struct BlockScratch<const N: usize> {
+    pub(crate) cells: Padded<N>,
+    pub(crate) patch: Patch<N>,
+    pub(crate) s_z: Padded<N>,
+    pub(crate) s_r: Padded<N>,
+    pub(super) half: Padded<N>,
+    pub(crate) inverse_r: Vec<f64>,
+    pub(super) z_faces: FaceRows,
+    pub(super) r_faces: FaceRows,
+}
+
+impl<const N: usize> BlockScratch<N> {
+    pub(crate) fn new() -> Self {
+        let len = Padded::<N>::LEN;
+        Self {
+            cells: Padded::zeros(COUNT),
+            patch: Patch::zeros(COUNT),
+            s_z: Padded::zeros(COUNT),
+            s_r: Padded::zeros(COUNT),
+            half: Padded::zeros(COUNT),
+            inverse_r: vec![0.0; len],
+            z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
+            r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
+        }
+    }
+}
+
+/// The components of one block of a field.
+pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COUNT] {
+    let mut rows = block.chunks_exact_mut(N * N);
+    std::array::from_fn(|_| rows.next().expect("a block has that many components"))
+}

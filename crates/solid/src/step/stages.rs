@@ -1,0 +1,163 @@
+//! The stages of a block's step.
+
+use mesh::{Mesh, Padded, curvature_share, limited_differences};
+
+use super::BlockStep;
+use super::scratch::{BlockScratch, split_block};
+use crate::boundary::Boundaries;
+use crate::model::{Solid, SolidStep};
+use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
+use crate::reflux::register_stars;
+use crate::report::{BlockReport, boundary_inflow, yielded_volume};
+use crate::rows::{self, Elasticity, Reconstruction};
+use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R};
+use crate::update::{Metric, update};
+
+impl Solid {
+    /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.
+    pub(crate) fn curvature<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        dt: f64,
+        level: u8,
+        axis: usize,
+    ) -> [f64; 2] {
+        let per_speed = dt / mesh.widths(level)[axis];
+        let Elasticity { inverse_density, z1, z2, .. } = self.elasticity;
+        [z1, z2].map(|impedance| curvature_share(per_speed * inverse_density * impedance))
+    }
+}
+
+/// Assembles a block with its ghosts: the state in `cells`.
+fn assemble<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+    let BlockScratch { cells, patch, inverse_r, .. } = scratch;
+    cells.assemble(ctx.mesh, ctx.old, slot, &ctx.model.analysis, patch);
+    ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    ctx.mesh.inverse_radii(ctx.mesh.tree().leaves()[slot], inverse_r);
+}
+
+/// Assembles a block with its ghosts and reconstructs it: the state in `cells`, limited differences in `s_z`, `s_r`.
+/// A step makes the differences together with the state at mid-step instead.
+pub(crate) fn reconstruct<const N: usize>(
+    ctx: &SolidStep<'_, N>,
+    slot: usize,
+    scratch: &mut BlockScratch<N>,
+) {
+    assemble(ctx, slot, scratch);
+    let BlockScratch { cells, s_z, s_r, .. } = scratch;
+    // No derivative of the hoop stress enters.
+    for component in 0..S_PHIPHI {
+        limited_differences(
+            ctx.model.setup.limiter,
+            cells.component(component),
+            Padded::<N>::STRIDE,
+            s_z.component_mut(component),
+            s_r.component_mut(component),
+        );
+    }
+}
+
+impl<'a, const N: usize> BlockStep<'a, N> {
+    /// The state of the block and its ghosts.
+    pub(super) fn assemble(ctx: &'a SolidStep<'a, N>, slot: usize, scratch: &mut BlockScratch<N>) -> Self {
+        let id = ctx.mesh.tree().leaves()[slot];
+        let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
+        assemble(ctx, slot, scratch);
+        Self { ctx, slot, id, inverse_h }
+    }
+
+    /// Limited differences, and the states at mid-step.
+    pub(super) fn predict(&self, scratch: &mut BlockScratch<N>) {
+        let predictor = Predictor {
+            limiter: self.ctx.model.setup.limiter,
+            stride: Padded::<N>::STRIDE,
+            inverse_h: self.inverse_h,
+            inverse_r: &scratch.inverse_r,
+            half_dt: 0.5 * self.ctx.dt,
+        };
+        let [z0, z1, z2, z3, _, _] = scratch.s_z.split_mut::<COUNT>();
+        let [r0, r1, _, r3, r4, _] = scratch.s_r.split_mut::<COUNT>();
+        predict(
+            scratch.cells.split(),
+            predictor,
+            &self.ctx.model.elasticity,
+            [z0, z1, z2, z3],
+            [r0, r1, r3, r4],
+            scratch.half.split_mut(),
+        );
+    }
+
+    /// States beyond the sides of the domain, and slopes on the surface under another medium.
+    pub(super) fn impose_boundaries(&self, scratch: &mut BlockScratch<N>) {
+        let Self { ctx, slot, .. } = *self;
+        let BlockScratch { cells, half, s_z, s_r, .. } = scratch;
+        ctx.model.boundaries.impose_outer(ctx, slot, cells, half, s_z, s_r);
+        if ctx.interface.states_of::<N>(slot).is_some() {
+            Boundaries::complete_shear_differences(ctx.model.setup.limiter, half, s_z);
+        }
+    }
+
+    /// Star states on all faces: the exact solution of the elastic Riemann problem, and what the state of the surface makes.
+    ///
+    /// - `new`: of the blocks to come, a part is fetched into the cache.
+    pub(super) fn solve_faces(&self, scratch: &mut BlockScratch<N>, new: &mut [f64]) {
+        let Self { ctx, slot, id, .. } = *self;
+        let stride = Padded::<N>::STRIDE;
+        let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
+        let differences = scratch.s_z.split::<COUNT>();
+        let curvature = ctx.model.curvature(ctx.mesh, ctx.dt, id.level, 0);
+        let along_z = Reconstruction {
+            half: [v_z, v_r, zz, zr],
+            differences: ALONG_Z.map(|c| differences[c]),
+            curvature,
+        };
+        let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
+        rows::faces(&along_z, 1, stride, z_range, &ctx.model.elasticity, &mut scratch.z_faces);
+        if let Some(surface) = ctx.interface.states_of::<N>(slot) {
+            Boundaries::impose_surface::<N>(surface, &along_z, &ctx.model.elasticity, &mut scratch.z_faces);
+        }
+
+        ctx.mesh.look_ahead(ctx.old, slot, new, 1, 3);
+        let differences = scratch.s_r.split::<COUNT>();
+        let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
+        let curvature = ctx.model.curvature(ctx.mesh, ctx.dt, id.level, 1);
+        let along_r =
+            Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr], curvature };
+        let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
+        rows::faces(&along_r, stride, stride, r_range, &ctx.model.elasticity, &mut scratch.r_faces);
+    }
+
+    /// What passes to blocks of other levels.
+    pub(super) fn register_stars(&self, scratch: &BlockScratch<N>, stars: &mut [f64]) {
+        register_stars(self.ctx.mesh, self.slot, &scratch.z_faces, &scratch.r_faces, stars);
+    }
+
+    /// The new cells.
+    pub(super) fn update(&self, scratch: &mut BlockScratch<N>, new: &mut [f64], report: &mut BlockReport) {
+        let Self { ctx, slot, inverse_h, .. } = *self;
+        let metric = Metric {
+            stride: Padded::<N>::STRIDE,
+            origin: Padded::<N>::index(0, 0),
+            inverse_h,
+            inverse_r: &scratch.inverse_r,
+        };
+        let old = ctx.old.block(slot);
+        report.mises_squared = update::<N>(
+            std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]),
+            &scratch.z_faces,
+            &scratch.r_faces,
+            [V_R, S_NORMAL[1], S_PHIPHI].map(|c| scratch.half.component(c)),
+            ctx.dt,
+            &metric,
+            &ctx.model.elasticity,
+            split_block::<N>(new),
+        );
+    }
+
+    /// What the block tells of the step.
+    pub(super) fn report(&self, scratch: &BlockScratch<N>, new: &[f64], report: &mut BlockReport) {
+        let Self { ctx, slot, .. } = *self;
+        report.yielded = yielded_volume(ctx.mesh, slot, new, report.mises_squared, ctx.model.yield_squared());
+        report.inflow = boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces);
+    }
+}
