@@ -10,7 +10,7 @@ use std::error::Error;
 use std::path::Path;
 
 use cav::case::Case;
-use cav::run::drive::Side;
+use cav::run::drive::RunSide;
 use cav::run::fluid_side::{FluidSide, Turn};
 use cav::run::stop::Stop;
 use coupler::{

@@ -6,7 +6,7 @@
 
 use cav::case::Case;
 use cav::run::RunError;
-use cav::run::drive::Side as _;
+use cav::run::drive::RunSide as _;
 use cav::run::fluid_side::{FluidSide, Turn};
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;

@@ -6,7 +6,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use cav::case::Case;
-use cav::run::drive::Side;
+use cav::run::drive::RunSide;
 use cav::run::fluid_side::{FluidSide, Turn};
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;

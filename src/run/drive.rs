@@ -25,7 +25,7 @@ use crate::output::{ProgressLine, RunDirectory, summary};
 pub type OnStep<'a> = dyn FnMut(&ProgressLine) + 'a;
 
 /// What the loops need of either side; [`FluidSide`] and [`SolidSide`] are the two.
-pub trait Side {
+pub trait RunSide {
     /// "fluid" or "solid".
     const NAME: &'static str;
     /// The file of its part of the summary.
@@ -55,7 +55,7 @@ pub trait Side {
 }
 
 /// A side's progress.
-pub(super) fn line(side: &impl Side) -> ProgressLine {
+pub(super) fn line(side: &impl RunSide) -> ProgressLine {
     ProgressLine { wall: side.past().wall().as_secs_f64(), ..side.line() }
 }
 
@@ -198,7 +198,7 @@ fn tell<T>(result: Result<T, RunError>, link: &mut ProcessLink, step: u64) -> Re
 }
 
 /// Writes what is left to write of a side, and its part of the summary.
-pub(super) fn end<S: Side>(
+pub(super) fn end<S: RunSide>(
     side: &mut S,
     directory: Option<&RunDirectory>,
     result: Result<Turn, RunError>,
@@ -213,7 +213,7 @@ pub(super) fn end<S: Side>(
 }
 
 /// A side's part of the summary.
-pub(super) fn part<S: Side>(
+pub(super) fn part<S: RunSide>(
     side: &S,
     result: &Result<Turn, RunError>,
     counters: LinkCounters,
@@ -231,7 +231,7 @@ fn concluded(result: Result<Turn, RunError>) -> Result<(), RunError> {
 }
 
 /// What the summary says of a side's part in the run.
-fn progress_part<S: Side>(
+fn progress_part<S: RunSide>(
     side: &S,
     result: &Result<Turn, RunError>,
     counters: LinkCounters,

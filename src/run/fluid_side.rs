@@ -18,8 +18,8 @@ use mesh::{BLOCK, GroupStep, Misfit};
 use super::RunError;
 use super::cell_exchange::CellExchange;
 use super::checkpoints::Keeper;
+use super::coupled_solver::{self, StepRule};
 use super::fluid_record::FluidRecord;
-use super::medium::{self, StepRule};
 use super::memory::MemoryWatch;
 use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
@@ -168,7 +168,7 @@ impl FluidSide {
             Some(Pending::Long(plan, step)) => {
                 let timed = Timed::new(&mut self.clock);
                 let after = timed.recorded(&mut self.record, plan);
-                medium::end_long(&mut self.solver, step, &self.rule, after)?;
+                coupled_solver::end_long(&mut self.solver, step, &self.rule, after)?;
             }
             Some(Pending::Late(plan)) => self.step_beside(plan)?,
             Some(Pending::Trial(plan, step)) => {
@@ -275,7 +275,7 @@ impl FluidSide {
         // What comes after the frame is filled is the exchange.
         self.clock.computing += filled;
         let start = Instant::now();
-        let step = medium::begin_long(&mut self.solver, plan.dt, &self.rule)?;
+        let step = coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?;
         self.clock.computing += start.elapsed();
         self.pending = Some(Pending::Long(plan, step));
         Ok(())
@@ -289,7 +289,7 @@ impl FluidSide {
             frame.require_step(begin, StepLength::AtMost(asked.dt))?;
             frame.require_limit()?;
             let trace = frame.trace(solver.mesh().domain().r)?;
-            medium::begin_meeting(solver, meeting, trace);
+            coupled_solver::begin_meeting(solver, meeting, trace);
             Ok::<_, coupler::CouplerError>(*frame.header)
         })??;
         self.answer = answer;
@@ -300,7 +300,7 @@ impl FluidSide {
         let mut header = self.header(FrameKind::Register, faces, plan.dt);
         header.fields = RegisterRow::COUNT as u64;
         let timed = Timed::new(&mut self.clock);
-        medium::short_steps(
+        coupled_solver::short_steps(
             &mut self.solver,
             &mut self.meeting,
             (plan.dt, self.star),

@@ -10,7 +10,7 @@ use solid::SolidSolver;
 
 use super::RunError;
 use super::checkpoints::{Checkpoints, Keeper};
-use super::drive::{Side, end, line, part};
+use super::drive::{RunSide, end, line, part};
 use super::fluid_record::FluidRecord;
 use super::fluid_side::{FluidSide, Turn};
 use super::schedule::Schedule;
@@ -241,7 +241,7 @@ impl Session {
     }
 }
 
-fn step_alone(side: &mut impl Side, stop: &Stop) -> Result<Turn, RunError> {
+fn step_alone(side: &mut impl RunSide, stop: &Stop) -> Result<Turn, RunError> {
     if !side.step_alone()? {
         return Ok(Turn::Over(0));
     }

@@ -15,10 +15,10 @@ use solid::{Interface, SolidSolver};
 
 use super::RunError;
 use super::checkpoints::Keeper;
-use super::drive::Side;
+use super::coupled_solver::{self, StepRule};
+use super::drive::RunSide;
 use super::fluid_side::Turn;
 use super::load::Load;
-use super::medium::{self, StepRule};
 use super::memory::MemoryWatch;
 use super::past::{Done, Past};
 use super::schedule::{Plan, Schedule};
@@ -177,7 +177,7 @@ impl SolidSide {
         })??;
         let adapts = self.adapts(plan.dt);
         let timed = Timed::new(&mut self.clock);
-        medium::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))?;
+        coupled_solver::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))?;
         self.adapt_if(adapts, plan.dt)
     }
 
@@ -198,7 +198,7 @@ impl SolidSide {
             filled = start.elapsed();
         })?;
         let start = Instant::now();
-        let step = medium::begin_long(&mut self.solver, plan.dt, &self.rule)?;
+        let step = coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?;
         self.clock.computing += filled + start.elapsed();
         self.pending = Some((plan, step));
         Ok(())
@@ -221,7 +221,7 @@ impl SolidSide {
             Ok(())
         };
         let timed = Timed::new(&mut self.clock);
-        medium::short_steps(
+        coupled_solver::short_steps(
             &mut self.solver,
             &mut self.meeting,
             (plan.dt, self.star),
@@ -257,7 +257,7 @@ impl SolidSide {
             };
             self.solver.load_weakly(&mut self.interface, rows, faces, dt, pressure_of);
         } else {
-            medium::begin_meeting(&self.solver, &mut self.meeting, (rows, faces));
+            coupled_solver::begin_meeting(&self.solver, &mut self.meeting, (rows, faces));
         }
         self.clock.computing += start.elapsed();
         Ok(())
@@ -301,7 +301,7 @@ impl SolidSide {
     }
 }
 
-impl Side for SolidSide {
+impl RunSide for SolidSide {
     const NAME: &'static str = "solid";
     const SUMMARY: &'static str = SOLID_SUMMARY;
 
@@ -318,7 +318,7 @@ impl Side for SolidSide {
             }
         };
         let after = timed.recorded(&mut self.record, plan);
-        medium::step_alone(&mut self.solver, plan.dt, &self.rule, press, after)?;
+        coupled_solver::step_alone(&mut self.solver, plan.dt, &self.rule, press, after)?;
         self.adapt_if(adapts, plan.dt)?;
         Ok(true)
     }

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use solid::SolidSolver;
 
 use super::RunError;
+use super::coupled_solver::CoupledSolver;
 use super::fluid_record::FluidRecord;
-use super::medium::Medium;
 use super::schedule::Plan;
 use super::solid_record::SolidRecord;
 use crate::output::OutputError;
@@ -59,7 +59,7 @@ impl<'a> Timed<'a> {
 
     /// What is to be called after each step of the finest level: it is recorded, the last one with the snapshot that
     /// `plan` asks for.
-    pub fn recorded<M: Medium + 'a, R: Records<M>>(
+    pub fn recorded<M: CoupledSolver + 'a, R: Records<M>>(
         mut self,
         record: &'a mut Option<R>,
         plan: Plan,

@@ -1,9 +1,9 @@
 //! Two ways to drive both media: as a run does, from a case; and by hand, from functions of the place.
 
 use cav::case::Case;
-use cav::run::drive::Side as _;
+use cav::run::coupled_solver::{self, CoupledSolver, StepRule};
+use cav::run::drive::RunSide as _;
 use cav::run::fluid_side::{FluidSide, Turn};
-use cav::run::medium::{self, Medium, StepRule};
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;
 use coupler::{
@@ -168,7 +168,7 @@ impl Pair {
 }
 
 /// A long step of one side and the short ones of the other.
-fn exchange<L: Medium, S: Medium>(
+fn exchange<L: CoupledSolver, S: CoupledSolver>(
     long: &mut L,
     short: &mut S,
     dt: f64,
@@ -180,15 +180,15 @@ fn exchange<L: Medium, S: Medium>(
     let mut trace = vec![0.0; TraceRow::COUNT * faces];
     trace[..faces].copy_from_slice(&edges);
     long.write_trace(dt, |row, face, value| trace[row as usize * faces + face] = value);
-    let step = medium::begin_long(long, dt, &rules[0]).expect("the long step");
+    let step = coupled_solver::begin_long(long, dt, &rules[0]).expect("the long step");
     let mut meeting = Meeting::default();
-    medium::begin_meeting(short, &mut meeting, (&trace, faces));
-    medium::short_steps(short, &mut meeting, (dt, star), &rules[1], |_, _| Ok(()), |_, _| Ok(()))
+    coupled_solver::begin_meeting(short, &mut meeting, (&trace, faces));
+    coupled_solver::short_steps(short, &mut meeting, (dt, star), &rules[1], |_, _| Ok(()), |_, _| Ok(()))
         .expect("the short steps");
     let mut register = vec![0.0; RegisterRow::COUNT * faces];
     meeting.write_register(&mut register);
     long.interface_mut().set_rows(WallRegister::of(&register, faces).rows());
-    medium::end_long(long, step, &rules[0], |_, _| Ok(())).expect("the long step's end");
+    coupled_solver::end_long(long, step, &rules[0], |_, _| Ok(())).expect("the long step's end");
 }
 
 /// Water on a grid.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cav::run::drive::Side as _;
+use cav::run::drive::RunSide as _;
 use cav::run::fluid_side::Turn;
 use cav::run::session::{Session, Solvers};
 use cav::run::solid_side::SolidSide;

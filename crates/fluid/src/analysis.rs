@@ -103,7 +103,7 @@ impl Multiresolution for Analysis {
         let (d_vz, d_vr) = (d_mz - v_z * d_rho, d_mr - v_r * d_rho);
         // Not `hypot`: it would take as long as all else here together, and nothing can overflow.
         let d_v = (d_vz * d_vz + d_vr * d_vr).sqrt() / rho;
-        let impedance = (rho * self.mixture.stiffness(p, phi)).max(0.0).sqrt();
+        let impedance = (rho * self.mixture.bulk_modulus(p, phi)).max(0.0).sqrt();
         let by_pressure = d_p.abs().max(impedance * d_v) / self.scales.pressure;
         by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs())
     }

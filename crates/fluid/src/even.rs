@@ -4,7 +4,7 @@ use mesh::{Padded, Side};
 
 use crate::Boundary;
 use crate::boundary::{beside, normal};
-use crate::model::FluidStep;
+use crate::physics::FluidStep;
 use crate::rows::half_step;
 use crate::state::conserved::{PHI, RHO};
 use crate::step::BlockScratch;

@@ -12,7 +12,7 @@ use std::hint::select_unpredictable;
 use mesh::whole_lines;
 
 use crate::Mixture;
-use crate::curvature::states_at_face;
+use crate::dispersion::states_at_face;
 use crate::elementary::{exp_and_less_one, ln_of};
 use crate::face_rows::FaceRows;
 use crate::godunov::flux_exact;

@@ -1,6 +1,6 @@
 //! The fluxes through the faces of a padded block.
 
-use mesh::AlignedRow;
+use mesh::{AlignedRow, Padded};
 
 use crate::hllc::Face;
 
@@ -86,4 +86,16 @@ pub(crate) fn set_face(
     shear[k] = face.shear;
     energy[k] = face.energy;
     phi[k] = face.phi;
+}
+
+/// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block.
+pub(crate) fn used_face<const N: usize>(k: usize, step: usize) -> bool {
+    let (i, j) = (k % Padded::<N>::STRIDE, k / Padded::<N>::STRIDE);
+    let inner = mesh::GHOSTS..mesh::GHOSTS + N;
+    let faces = mesh::GHOSTS - 1..mesh::GHOSTS + N;
+    if step == 1 {
+        faces.contains(&i) && inner.contains(&j)
+    } else {
+        inner.contains(&i) && faces.contains(&j)
+    }
 }

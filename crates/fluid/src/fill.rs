@@ -243,7 +243,7 @@ fn add_pulse(pulse: &crate::Pulse, [z, r]: [f64; 2], mixture: &Mixture, state: &
     let (distance, direction) = distance(pulse, [z, r]);
     let excess = pulse.amplitude * (-(distance / pulse.width).powi(2)).exp();
     let at = mixture.at(state.phi);
-    let impedance = (mixture.stiffness(state.pressure, state.phi) * state.density).sqrt();
+    let impedance = (mixture.bulk_modulus(state.pressure, state.phi) * state.density).sqrt();
     state.density *= ((state.pressure + excess + at.pi) / (state.pressure + at.pi)).powf(1.0 / at.gamma);
     state.pressure += excess;
     if let Some(n) = direction {

@@ -3,7 +3,7 @@
 use mesh::{Field, Mesh};
 
 use crate::analysis::Analysis;
-use crate::solver::{AsksForFiner, InitialState};
+use crate::setup::{AsksForFiner, InitialState};
 use crate::{FluidError, FluidSetup};
 
 /// The mesh that the initial condition asks for, filled with it.

@@ -47,7 +47,7 @@ impl Mixture {
 
     /// ρc² = γ(φ)(p + π(φ)) = ((1 + β₁) p + β₂)/β₁ of the frozen mixture, Pa.
     #[inline(always)]
-    pub fn stiffness(&self, pressure: f64, phi: f64) -> f64 {
+    pub fn bulk_modulus(&self, pressure: f64, phi: f64) -> f64 {
         let beta1 = self.beta1(phi);
         ((1.0 + beta1) * pressure + self.beta2(phi)) / beta1
     }
@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pure_phases_are_themselves_and_stiffness_is_gamma_p_plus_pi() {
+    fn pure_phases_are_themselves_and_bulk_modulus_is_gamma_p_plus_pi() {
         let liquid = StiffenedGas { gamma: 7.15, pi: 3e8 };
         let gas = StiffenedGas { gamma: 1.4, pi: 0.0 };
         let mixture = Mixture::new(liquid, gas);
@@ -87,7 +87,7 @@ mod tests {
         for phi in [0.0, 0.3, 1.0] {
             let at = mixture.at(phi);
             approx::assert_relative_eq!(
-                mixture.stiffness(5e6, phi),
+                mixture.bulk_modulus(5e6, phi),
                 at.gamma * (5e6 + at.pi),
                 max_relative = 1e-13
             );

@@ -1,77 +1,22 @@
 //! What the fluid is to the block solver.
 
 use mesh::{
-    Adapted, BlockSolver, Field, FinerSide, Interface, Limiter, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Side, StageTimer, Step, maximum,
+    Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
+    ScratchPool, Side, StageTimer, maximum,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
-use crate::boundary::Boundaries;
 use crate::bubbles::follow_sources;
 use crate::clips::{CountedAnalysis, SharedCount};
-use crate::far_field::{Moment, SideImpulses, SourceHistory};
-use crate::options::TwoPhaseOptions;
+use crate::far_field::{SideImpulses, SourceHistory};
+use crate::physics::{Fluid, FluidStep, Tally};
 use crate::reflux::{self, QUANTITIES};
 use crate::report::BlockReport;
 use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::step::{BlockScratch, STAGES, step_block};
 use crate::update::Extremes;
-use crate::{Boundary, BoundaryLedger, Fixups, FluidError, Mixture, Primitive, RiemannSolver};
-
-/// A fluid of two phases: what its cells obey, and what bounds them.
-pub struct Fluid {
-    pub(crate) mixture: Mixture,
-    pub(crate) scheme: Scheme,
-    pub(crate) boundaries: Boundaries,
-    /// What the far field remembers along the open sides.
-    pub(crate) impulses: SideImpulses,
-    /// What the bubbles have done lately.
-    pub(crate) sources: SourceHistory,
-    pub(crate) analysis: Analysis,
-    /// Whether there is gas in each block, or will be at the end of the step it is in, as the reports have it.
-    pub(crate) has_gas: Vec<bool>,
-    /// Slots of the blocks along r_min, in order.
-    pub(crate) axis_blocks: Vec<usize>,
-    pub(crate) tally: Tally,
-}
-
-/// How face states and fluxes are made.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Scheme {
-    pub limiter: Limiter,
-    pub riemann: RiemannSolver,
-    /// What the five-equation model does in mixed cells; `None` for the paper's mixture.
-    pub two_phase: Option<TwoPhaseOptions>,
-}
-
-impl Scheme {
-    /// The limiter of the gas fraction's slopes.
-    pub fn fraction_limiter(&self) -> Limiter {
-        self.two_phase.map_or(self.limiter, |options| options.fraction_limiter(self.limiter))
-    }
-}
-
-/// What is added up over a run.
-#[derive(Debug, Default)]
-pub(crate) struct Tally {
-    fixups: Fixups,
-    /// Traces of the wall that were scaled since the fluid was made or taken up again; they are shown, not made, in a step.
-    pub scaled_traces: SharedCount,
-    pub ledger: BoundaryLedger,
-}
-
-impl Tally {
-    /// Corrections made so far.
-    pub fn fixups(&self) -> Fixups {
-        let mut fixups = self.fixups;
-        fixups.clips.scaled_traces += self.scaled_traces.get();
-        fixups
-    }
-}
-
-/// A step of the fluid.
-pub(crate) type FluidStep<'a, const N: usize> = Step<'a, Fluid, N>;
+use crate::{Boundary, BoundaryLedger, Fixups, FluidError, Primitive};
 
 /// What of a fluid changes in time besides its cells.
 #[derive(Serialize, Deserialize)]
@@ -83,11 +28,6 @@ pub struct FluidMemory {
 }
 
 impl Fluid {
-    /// A step as the far field sees it.
-    pub(crate) fn moment<const N: usize>(&self, step: &FluidStep<'_, N>) -> Moment<'_> {
-        Moment { middle: step.middle(), dt: step.dt, history: &self.sources }
-    }
-
     /// What the gas fraction and the gas's mass of a block say: whether there is any.
     fn has_any_gas(&self, components: &[&[f64]]) -> bool {
         let has_any = |component: usize| components[component].iter().any(|value| *value != 0.0);
@@ -98,8 +38,8 @@ impl Fluid {
     fn failed_state<const N: usize>(&self, block: &[f64], cell: usize) -> Option<[f64; COUNT]> {
         let u: [f64; COUNT] = std::array::from_fn(|c| block[c * N * N + cell]);
         let w = Primitive::from_conserved(u, &self.mixture);
-        let stiffness = self.mixture.stiffness(w.pressure, w.phi);
-        let is_physical = w.density > 0.0 && stiffness >= 0.0 && (stiffness / w.density).is_finite();
+        let bulk_modulus = self.mixture.bulk_modulus(w.pressure, w.phi);
+        let is_physical = w.density > 0.0 && bulk_modulus >= 0.0 && (bulk_modulus / w.density).is_finite();
         (!is_physical).then_some(u)
     }
 }
@@ -159,7 +99,7 @@ impl<const N: usize> Model<N> for Fluid {
         for k in 0..N * N {
             let u: [f64; COUNT] = std::array::from_fn(|c| block[c * N * N + k]);
             let w = Primitive::from_conserved(u, &self.mixture);
-            let sound = (self.mixture.stiffness(w.pressure, w.phi) / w.density).sqrt();
+            let sound = (self.mixture.bulk_modulus(w.pressure, w.phi) / w.density).sqrt();
             let sane = w.density > 0.0 && sound < f64::MAX;
             let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
             extremes.speed_z = extremes.speed_z.max(speed(w.v_z));
@@ -278,7 +218,7 @@ impl<const N: usize> Model<N> for Fluid {
             impulses: self.impulses.clone(),
             sources: self.sources.clone(),
             // Those of the traces shown are among them.
-            fixups: self.tally.fixups(),
+            fixups: self.tally.all_fixups(),
             ledger: self.tally.ledger,
         }
     }

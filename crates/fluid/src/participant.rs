@@ -3,8 +3,8 @@
 use coupler::{FluidTrace, TraceRow};
 use mesh::{GroupStep, Padded};
 
-use crate::five_equation::{Cells, FaceStates, Stencil, Window, face_states};
-use crate::model::Scheme;
+use crate::five_equation::{CellRule, Cells, FaceStates, Window, face_states};
+use crate::physics::Scheme;
 use crate::rows::{half_step, rates};
 use crate::step::{BlockScratch, reconstruct};
 use crate::wall_trace::Trace;
@@ -64,14 +64,14 @@ impl<const N: usize> FluidSolver<N> {
                     )
                     .map(|rate| keep * rate);
                     let mut state: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
-                    let curvature = context.model.curvature(context.mesh, dt, id.level, 0);
+                    let dispersion = context.model.dispersion(context.mesh, dt, id.level, 0);
                     let more = |c: usize, component: usize| {
                         let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
                         let stride = Padded::<N>::STRIDE;
                         let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
-                        let sound = (self.mixture().stiffness(w[3], w[4]) / w[0]).sqrt();
+                        let sound = (self.mixture().bulk_modulus(w[3], w[4]) / w[0]).sqrt();
                         let speed = w[1].abs() + sound;
-                        keep * curvature.on_wall(c, [w[3], w[4], d_z[3]], speed, across, along)
+                        keep * dispersion.on_wall(c, [w[3], w[4], d_z[3]], speed, across, along)
                     };
                     state[1] += more(0, 1);
                     state[3] += more(1, 3);
@@ -132,7 +132,7 @@ impl<const N: usize> FluidSolver<N> {
         let options = two_phase?;
         let cells = Cells { rows: cells.split::<6>(), stride: Padded::<N>::STRIDE };
         let mixture = self.mixture();
-        let stencil = Stencil { limiter, inverse_h, inverse_r, dt, mixture, options };
+        let stencil = CellRule { limiter, inverse_h, inverse_r, dt, mixture, options };
         cells.is_at_interface(k, mixture).then(|| {
             let mut states = FaceStates::default();
             face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &stencil, &mut states);
@@ -158,7 +158,7 @@ impl<const N: usize> FluidSolver<N> {
 fn put_rows(trace: Trace, mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
     let Trace { state: [rho, v_z, v_r, p, phi], rate, slope } = trace;
     let at = mixture.at(phi);
-    let impedance = (rho * mixture.stiffness(p, phi)).max(0.0).sqrt();
+    let impedance = (rho * mixture.bulk_modulus(p, phi)).max(0.0).sqrt();
     for (row, value) in [
         (TraceRow::Density, rho),
         (TraceRow::NormalVelocity, v_z),

@@ -5,7 +5,7 @@ use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
 use crate::Mixture;
 use crate::face_rows::FaceRows;
 use crate::five_equation::{Compression, is_mixed};
-use crate::model::FluidStep;
+use crate::physics::FluidStep;
 use crate::report::BlockReport;
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
 use crate::state::primitive;
@@ -110,7 +110,7 @@ fn settle<const N: usize>(u: &mut [f64; COUNT], mixture: &Mixture, report: &mut 
     let lifted = p.max(mixture.pressure_floor(phi));
     let added = mixture.beta1(phi) * (lifted - p);
     u[ENERGY] += added;
-    let sound = (mixture.stiffness(lifted, phi) / rho).sqrt();
+    let sound = (mixture.bulk_modulus(lifted, phi) / rho).sqrt();
     let sane = (rho > 0.0) & (sound < f64::MAX);
     let extremes = &mut report.extremes;
     let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };

@@ -8,7 +8,7 @@ use crate::clips::Clips;
 use crate::face_rows::FaceRows;
 use crate::far_field::face_centre;
 use crate::five_equation::missing_mass;
-use crate::model::FluidStep;
+use crate::physics::FluidStep;
 use crate::update::Extremes;
 
 /// What one block tells of its step.

@@ -9,7 +9,7 @@ use std::ops::Range;
 use mesh::whole_lines;
 
 use crate::Mixture;
-use crate::curvature::{AlongFaces, Curvature, states_at_face};
+use crate::dispersion::{AlongFaces, Dispersion, states_at_face};
 use crate::face_rows::FaceRows;
 use crate::hllc::flux_and_roots;
 use crate::state::primitive;
@@ -45,7 +45,7 @@ pub(crate) fn rates(
     inverse_r: f64,
     mixture: &Mixture,
 ) -> [f64; 5] {
-    rates_of(w, d_z, d_r, inverse_r, 1.0 / w[0], mixture.stiffness(w[3], w[4]))
+    rates_of(w, d_z, d_r, inverse_r, 1.0 / w[0], mixture.bulk_modulus(w[3], w[4]))
 }
 
 /// [`rates`] with 1/ρ and ρc² at hand.
@@ -56,7 +56,7 @@ fn rates_of(
     d_r: [f64; 5],
     inverse_r: f64,
     inverse_rho: f64,
-    stiffness: f64,
+    bulk_modulus: f64,
 ) -> [f64; 5] {
     let [rho, v_z, v_r, ..] = w;
     let divergence = d_z[1] + d_r[2] + v_r * inverse_r;
@@ -65,7 +65,7 @@ fn rates_of(
         -(advected(0) + rho * divergence),
         -(advected(1) + d_z[3] * inverse_rho),
         -(advected(2) + d_r[3] * inverse_rho),
-        -(advected(3) + stiffness * divergence),
+        -(advected(3) + bulk_modulus * divergence),
         -advected(4),
     ]
 }
@@ -75,8 +75,8 @@ fn rates_of(
 #[derive(Clone, Copy)]
 struct CellLaw {
     inverse_rho: f64,
-    /// ρc², see [`Mixture::stiffness`].
-    stiffness: f64,
+    /// ρc², see [`Mixture::bulk_modulus`].
+    bulk_modulus: f64,
     /// p + π.
     excess: f64,
 }
@@ -90,7 +90,7 @@ impl CellLaw {
         let per_law = inverse * rho;
         Self {
             inverse_rho: inverse * (b1 * above),
-            stiffness: (above * p + b2) * (above * per_law),
+            bulk_modulus: (above * p + b2) * (above * per_law),
             excess: p + b2 * (b1 * per_law),
         }
     }
@@ -116,8 +116,8 @@ fn admissible(
 ) -> bool {
     let lowest_density = half[0] - reach[0];
     let face = CellLaw::at(1.0, half[3] - reach[3], half[4] + reach[4], mixture);
-    let carried = ratio * law.stiffness;
-    let impedance_squared = lowest_density * face.stiffness;
+    let carried = ratio * law.bulk_modulus;
+    let impedance_squared = lowest_density * face.bulk_modulus;
     (lowest_density > 1e-3 * w[0])
         & (face.excess > 1e-3 * law.excess)
         & (impedance_squared > carried * carried)
@@ -154,7 +154,7 @@ impl<'a> Prediction<'a> {
     ) -> Self {
         let law = CellLaw::at(w[0], w[3], w[4], mixture);
         let (d_z, d_r) = (scaled(s_z, inverse_h[0]), scaled(s_r, inverse_h[1]));
-        let rate = rates_of(w, d_z, d_r, inverse_r, law.inverse_rho, law.stiffness);
+        let rate = rates_of(w, d_z, d_r, inverse_r, law.inverse_rho, law.bulk_modulus);
         let reach = |k: usize| {
             let (a, b) = (s_z[k].abs(), s_r[k].abs());
             0.5 * if a > b { a } else { b }
@@ -173,7 +173,7 @@ impl<'a> Prediction<'a> {
     /// c, m/s.
     #[inline(always)]
     fn sound_speed(&self) -> f64 {
-        (self.law.stiffness * self.law.inverse_rho).sqrt()
+        (self.law.bulk_modulus * self.law.inverse_rho).sqrt()
     }
 
     #[inline(always)]
@@ -266,7 +266,7 @@ pub(crate) struct Reconstruction<'a> {
     pub sound: &'a [f64],
     /// Whether there is gas in any cell. Without it the rows of the gas fraction hold zeros.
     pub with_gas: bool,
-    pub curvature: Curvature,
+    pub dispersion: Dispersion,
     pub along_faces: AlongFaces<'a>,
 }
 
@@ -285,7 +285,7 @@ impl<'a> Reconstruction<'a> {
             keep: &self.keep[at..][..n],
             sound: &self.sound[at..][..n],
             with_gas: self.with_gas,
-            curvature: self.curvature,
+            dispersion: self.dispersion,
             along_faces: self.along_faces.cut(at, n),
         }
     }

@@ -23,8 +23,8 @@ pub mod array;
 mod block_solver;
 mod cell_fields;
 mod courant;
-mod curvature;
 mod details;
+mod dispersion;
 mod domain;
 mod field;
 mod geometry;
@@ -56,7 +56,7 @@ pub use block_solver::{
 };
 pub use cell_fields::CellField;
 pub use courant::longest_step;
-pub use curvature::{curvature_share, oblique_shares};
+pub use dispersion::{dispersion_share, oblique_dispersion_shares};
 pub use domain::{Domain, Mesh, MeshError, Misfit};
 pub use field::Field;
 pub use geometry::{Geometry, Side};

@@ -57,7 +57,47 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
     at_least: impl Fn(usize) -> u8 + Sync,
 ) -> Vec<u8> {
     let tree = mesh.tree();
-    let mut extents: Vec<[Extent; 2]> = (0..mesh.blocks())
+    let mut extents = significant_extents(mesh, field, rule, adaptation, scratch);
+    for (first, kept) in refined_again(mesh, field, rule, adaptation, &extents) {
+        for (extents, kept) in extents[first..].iter_mut().zip(kept) {
+            extents[0] = kept;
+        }
+    }
+
+    let mut wanted: Vec<u8> = (0..mesh.blocks())
+        .map(|slot| {
+            let [keep, refine] = &extents[slot];
+            let level = tree.leaves()[slot].level;
+            let own = if !refine.is_none() {
+                level + 1
+            } else if !keep.is_none() {
+                level
+            } else {
+                level.saturating_sub(1)
+            };
+            own.max(at_least(slot))
+        })
+        .collect();
+    reach_neighbours(mesh, &extents, travel, &mut wanted);
+    for (level, id) in wanted.iter_mut().zip(tree.leaves()) {
+        let (low, high) = bounds(mesh, *id, &adaptation.bounds);
+        *level = (*level).clamp(low, high.max(low)).clamp(id.level.saturating_sub(1), id.level + 1);
+        *level = (*level).clamp(tree.root_level(), tree.finest());
+    }
+    settle(tree, &mut wanted);
+    wanted
+}
+
+/// Where in each block the details are above the threshold, and where they foretell such ones on the next level.
+fn significant_extents<const N: usize, R: Multiresolution>(
+    mesh: &Mesh<N>,
+    field: &Field,
+    rule: &R,
+    adaptation: &Adaptation,
+    scratch: &ScratchPool<Patch<N>>,
+) -> Vec<[Extent; 2]> {
+    let tree = mesh.tree();
+    (0..mesh.blocks())
         .into_par_iter()
         .with_min_len(4)
         .map(|slot| {
@@ -81,28 +121,17 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
             });
             [keep, refine]
         })
-        .collect();
+        .collect()
+}
 
-    for (first, kept) in refined_again(mesh, field, rule, adaptation, &extents) {
-        for (extents, kept) in extents[first..].iter_mut().zip(kept) {
-            extents[0] = kept;
-        }
-    }
-
-    let mut wanted: Vec<u8> = (0..mesh.blocks())
-        .map(|slot| {
-            let [keep, refine] = &extents[slot];
-            let level = tree.leaves()[slot].level;
-            let own = if !refine.is_none() {
-                level + 1
-            } else if !keep.is_none() {
-                level
-            } else {
-                level.saturating_sub(1)
-            };
-            own.max(at_least(slot))
-        })
-        .collect();
+/// Asks for the levels of blocks that significant details can reach before the next adaptation.
+fn reach_neighbours<const N: usize>(
+    mesh: &Mesh<N>,
+    extents: &[[Extent; 2]],
+    travel: impl Fn(usize) -> f64,
+    wanted: &mut [u8],
+) {
+    let tree = mesh.tree();
     for slot in 0..mesh.blocks() {
         let [keep, refine] = &extents[slot];
         if keep.is_none() {
@@ -122,13 +151,6 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
             }
         }
     }
-    for (level, id) in wanted.iter_mut().zip(tree.leaves()) {
-        let (low, high) = bounds(mesh, *id, &adaptation.bounds);
-        *level = (*level).clamp(low, high.max(low)).clamp(id.level.saturating_sub(1), id.level + 1);
-        *level = (*level).clamp(tree.root_level(), tree.finest());
-    }
-    settle(tree, &mut wanted);
-    wanted
 }
 
 /// Details nearer to an open side than this share of the domain's extent do not count, but for what does everywhere: the

@@ -1,42 +1,21 @@
 //! What the solid is to the block solver.
 
-use mesh::{FinerSide, Interface, Mesh, Misfit, Model, Place, Side, StageTimer, Step};
+use mesh::{FinerSide, Interface, Mesh, Misfit, Model, Place, Side, StageTimer};
 use serde::{Deserialize, Serialize};
 
-use crate::absorbing::{SideFilters, SideMemory};
+use crate::absorbing::SideFilters;
 use crate::analysis::Analysis;
-use crate::boundary::Boundaries;
+use crate::physics::{Solid, SolidStep};
 use crate::reflux::{self, QUANTITIES};
 use crate::report::{BlockReport, report_stresses};
-use crate::rows::Elasticity;
 use crate::step::{BlockScratch, STAGES, step_block};
-use crate::{Boundary, BoundaryLedger, SolidError, SolidSetup};
-
-/// An elastic solid: what its cells obey, and what bounds them.
-pub struct Solid {
-    pub(crate) setup: SolidSetup,
-    pub(crate) elasticity: Elasticity,
-    pub(crate) boundaries: Boundaries,
-    pub(crate) sides: SideMemory,
-    pub(crate) analysis: Analysis,
-    pub(crate) ledger: BoundaryLedger,
-}
-
-/// A step of the solid.
-pub(crate) type SolidStep<'a, const N: usize> = Step<'a, Solid, N>;
+use crate::{Boundary, BoundaryLedger, SolidError};
 
 /// What of a solid changes in time besides its cells.
 #[derive(Serialize, Deserialize)]
 pub struct SolidMemory {
     sides: [SideFilters; 4],
     ledger: BoundaryLedger,
-}
-
-impl Solid {
-    /// Squared yield strength, Pa².
-    pub(crate) fn yield_squared(&self) -> f64 {
-        self.setup.yield_strength * self.setup.yield_strength
-    }
 }
 
 impl<const N: usize> Model<N> for Solid {

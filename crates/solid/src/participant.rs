@@ -41,7 +41,7 @@ impl<const N: usize> SolidSolver<N> {
     /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the predictor uses; at
     /// mid-step it is what the face's Riemann problem would see.
     ///
-    /// - `dt`: the step about to be made, s: what the trace gets besides depends on it, see [`mesh::curvature_share`].
+    /// - `dt`: the step about to be made, s: what the trace gets besides depends on it, see [`mesh::dispersion_share`].
     /// - `put`: gets the place and one [`TraceRow`] of a face.
     pub fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
         self.write_trace_of(dt, |_| true, put);
@@ -64,7 +64,7 @@ impl<const N: usize> SolidSolver<N> {
             let id = self.mesh().tree().leaves()[slot];
             let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
             self.with_scratch(|scratch| {
-                let [share, _] = context.model.curvature(context.mesh, dt, id.level, 0);
+                let [share, _] = context.model.dispersion(context.mesh, dt, id.level, 0);
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
                 Boundaries::complete_shear_differences(self.setup().limiter, cells, s_z);

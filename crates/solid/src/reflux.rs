@@ -2,7 +2,7 @@
 
 use mesh::{FinerSide, FluxRegister, Geometry, Mesh, Side};
 
-use crate::model::SolidStep;
+use crate::physics::SolidStep;
 use crate::report::{BlockReport, report_stresses};
 use crate::rows::FaceRows;
 use crate::state::component::COUNT;

@@ -3,7 +3,7 @@
 use mesh::{Mesh, Padded, Side, maximum};
 use serde::{Deserialize, Serialize};
 
-use crate::model::SolidStep;
+use crate::physics::SolidStep;
 use crate::rows::FaceRows;
 
 /// What one block tells of its step.

@@ -85,8 +85,8 @@ impl FaceRows {
 pub(crate) struct Reconstruction<'a> {
     pub half: [&'a [f64]; 4],
     pub differences: [&'a [f64]; 4],
-    /// What face states get besides, see [`mesh::curvature_share`]: of the pairs (v_n, σ_nn) and (v_t, σ_nt).
-    pub curvature: [f64; 2],
+    /// What face states get besides, see [`mesh::dispersion_share`]: of the pairs (v_n, σ_nn) and (v_t, σ_nt).
+    pub dispersion: [f64; 2],
 }
 
 impl<'a> Reconstruction<'a> {
@@ -97,7 +97,7 @@ impl<'a> Reconstruction<'a> {
         Self {
             half: [&a[at..][..n], &b[at..][..n], &c[at..][..n], &d[at..][..n]],
             differences: [&e[at..][..n], &f[at..][..n], &g[at..][..n], &h[at..][..n]],
-            curvature: self.curvature,
+            dispersion: self.dispersion,
         }
     }
 
@@ -115,7 +115,7 @@ impl<'a> Reconstruction<'a> {
     /// lets the surface creep.
     pub fn shear_at_surface(&self, k: usize) -> FaceState {
         let more =
-            |c: usize| mesh::curvature_share(0.0) * (self.differences[c][k] - self.differences[c][k - 1]);
+            |c: usize| mesh::dispersion_share(0.0) * (self.differences[c][k] - self.differences[c][k - 1]);
         let state = self.face_state(k, 1.0);
         FaceState { v_t: state.v_t + more(1), sigma_nt: state.sigma_nt + more(3), ..state }
     }
@@ -124,7 +124,7 @@ impl<'a> Reconstruction<'a> {
 /// The states on both sides of the face between cells `k` of `lower` and of `upper`.
 #[inline(always)]
 fn states_at_face(lower: &Reconstruction<'_>, upper: &Reconstruction<'_>, k: usize) -> [FaceState; 2] {
-    let more = |c: usize| lower.curvature[c % 2] * (upper.differences[c][k] - lower.differences[c][k]);
+    let more = |c: usize| lower.dispersion[c % 2] * (upper.differences[c][k] - lower.differences[c][k]);
     let more = [more(0), more(1), more(2), more(3)];
     [lower.face_state(k, 1.0), upper.face_state(k, -1.0)].map(|state| FaceState {
         v_n: state.v_n + more[0],

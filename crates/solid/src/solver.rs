@@ -2,51 +2,17 @@
 
 use std::ops::{Deref, DerefMut};
 
-use mesh::{Adaptation, BlockSolver, Domain, Limiter, SavedBlocks, SideStates};
-use serde::{Deserialize, Serialize};
+use mesh::{BlockSolver, SavedBlocks, SideStates};
 
 use crate::absorbing::SideMemory;
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
-use crate::model::{Solid, SolidMemory};
+use crate::model::SolidMemory;
+use crate::physics::Solid;
 use crate::report::BlockReport;
 use crate::rows::Elasticity;
 use crate::step::BlockScratch;
-use crate::{Boundary, ElasticState, SolidError, WaveSpeeds};
-
-/// Everything that defines a solid.
-#[derive(Clone, Debug)]
-pub struct SolidSetup {
-    /// Where it is.
-    pub domain: Domain,
-    /// Cells of the coarsest grid along z and r.
-    pub coarsest: [usize; 2],
-    /// Levels of refinement: the finest grid has `coarsest · 2^levels` cells.
-    pub levels: u8,
-    /// Density and wave speeds.
-    pub speeds: WaveSpeeds,
-    /// Yield strength Y₀, Pa; infinite if none is known.
-    pub yield_strength: f64,
-    /// The slope limiter.
-    pub limiter: Limiter,
-    /// What bounds it, in the order of [`mesh::Side::ALL`].
-    pub boundaries: [Boundary; 4],
-    /// How the grid adapts; all cells are on the finest level without.
-    pub adaptation: Option<Adaptation>,
-    /// Reference value of stresses, by which adaptation measures details, Pa; velocities count with ρ̄c₁.
-    pub stress_scale: f64,
-}
-
-/// What crossed the sides of the domain since the start, inwards, in the order of [`mesh::Side::ALL`].
-///
-/// Per radian in axial symmetry, per metre of depth in planar geometry.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct BoundaryLedger {
-    /// Axial momentum (the impulse of the tractions), N s.
-    pub momentum: [f64; 4],
-    /// Energy (the work of the tractions), J.
-    pub energy: [f64; 4],
-}
+use crate::{BoundaryLedger, ElasticState, SolidError, SolidSetup};
 
 /// The solid: a [`BlockSolver`] of elastic waves, which says how it is advanced, adapted, kept and taken up again.
 ///

@@ -7,7 +7,7 @@ use mesh::{GroupStep, Part};
 
 use super::{FluidSide, Pending};
 use crate::run::RunError;
-use crate::run::medium;
+use crate::run::coupled_solver;
 use crate::run::schedule::Plan;
 
 impl FluidSide {
@@ -23,7 +23,7 @@ impl FluidSide {
         match (scheme, first) {
             (Scheme::Strong, _) => {
                 let start = Instant::now();
-                let step = medium::begin_long(&mut self.solver, plan.dt, &self.rule)?;
+                let step = coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?;
                 self.clock.computing += start.elapsed();
                 self.try_step(link, plan, step)?;
             }

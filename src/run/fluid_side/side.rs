@@ -9,13 +9,13 @@ use crate::output::run_directory::FLUID_SUMMARY;
 use crate::run::RunError;
 use crate::run::cell_exchange::CellExchange;
 use crate::run::checkpoints::Keeper;
-use crate::run::drive::Side;
-use crate::run::medium;
+use crate::run::coupled_solver;
+use crate::run::drive::RunSide;
 use crate::run::past::Past;
 use crate::run::stop::Stop;
 use crate::run::timed::{Clock, Timed};
 
-impl Side for FluidSide {
+impl RunSide for FluidSide {
     const NAME: &'static str = "fluid";
     const SUMMARY: &'static str = FLUID_SUMMARY;
 
@@ -24,7 +24,7 @@ impl Side for FluidSide {
         let Some(plan) = self.plan(own, f64::INFINITY)? else { return Ok(false) };
         let timed = Timed::new(&mut self.clock);
         let after = timed.recorded(&mut self.record, plan);
-        medium::step_alone(&mut self.solver, plan.dt, &self.rule, |_, _| (), after)?;
+        coupled_solver::step_alone(&mut self.solver, plan.dt, &self.rule, |_, _| (), after)?;
         self.adapt_if_due()?;
         Ok(true)
     }

@@ -7,7 +7,7 @@ use mesh::Part;
 
 use super::SolidSide;
 use crate::run::RunError;
-use crate::run::medium;
+use crate::run::coupled_solver;
 use crate::run::schedule::Plan;
 use crate::run::stop::Stop;
 
@@ -38,7 +38,7 @@ impl SolidSide {
         let start = Instant::now();
         let step = match self.trial {
             Some(step) => step,
-            None => medium::begin_long(&mut self.solver, plan.dt, &self.rule)?,
+            None => coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?,
         };
         self.trial = Some(step);
         self.solver.run(step, Part::AtInterface)?;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::StiffenedGas;
-use crate::curvature::{AlongFaces, Curvature};
+use crate::dispersion::{AlongFaces, Dispersion};
 use crate::exact_riemann::tests::{EXTREME, REFERENCE, Random};
 use crate::exact_riemann::{Side, sample, star_state};
 use crate::five_equation::FaceState;
@@ -124,7 +124,7 @@ fn rows_equal_the_scalar_flux_and_do_not_depend_on_their_company() {
         sound: &vec![1.0; len],
         with_gas: true,
         // Of so fast a sound nothing is left out.
-        curvature: Curvature { per_speed: 1.0, ..Curvature::default() },
+        dispersion: Dispersion { per_speed: 1.0, ..Dispersion::default() },
         along_faces: AlongFaces::new([&differences[1], &differences[3]], 1),
     };
     fn real(k: usize, step: usize) -> bool {

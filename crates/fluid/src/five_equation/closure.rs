@@ -29,7 +29,7 @@ const SAME_MODULUS: f64 = 1e-2;
 #[inline(always)]
 pub(crate) fn is_compliant(p: f64, phi: f64, mixture: &Mixture) -> bool {
     let (k_gas, k_liquid) = moduli(p, mixture);
-    let softened = mixture.stiffness(p, phi) * (phi * k_liquid + (1.0 - phi) * k_gas);
+    let softened = mixture.bulk_modulus(p, phi) * (phi * k_liquid + (1.0 - phi) * k_gas);
     let both = k_gas * k_liquid;
     let is_thin = phi.min(1.0 - phi) < THIN;
     is_mixed(phi) & (!is_thin | !((softened - both).abs() < SAME_MODULUS * both))
@@ -73,7 +73,7 @@ impl Compression {
     #[inline(always)]
     pub fn at(p: f64, phi: f64, mixture: &Mixture, is_on: bool) -> Self {
         if !is_on {
-            return Self { modulus: mixture.stiffness(p, phi), gas: 1.0, liquid: 1.0 };
+            return Self { modulus: mixture.bulk_modulus(p, phi), gas: 1.0, liquid: 1.0 };
         }
         let (k_gas, k_liquid) = moduli(p, mixture);
         let modulus = k_gas * k_liquid / (phi * k_liquid + (1.0 - phi) * k_gas);
@@ -124,7 +124,7 @@ mod tests {
     fn off_it_is_the_frozen_mixture() {
         let c = Compression::at(1e5, 0.3, &mixture(), false);
         assert_eq!((c.gas, c.liquid, c.expansion(0.3)), (1.0, 1.0, 0.0));
-        assert_eq!(c.modulus, mixture().stiffness(1e5, 0.3));
+        assert_eq!(c.modulus, mixture().bulk_modulus(1e5, 0.3));
         approx::assert_relative_eq!(c.star_fraction(0.3, 1.7), 0.3, max_relative = 1e-15);
     }
 
@@ -145,7 +145,7 @@ mod tests {
             (f64::NAN, 2e-6, true),
         ] {
             assert_eq!(is_compliant(p, phi, &m), is, "{p} {phi}");
-            let share = m.stiffness(p, phi) / Compression::at(p, phi, &m, true).modulus - 1.0;
+            let share = m.bulk_modulus(p, phi) / Compression::at(p, phi, &m, true).modulus - 1.0;
             assert!(is || !is_mixed(phi) || share.abs() < SAME_MODULUS, "{p} {phi}: {share}");
         }
     }

@@ -1,15 +1,16 @@
 //! The part of a block's step that only the five-equation model has, where there is gas.
 
-use mesh::{AlignedRow, Marks, Mesh, Padded, Side};
+use mesh::{Padded, Side};
 
 use super::cells::Cells;
-use super::mixed::{MixedCells, Outer};
-use super::reconstruction::Stencil;
+use super::mixed::Outer;
+use super::reconstruction::CellRule;
+use super::scratch::GasScratch;
 use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
 use crate::clips::Clips;
 use crate::face_rows::FaceRows;
-use crate::model::FluidStep;
 use crate::options::TwoPhaseOptions;
+use crate::physics::FluidStep;
 use crate::report::BlockReport;
 use crate::rows::{Reconstruction, Rows};
 use crate::state::conserved::{GAS, PHI, RHO};
@@ -19,39 +20,6 @@ use crate::{Boundary, RiemannSolver};
 
 /// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
 const NOT_THEIRS: f64 = -0.0;
-
-/// Scratch of one thread.
-pub(crate) struct GasScratch {
-    mixed: MixedCells,
-    /// m_g/ρ of the padded cells.
-    shares: AlignedRow,
-    /// Which padded cells fall back in this step, and which cells of the block should.
-    is_marked: Vec<bool>,
-    marked: Vec<usize>,
-}
-
-impl GasScratch {
-    pub fn new<const N: usize>() -> Self {
-        let len = Padded::<N>::LEN;
-        Self {
-            mixed: MixedCells::new::<N>(),
-            shares: AlignedRow::zeros(len, 0),
-            is_marked: vec![false; len],
-            marked: Vec::with_capacity(len),
-        }
-    }
-
-    /// Takes notice of the cells of a block that fall back in this step, and tells their padded places.
-    pub fn mark<const N: usize>(
-        &mut self,
-        mesh: &Mesh<N>,
-        slot: usize,
-        marks: &Marks,
-    ) -> impl Iterator<Item = usize> + '_ {
-        super::marks::padded_marks(mesh, slot, marks, &mut self.is_marked);
-        self.is_marked.iter().enumerate().filter(|(_, is_marked)| **is_marked).map(|(k, _)| k)
-    }
-}
 
 /// Whether there may be gas in a block's padded cells. Where there is gas the paper's mixture does not know: its traces
 /// are nearly everywhere.
@@ -87,11 +55,11 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         has_gas.then_some(Self { ctx, slot, options, inverse_h })
     }
 
-    fn stencil<'b>(&self, inverse_r: &'b [f64]) -> Stencil<'b>
+    fn stencil<'b>(&self, inverse_r: &'b [f64]) -> CellRule<'b>
     where
         'a: 'b,
     {
-        Stencil {
+        CellRule {
             limiter: self.ctx.model.scheme.limiter,
             inverse_h: self.inverse_h,
             inverse_r,

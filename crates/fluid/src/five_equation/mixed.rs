@@ -8,15 +8,15 @@ use mesh::{GHOSTS, Padded, Side};
 use super::cells::{Cells, FaceState, RowKinds, find_interface};
 use super::closure::{Compression, is_mixed};
 use super::face_states::FaceStates;
-use super::reconstruction::{Stencil, face_states};
+use super::reconstruction::{CellRule, face_states};
 use super::windows::{LANES, Window, lanes, windows};
 use crate::boundary::beside;
 use crate::clips::Clips;
 use crate::exact_rows::{ListedFaces, exact_fluxes};
+use crate::face_rows::used_face;
 use crate::face_rows::{FaceRows, set_face};
 use crate::hllc::Face;
 use crate::rows::Reconstruction;
-use crate::step::used_face;
 
 /// No mixed cell.
 const NONE: u32 = u32::MAX;
@@ -108,7 +108,7 @@ impl MixedCells {
     pub fn collect<const N: usize>(
         &mut self,
         cells: &Cells<'_>,
-        stencil: &Stencil<'_>,
+        stencil: &CellRule<'_>,
         outer: [Outer; 4],
         is_marked: Option<&[bool]>,
     ) {
@@ -192,7 +192,7 @@ impl MixedCells {
         &mut self,
         axis: usize,
         cells: &Reconstruction<'_>,
-        stencil: &Stencil<'_>,
+        stencil: &CellRule<'_>,
         faces: &mut FaceRows,
     ) {
         if axis == 0 {
@@ -205,7 +205,7 @@ impl MixedCells {
     fn solve_along<const N: usize, const AXIS: usize>(
         &mut self,
         cells: &Reconstruction<'_>,
-        stencil: &Stencil<'_>,
+        stencil: &CellRule<'_>,
         faces: &mut FaceRows,
     ) {
         let step = if AXIS == 0 { 1 } else { Padded::<N>::STRIDE };
@@ -243,7 +243,7 @@ struct Along<'a, const AXIS: usize> {
     states: &'a FaceStates,
     /// The other cells.
     cells: &'a Reconstruction<'a>,
-    stencil: &'a Stencil<'a>,
+    stencil: &'a CellRule<'a>,
     step: usize,
     shares: &'a mut Vec<(usize, f64)>,
     fluxes: [&'a mut [f64]; 6],
@@ -272,7 +272,7 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
 
     #[inline(always)]
     fn star_fraction(&self, p: f64, phi: f64, compression: f64) -> f64 {
-        let Stencil { mixture, options, .. } = self.stencil;
+        let CellRule { mixture, options, .. } = self.stencil;
         let behind = Compression::at(p, phi, mixture, options.has_closure).star_fraction(phi, compression);
         if is_mixed(phi) { behind } else { phi }
     }

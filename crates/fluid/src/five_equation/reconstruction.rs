@@ -24,7 +24,7 @@ const ZERO: Phases = [[0.0; LANES]; 6];
 
 /// What the reconstruction needs to know of the block and the step.
 #[derive(Clone, Copy)]
-pub(crate) struct Stencil<'a> {
+pub(crate) struct CellRule<'a> {
     pub limiter: Limiter,
     pub inverse_h: [f64; 2],
     pub inverse_r: &'a [f64],
@@ -47,7 +47,7 @@ pub(crate) struct Stencil<'a> {
 pub(crate) fn face_states(
     cells: &Cells<'_>,
     windows: &[Window],
-    stencil: &Stencil<'_>,
+    stencil: &CellRule<'_>,
     states: &mut FaceStates,
 ) {
     let mc = |a, b| Limiter::Mc.difference(a, b);
@@ -69,7 +69,7 @@ fn states_of(
     limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
     windows: &[Window],
-    stencil: &Stencil<'_>,
+    stencil: &CellRule<'_>,
     states: &mut FaceStates,
 ) {
     for (window, (faces, bounded)) in windows.iter().zip(states.of_windows(windows.len())) {
@@ -83,7 +83,7 @@ fn window_states(
     limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
     at: Window,
-    stencil: &Stencil<'_>,
+    stencil: &CellRule<'_>,
     faces: &mut [[Lane; 6]; 4],
 ) -> Bounded {
     let w = phases(cells, at, 0, [&[0.0; LANES]; 2]);
@@ -163,7 +163,7 @@ fn phases(cells: &Cells<'_>, at: Window, by: isize, else_densities: [&Lane; 2]) 
 }
 
 #[inline(always)]
-fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, stencil: &Stencil<'_>) -> Phases {
+fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, stencil: &CellRule<'_>) -> Phases {
     let [inverse_hz, inverse_hr] = stencil.inverse_h;
     let half_dt = 0.5 * stencil.dt;
     let mut half = ZERO;
@@ -287,7 +287,7 @@ fn admissible(phases: &Phases, w: &Phases, face: &mut [Lane; 6], is_bounded: &mu
 
 /// The share of its slopes that a cell keeps. Without the closure a mixed cell is nearly as stiff as liquid, and face
 /// states of gas would let round-off grow, see [`crate::rows::half_step`]; with it the cell gives way.
-fn kept_share(cells: &Cells<'_>, k: usize, stencil: &Stencil<'_>) -> f64 {
+fn kept_share(cells: &Cells<'_>, k: usize, stencil: &CellRule<'_>) -> f64 {
     if stencil.options.has_closure {
         return 1.0;
     }
@@ -331,7 +331,7 @@ mod tests {
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let inverse_r = [0.0; 5 * STRIDE];
         let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
-        let stencil = Stencil {
+        let stencil = CellRule {
             limiter: Limiter::Mc,
             inverse_h: [1e4, 1e4],
             inverse_r: &inverse_r,
@@ -378,7 +378,7 @@ mod tests {
             let mixture =
                 Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
             let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
-            let stencil = Stencil {
+            let stencil = CellRule {
                 limiter: Limiter::None,
                 inverse_h: [1e4, 1e4],
                 inverse_r: &[0.0; 5 * STRIDE],

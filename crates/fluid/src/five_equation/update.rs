@@ -4,7 +4,7 @@ use std::hint::select_unpredictable;
 
 use super::closure::{bounded, is_bound};
 use super::mixed::MixedCells;
-use super::reconstruction::Stencil;
+use super::reconstruction::CellRule;
 use super::relaxation::{Advected, relaxed_fractions};
 use super::windows::{LANES, Lane, bits, lanes};
 use crate::Mixture;
@@ -152,12 +152,12 @@ pub(crate) fn update_mixed<const N: usize>(
     gas: [&[f64]; 2],
     faces: [&FaceRows; 2],
     metric: &Metric<'_>,
-    stencil: &Stencil<'_>,
+    stencil: &CellRule<'_>,
     new: &mut [&mut [f64]; COUNT],
     speeds: &mut [&mut [f64]; 3],
     marked: &mut Vec<usize>,
 ) -> u64 {
-    let Stencil { mixture, options, dt, .. } = *stencil;
+    let CellRule { mixture, options, dt, .. } = *stencil;
     marked.clear();
     let mut clipped = 0;
     let faces = faces.map(FaceRows::fluxes);

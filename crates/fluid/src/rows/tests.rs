@@ -4,7 +4,7 @@ use mesh::{Limiter, Padded};
 
 use super::*;
 use crate::StiffenedGas;
-use crate::curvature::AlongFaces;
+use crate::dispersion::AlongFaces;
 use crate::predictor::{Predictor, predict};
 use crate::update::{Metric, update};
 
@@ -71,7 +71,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
             keep: &keep,
             sound: &sound,
             with_gas,
-            curvature: Curvature { per_speed: 1e-4, aspect: 0.6, liquid_pi: 3e8 },
+            dispersion: Dispersion { per_speed: 1e-4, aspect: 0.6, liquid_pi: 3e8 },
             along_faces: AlongFaces::new([1 + axis, 3].map(|c| across.component(c)), along),
         };
         let first = Padded::<N>::index(0, 0) - step;

@@ -6,10 +6,10 @@ use super::BlockStep;
 use super::scratch::BlockScratch;
 use crate::RiemannSolver;
 use crate::boundary::Boundaries;
-use crate::curvature::AlongFaces;
+use crate::dispersion::AlongFaces;
 use crate::exact_rows::exact_faces;
-use crate::face_rows::FaceRows;
-use crate::model::FluidStep;
+use crate::face_rows::{FaceRows, used_face};
+use crate::physics::FluidStep;
 use crate::rows::{self, Reconstruction};
 use crate::state::conserved::COUNT;
 
@@ -28,7 +28,7 @@ impl<const N: usize> BlockStep<'_, N> {
             keep,
             sound,
             with_gas: self.with_gas,
-            curvature: ctx.model.curvature(ctx.mesh, ctx.dt, self.id.level, 0),
+            dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
             along_faces: AlongFaces::new([1, 3].map(|c| s_r.component(c)), stride),
         };
         let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
@@ -46,7 +46,7 @@ impl<const N: usize> BlockStep<'_, N> {
         let along_r = Reconstruction {
             half: [rho, v_r, v_z, p, phi],
             differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
-            curvature: ctx.model.curvature(ctx.mesh, ctx.dt, self.id.level, 1),
+            dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 1),
             along_faces: AlongFaces::new([2, 3].map(|c| s_z.component(c)), 1),
             ..along_z
         };
@@ -93,17 +93,5 @@ fn faces<const N: usize>(
             exact_faces(cells, step, stride, range, used_face::<N>, &ctx.model.mixture, faces);
             0
         }
-    }
-}
-
-/// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block.
-pub(crate) fn used_face<const N: usize>(k: usize, step: usize) -> bool {
-    let (i, j) = (k % Padded::<N>::STRIDE, k / Padded::<N>::STRIDE);
-    let inner = mesh::GHOSTS..mesh::GHOSTS + N;
-    let faces = mesh::GHOSTS - 1..mesh::GHOSTS + N;
-    if step == 1 {
-        faces.contains(&i) && inner.contains(&j)
-    } else {
-        inner.contains(&i) && faces.contains(&j)
     }
 }

@@ -6,13 +6,12 @@ mod stages;
 
 use mesh::{BlockId, StageTimer};
 
-pub(crate) use faces::used_face;
 pub use scratch::BlockScratch;
 pub(crate) use scratch::split_block;
 pub(crate) use stages::reconstruct;
 
 use crate::five_equation::GasBlock;
-use crate::model::FluidStep;
+use crate::physics::FluidStep;
 use crate::report::BlockReport;
 
 /// The stages of a step, in their order.

@@ -7,7 +7,7 @@ use super::scratch::{BlockScratch, split_block};
 use crate::clips::{Clips, CountedAnalysis};
 use crate::even::{even_slopes, predict_beside_mirrors};
 use crate::five_equation::{GasBlock, may_have_gas};
-use crate::model::FluidStep;
+use crate::physics::FluidStep;
 use crate::predictor::{Predictor, predict};
 use crate::reflux::register_fluxes;
 use crate::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};

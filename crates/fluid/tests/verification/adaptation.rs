@@ -150,13 +150,13 @@ fn reflected(limiter: Limiter, strips: &[u8]) -> f64 {
         adaptation: adaptation(0.99e9, bounds),
         ..setup(PLANAR, [cells as usize, 8], sides)
     };
-    let stiffness = LIQUID.gamma * (1e5 + LIQUID.pi);
-    let impedance = (1000.0 * stiffness).sqrt();
+    let bulk_modulus = LIQUID.gamma * (1e5 + LIQUID.pi);
+    let impedance = (1000.0 * bulk_modulus).sqrt();
     let state = |[z, _]: [f64; 2]| {
         let x = (z - start) / wavelength;
         let excess = AMPLITUDE * (std::f64::consts::TAU * x).sin() * (-(x / 1.5).powi(2)).exp();
         Primitive {
-            density: 1000.0 * (1.0 + excess / stiffness),
+            density: 1000.0 * (1.0 + excess / bulk_modulus),
             v_z: excess / impedance,
             ..still(1e5 + excess)
         }
@@ -174,7 +174,7 @@ fn reflected(limiter: Limiter, strips: &[u8]) -> f64 {
     assert_eq!(levels(-1.0), [0]);
     assert_eq!(levels(1.0), if strips.is_empty() { vec![0] } else { strips.to_vec() }, "in Morton order");
     // The packet ends up 200 cells farther; what runs back is then at least 90 cells from it.
-    run_to(&mut fluid, 200.0 / (stiffness / 1000.0).sqrt());
+    run_to(&mut fluid, 200.0 / (bulk_modulus / 1000.0).sqrt());
     let mut back = 0.0_f64;
     each_cell(&fluid, |[z, _], _, w| {
         if z < middle - 2.0 {

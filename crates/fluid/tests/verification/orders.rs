@@ -84,7 +84,7 @@ fn a_plane_wave_crosses_the_grid_obliquely() {
     let end = TAU / (number * sound);
     let quantities: [Quantity<2>; 2] = [("pressure", pressure), ("velocity", velocity)];
     check("oblique simple wave, planar", SHARP, &GRIDS, (PLANAR, PERIODIC), exact, end, quantities);
-    // Sound is of third order in any direction while the limiter leaves it alone. Without `oblique_shares` the order is 2.1.
+    // Sound is of third order in any direction while the limiter leaves it alone. Without `oblique_dispersion_shares` the order is 2.1.
     let error = |n: usize| {
         let setup = FluidSetup { limiter: Limiter::None, ..setup_of(SHARP, PLANAR, [n, n], PERIODIC) };
         let mut fluid = FluidSolver::<8>::from_fn(&setup, |x| exact(x, 0.0)).unwrap();
@@ -164,10 +164,10 @@ fn a_standing_mode_in_a_mixture() {
     let wood = 1.0
         / (rest.phi / (GAS.gamma * (rest.pressure + GAS.pi))
             + (1.0 - rest.phi) / (LIQUID.gamma * (rest.pressure + LIQUID.pi)));
-    let one = fluid::Mixture::new(LIQUID, GAS).stiffness(rest.pressure, rest.phi);
+    let one = fluid::Mixture::new(LIQUID, GAS).bulk_modulus(rest.pressure, rest.phi);
     let default = (Model::FiveEquation, Sharpening::None);
-    for (kind, grids, stiffness) in [(default, &[16, 32][..], wood), (MIXTURE, &GRIDS, one)] {
-        let sound = (stiffness / rest.density).sqrt();
+    for (kind, grids, bulk_modulus) in [(default, &[16, 32][..], wood), (MIXTURE, &GRIDS, one)] {
+        let sound = (bulk_modulus / rest.density).sqrt();
         let exact = move |place: [f64; 2], t: f64| mode(rest, sound, place, t);
         let end = mode_end(sound);
         check("standing mode in a mixture", kind, grids, (AXIAL, CYLINDER), exact, end, quantities);

@@ -8,7 +8,7 @@ use mesh::{BlockId, StageTimer};
 pub use scratch::BlockScratch;
 pub(crate) use stages::reconstruct;
 
-use crate::model::SolidStep;
+use crate::physics::SolidStep;
 use crate::report::BlockReport;
 
 /// The stages of a step, in their order.

@@ -1,11 +1,11 @@
 //! The stages of a block's step.
 
-use mesh::{Mesh, Padded, curvature_share, limited_differences};
+use mesh::{Mesh, Padded, dispersion_share, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
 use crate::boundary::Boundaries;
-use crate::model::{Solid, SolidStep};
+use crate::physics::{Solid, SolidStep};
 use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::reflux::register_stars;
 use crate::report::{BlockReport, boundary_inflow, yielded_volume};
@@ -15,7 +15,7 @@ use crate::update::{Metric, update};
 
 impl Solid {
     /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.
-    pub(crate) fn curvature<const N: usize>(
+    pub(crate) fn dispersion<const N: usize>(
         &self,
         mesh: &Mesh<N>,
         dt: f64,
@@ -24,7 +24,7 @@ impl Solid {
     ) -> [f64; 2] {
         let per_speed = dt / mesh.widths(level)[axis];
         let Elasticity { inverse_density, z1, z2, .. } = self.elasticity;
-        [z1, z2].map(|impedance| curvature_share(per_speed * inverse_density * impedance))
+        [z1, z2].map(|impedance| dispersion_share(per_speed * inverse_density * impedance))
     }
 }
 
@@ -105,11 +105,11 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         let stride = Padded::<N>::STRIDE;
         let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
         let differences = scratch.s_z.split::<COUNT>();
-        let curvature = ctx.model.curvature(ctx.mesh, ctx.dt, id.level, 0);
+        let dispersion = ctx.model.dispersion(ctx.mesh, ctx.dt, id.level, 0);
         let along_z = Reconstruction {
             half: [v_z, v_r, zz, zr],
             differences: ALONG_Z.map(|c| differences[c]),
-            curvature,
+            dispersion,
         };
         let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         rows::faces(&along_z, 1, stride, z_range, &ctx.model.elasticity, &mut scratch.z_faces);
@@ -120,9 +120,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         ctx.mesh.look_ahead(ctx.old, slot, new, 1, 3);
         let differences = scratch.s_r.split::<COUNT>();
         let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
-        let curvature = ctx.model.curvature(ctx.mesh, ctx.dt, id.level, 1);
+        let dispersion = ctx.model.dispersion(ctx.mesh, ctx.dt, id.level, 1);
         let along_r =
-            Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr], curvature };
+            Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr], dispersion };
         let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         rows::faces(&along_r, stride, stride, r_range, &ctx.model.elasticity, &mut scratch.r_faces);
     }

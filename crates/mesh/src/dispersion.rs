@@ -5,12 +5,12 @@
 /// In MUSCL–Hancock with central differences d a wave's state on a face is off by −(1 − ν)(1 − 2ν) h² w″/12: waves of
 /// short length lag, the more so the smaller the Courant number ν. As d_{i+1} − d_i = h² w″, this share of it, added to
 /// the states on both sides of the face, puts that right; the jump between them, which is what the scheme damps with, stays.
-/// Of a wave along the cells nothing is left of third order; for oblique ones see [`oblique_shares`].
+/// Of a wave along the cells nothing is left of third order; for oblique ones see [`oblique_dispersion_shares`].
 ///
 /// - `courant`: ν = c Δt/h of the wave. returns: 0 from ν = ½ on, where the error changes its sign.
 #[inline(always)]
 #[must_use]
-pub fn curvature_share(courant: f64) -> f64 {
+pub fn dispersion_share(courant: f64) -> f64 {
     // A select, so that rows vectorise and a Courant number that is none gives nothing.
     if courant < 0.5 { (1.0 - courant) * (1.0 - 2.0 * courant) * (1.0 / 12.0) } else { 0.0 }
 }
@@ -21,15 +21,15 @@ pub fn curvature_share(courant: f64) -> f64 {
 /// The mean over a step of a state on a face is w + ½Δt ∂t w + ⅙Δt² ∂t² w. The predictor of a cell has ∂t w at its
 /// centre, half a cell from the face, and the Riemann problem turns what ∂t p = −ρc² div v is off there into a velocity,
 /// −¼ c Δt h_n ∂n div v; and ∂t² w = c² ∇²w is left out. The derivatives along the normal are
-/// [`curvature_share`]'s. Those along the face, with ∂n div v = ∇²v_n in irrotational flow, leave
+/// [`dispersion_share`]'s. Those along the face, with ∂n div v = ∇²v_n in irrotational flow, leave
 /// (⅙ν_s² − ¼ν_n h_n²/h_s²) δ²v_n and ⅙ν_s² δ²p, ν_s = ν_n h_n/h_s. With both, nothing of third order is left of a plane
 /// wave in any direction while ν_n < ½, and the scheme is stable where it was without (von Neumann).
 ///
 /// - `courant`: ν_n = c Δt/h_n. `aspect`: h_n/h_s, the cell's width along the normal over that along the face.
-/// - returns: of the normal velocity, of the pressure; nothing from ν_n = ½ on, as [`curvature_share`].
+/// - returns: of the normal velocity, of the pressure; nothing from ν_n = ½ on, as [`dispersion_share`].
 #[inline(always)]
 #[must_use]
-pub fn oblique_shares(courant: f64, aspect: f64) -> [f64; 2] {
+pub fn oblique_dispersion_shares(courant: f64, aspect: f64) -> [f64; 2] {
     let along = courant * aspect;
     let pressure = along * along * (1.0 / 6.0);
     let velocity = pressure - 0.25 * courant * aspect * aspect;
@@ -38,7 +38,7 @@ pub fn oblique_shares(courant: f64, aspect: f64) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::{curvature_share, oblique_shares};
+    use super::{dispersion_share, oblique_dispersion_shares};
 
     /// A parabola that moves with the Courant number ν: the mean over the step on a face, from cell averages.
     #[test]
@@ -47,7 +47,7 @@ mod tests {
         for courant in [0.0, 0.11, 0.3, 0.5] {
             let difference = |z: f64| 0.5 * (mean(z + 1.0) - mean(z - 1.0));
             let trace = mean(-0.5) + 0.5 * (1.0 - courant) * difference(-0.5);
-            let corrected = trace + curvature_share(courant) * (difference(0.5) - difference(-0.5));
+            let corrected = trace + dispersion_share(courant) * (difference(0.5) - difference(-0.5));
             let exact = courant * courant / 3.0;
             assert!((corrected - exact).abs() < 1e-15, "{courant}: {corrected} {exact}");
         }
@@ -66,8 +66,8 @@ mod tests {
             let across = |x: f64, y: f64| 0.5 * (mean(x + h, y) - mean(x - h, y));
             let along = |x: f64, y: f64| 0.5 * (mean(x, y + k) - mean(x, y - k));
             let second = |x: f64| 0.5 * (along(x, k) - along(x, -k));
-            let more = curvature_share(courant) * (across(0.5 * h, 0.0) - across(-0.5 * h, 0.0));
-            let [of_velocity, of_pressure] = oblique_shares(courant, h / k)
+            let more = dispersion_share(courant) * (across(0.5 * h, 0.0) - across(-0.5 * h, 0.0));
+            let [of_velocity, of_pressure] = oblique_dispersion_shares(courant, h / k)
                 .map(|share| share * 0.5 * (second(-0.5 * h) + second(0.5 * h)));
             // The pressure and the normal velocity on the side `sign` of the face.
             let state = |sign: f64| {
@@ -90,8 +90,8 @@ mod tests {
     #[test]
     fn fast_waves_are_left_alone() {
         for courant in [0.5, 0.8, 1.8, f64::NAN] {
-            assert_eq!(curvature_share(courant), 0.0);
-            assert_eq!(oblique_shares(courant, 1.0), [0.0; 2]);
+            assert_eq!(dispersion_share(courant), 0.0);
+            assert_eq!(oblique_dispersion_shares(courant, 1.0), [0.0; 2]);
         }
     }
 }

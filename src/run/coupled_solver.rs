@@ -32,7 +32,7 @@ pub struct StepRule {
 }
 
 /// A solver, whichever medium it is for: a [`BlockSolver`] that can show the other side what is on the interface.
-pub trait Medium: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
+pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
     /// What its cells obey.
     type Physics: Model<BLOCK, Error: Into<RunError>>;
     /// Which side of the interface it is.
@@ -44,7 +44,7 @@ pub trait Medium: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
     fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64));
 }
 
-impl Medium for FluidSolver<BLOCK> {
+impl CoupledSolver for FluidSolver<BLOCK> {
     type Physics = Fluid;
     const OWN: Participant = Participant::Fluid;
 
@@ -57,7 +57,7 @@ impl Medium for FluidSolver<BLOCK> {
     }
 }
 
-impl Medium for SolidSolver<BLOCK> {
+impl CoupledSolver for SolidSolver<BLOCK> {
     type Physics = Solid;
     const OWN: Participant = Participant::Solid;
 
@@ -92,7 +92,7 @@ impl StepRule {
     }
 
     /// Passes a limit of a medium's step on unless it has collapsed: steps of no length would go on for ever.
-    pub fn unless_collapsed<M: Medium>(&self, limit: f64, medium: &M) -> Result<f64, RunError> {
+    pub fn unless_collapsed<M: CoupledSolver>(&self, limit: f64, medium: &M) -> Result<f64, RunError> {
         if limit > self.smallest {
             return Ok(limit);
         }
@@ -105,24 +105,24 @@ impl StepRule {
     }
 
     /// About how many steps of the finest level a step of length `dt` holds.
-    pub fn steps_in(&self, dt: f64, medium: &impl Medium) -> u32 {
+    pub fn steps_in(&self, dt: f64, medium: &impl CoupledSolver) -> u32 {
         mesh::steps_in(dt, medium.time_step_limit(self.cfl)) as u32
     }
 
     /// Steps alone, or short ones within a long one of the other side.
-    pub fn alone(&self, medium: &impl Medium) -> Steps {
+    pub fn alone(&self, medium: &impl CoupledSolver) -> Steps {
         let base = if self.local { medium.mesh().coarsest_base() } else { u8::MAX };
         self.steps(medium, base)
     }
 
     /// Steps that are long ones for the other side: no level at the interface may have shorter ones.
-    pub fn long(&self, medium: &impl Medium) -> Steps {
+    pub fn long(&self, medium: &impl CoupledSolver) -> Steps {
         let finest = medium.finest_at_interface();
         let base = if self.local { medium.mesh().coarsest_base().max(finest) } else { u8::MAX };
         self.steps(medium, base)
     }
 
-    fn steps(&self, medium: &impl Medium, base: u8) -> Steps {
+    fn steps(&self, medium: &impl CoupledSolver, base: u8) -> Steps {
         let limit = if self.local {
             medium.local_step_limit(self.cfl, base)
         } else {
@@ -132,7 +132,7 @@ impl StepRule {
     }
 
     /// The step by which the other side counts how many of this side's go into one of its own, s.
-    pub fn counted(&self, medium: &impl Medium) -> f64 {
+    pub fn counted(&self, medium: &impl CoupledSolver) -> f64 {
         let longest = LONGEST_EXCHANGE / f64::from(self.ratio) * medium.time_step_limit(self.cfl);
         self.long(medium).limit.min(longest.max(medium.time_step_limit(self.cfl)))
     }
@@ -149,7 +149,7 @@ impl StepRule {
 }
 
 /// Begins a step whose end depends on the interface: what does not is done at once.
-pub fn begin_long<M: Medium>(medium: &mut M, dt: f64, rule: &StepRule) -> Result<GroupStep, RunError> {
+pub fn begin_long<M: CoupledSolver>(medium: &mut M, dt: f64, rule: &StepRule) -> Result<GroupStep, RunError> {
     let base = rule.long(medium).base;
     medium.begin_step(dt, base);
     let step = medium.start(f64::INFINITY);
@@ -158,7 +158,7 @@ pub fn begin_long<M: Medium>(medium: &mut M, dt: f64, rule: &StepRule) -> Result
 }
 
 /// Ends it, once the state of the interface is set. `after(medium, dt)` is called after each step of the finest level.
-pub fn end_long<M: Medium>(
+pub fn end_long<M: CoupledSolver>(
     medium: &mut M,
     step: GroupStep,
     rule: &StepRule,
@@ -170,7 +170,7 @@ pub fn end_long<M: Medium>(
 }
 
 /// Makes a step that does not depend on another side; `before(medium, step)` is called before each step of a level.
-pub fn step_alone<M: Medium>(
+pub fn step_alone<M: CoupledSolver>(
     medium: &mut M,
     dt: f64,
     rule: &StepRule,
@@ -185,7 +185,7 @@ pub fn step_alone<M: Medium>(
     step_to_end(medium, rule, before, after)
 }
 
-fn step_to_end<M: Medium>(
+fn step_to_end<M: CoupledSolver>(
     medium: &mut M,
     rule: &StepRule,
     mut before: impl FnMut(&mut M, GroupStep),
@@ -205,7 +205,7 @@ fn step_to_end<M: Medium>(
 }
 
 /// Ends the step of the finest level and tells of it; whether the whole step is over.
-fn end_sub_step<M: Medium>(
+fn end_sub_step<M: CoupledSolver>(
     medium: &mut M,
     after: &mut impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<bool, RunError> {
@@ -216,7 +216,7 @@ fn end_sub_step<M: Medium>(
 }
 
 /// Begins to meet the other side's trace.
-pub fn begin_meeting<M: Medium>(medium: &M, meeting: &mut Meeting, trace: (&[f64], usize)) {
+pub fn begin_meeting<M: CoupledSolver>(medium: &M, meeting: &mut Meeting, trace: (&[f64], usize)) {
     let mesh = medium.mesh();
     let domain = mesh.domain();
     let axisymmetric = domain.geometry == Geometry::Axisymmetric;
@@ -228,7 +228,7 @@ pub fn begin_meeting<M: Medium>(medium: &M, meeting: &mut Meeting, trace: (&[f64
 ///
 /// - `answer`: called as soon as all is known that the interface will do. `after`: as in [`end_long`].
 /// - errors: those of the medium, what meets is no state, the steps collapse on the way.
-pub fn short_steps<M: Medium>(
+pub fn short_steps<M: CoupledSolver>(
     medium: &mut M,
     meeting: &mut Meeting,
     (dt, star): (f64, StarSolver),

@@ -1,9 +1,9 @@
-//! What second order leaves out at the faces of weak waves in liquid, see [`mesh::curvature_share`] and
-//! [`mesh::oblique_shares`].
+//! What second order leaves out at the faces of weak waves in liquid, see [`mesh::dispersion_share`] and
+//! [`mesh::oblique_dispersion_shares`].
 
-use mesh::{Mesh, curvature_share, oblique_shares};
+use mesh::{Mesh, dispersion_share, oblique_dispersion_shares};
 
-use crate::model::Fluid;
+use crate::physics::Fluid;
 use crate::rows::{Reconstruction, fraction};
 
 /// What face states of weak waves in liquid get besides.
@@ -11,7 +11,7 @@ use crate::rows::{Reconstruction, fraction};
 /// How much depends on the Courant number of the sound that crosses the face. It is that of the two cells beside it, in the
 /// step that they really make: elsewhere in the domain there may be faster sound, and the level may make longer steps.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Curvature {
+pub(crate) struct Dispersion {
     /// Δt/h_n, s/m: with a speed it makes a Courant number.
     pub per_speed: f64,
     /// h_n/h_s: the cells' width along the normal over that along the face.
@@ -23,9 +23,9 @@ pub(crate) struct Curvature {
 /// The shares that make what is left out of second differences.
 #[derive(Clone, Copy)]
 struct Shares {
-    /// Of the difference of two neighbours' differences along the normal, see [`mesh::curvature_share`].
+    /// Of the difference of two neighbours' differences along the normal, see [`mesh::dispersion_share`].
     across: f64,
-    /// Of the second differences of v_n and p along the face, see [`mesh::oblique_shares`].
+    /// Of the second differences of v_n and p along the face, see [`mesh::oblique_dispersion_shares`].
     along: [f64; 2],
 }
 
@@ -59,7 +59,7 @@ impl<'a> AlongFaces<'a> {
     }
 }
 
-impl Curvature {
+impl Dispersion {
     /// Differences of the pressure across a cell above this share of p + π belong to a strong front. The correction is a
     /// sixth of the larger difference at most; below, it keeps shocks that a few cells carry from being clipped. And it cannot make
     /// a face's p + π negative: of the cell's a tenth goes with half the difference, a thirtieth with the correction.
@@ -95,7 +95,7 @@ impl Curvature {
     #[inline(always)]
     fn shares(self, speed: f64) -> Shares {
         let courant = self.per_speed * speed;
-        Shares { across: curvature_share(courant), along: oblique_shares(courant, self.aspect) }
+        Shares { across: dispersion_share(courant), along: oblique_dispersion_shares(courant, self.aspect) }
     }
 }
 
@@ -109,15 +109,15 @@ impl Shares {
 
 impl Fluid {
     /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.
-    pub(crate) fn curvature<const N: usize>(
+    pub(crate) fn dispersion<const N: usize>(
         &self,
         mesh: &Mesh<N>,
         dt: f64,
         level: u8,
         axis: usize,
-    ) -> Curvature {
+    ) -> Dispersion {
         let widths = mesh.widths(level);
-        Curvature {
+        Dispersion {
             per_speed: dt / widths[axis],
             aspect: widths[axis] / widths[1 - axis],
             liquid_pi: self.mixture.at(0.0).pi,
@@ -152,15 +152,15 @@ pub(crate) fn states_at_face<const WITH_GAS: bool>(
     upper: &Reconstruction<'_>,
     k: usize,
 ) -> [[f64; 5]; 2] {
-    let curvature = lower.curvature;
+    let dispersion = lower.dispersion;
     let takes = |cells: &Reconstruction<'_>| {
-        curvature.takes(cells.half[3][k], fraction::<WITH_GAS>(cells.half[4][k]), cells.differences[3][k])
+        dispersion.takes(cells.half[3][k], fraction::<WITH_GAS>(cells.half[4][k]), cells.differences[3][k])
     };
     let (low, high) = (takes(lower), takes(upper));
     let keep = lower.keep[k] * upper.keep[k];
     let kept = [if low[0] & high[0] { keep } else { 0.0 }, if low[1] & high[1] { keep } else { 0.0 }];
     let speed = |cells: &Reconstruction<'_>| cells.half[1][k].abs() + cells.sound[k];
-    let shares = curvature.shares(0.5 * (speed(lower) + speed(upper)));
+    let shares = dispersion.shares(0.5 * (speed(lower) + speed(upper)));
     let velocity = left_out(lower, upper, 0, k, shares, kept);
     let pressure = left_out(lower, upper, 1, k, shares, kept);
     [lower.face_state(k, 1.0), upper.face_state(k, -1.0)]

@@ -1,0 +1,71 @@
+//! What the cells of a fluid obey, and what bounds them.
+
+use mesh::{Limiter, Step};
+
+use crate::analysis::Analysis;
+use crate::boundary::Boundaries;
+use crate::clips::SharedCount;
+use crate::far_field::{Moment, SideImpulses, SourceHistory};
+use crate::options::TwoPhaseOptions;
+use crate::{BoundaryLedger, Fixups, Mixture, RiemannSolver};
+
+/// A fluid of two phases: what its cells obey, and what bounds them.
+pub struct Fluid {
+    pub(crate) mixture: Mixture,
+    pub(crate) scheme: Scheme,
+    pub(crate) boundaries: Boundaries,
+    /// What the far field remembers along the open sides.
+    pub(crate) impulses: SideImpulses,
+    /// What the bubbles have done lately.
+    pub(crate) sources: SourceHistory,
+    pub(crate) analysis: Analysis,
+    /// Whether there is gas in each block, or will be at the end of the step it is in, as the reports have it.
+    pub(crate) has_gas: Vec<bool>,
+    /// Slots of the blocks along r_min, in order.
+    pub(crate) axis_blocks: Vec<usize>,
+    pub(crate) tally: Tally,
+}
+
+/// How face states and fluxes are made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scheme {
+    pub limiter: Limiter,
+    pub riemann: RiemannSolver,
+    /// What the five-equation model does in mixed cells; `None` for the paper's mixture.
+    pub two_phase: Option<TwoPhaseOptions>,
+}
+
+impl Scheme {
+    /// The limiter of the gas fraction's slopes.
+    pub fn fraction_limiter(&self) -> Limiter {
+        self.two_phase.map_or(self.limiter, |options| options.fraction_limiter(self.limiter))
+    }
+}
+
+/// What is added up over a run.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    pub fixups: Fixups,
+    /// Traces of the wall that were scaled since the fluid was made or taken up again; they are shown, not made, in a step.
+    pub scaled_traces: SharedCount,
+    pub ledger: BoundaryLedger,
+}
+
+impl Tally {
+    /// Corrections made so far.
+    pub fn all_fixups(&self) -> Fixups {
+        let mut fixups = self.fixups;
+        fixups.clips.scaled_traces += self.scaled_traces.get();
+        fixups
+    }
+}
+
+/// A step of the fluid.
+pub(crate) type FluidStep<'a, const N: usize> = Step<'a, Fluid, N>;
+
+impl Fluid {
+    /// A step as the far field sees it.
+    pub(crate) fn moment<const N: usize>(&self, step: &FluidStep<'_, N>) -> Moment<'_> {
+        Moment { middle: step.middle(), dt: step.dt, history: &self.sources }
+    }
+}

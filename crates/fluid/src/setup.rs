@@ -1,0 +1,47 @@
+//! What defines a fluid, and what fills it.
+
+use mesh::{Adaptation, Domain, Limiter};
+
+use crate::analysis::Scales;
+use crate::boundary::PressureHistory;
+use crate::state::Contents;
+use crate::{Boundary, FarField, Model, RiemannSolver, Sharpening, StiffenedGas};
+
+/// Everything that defines a fluid.
+#[derive(Clone, Debug)]
+pub struct FluidSetup {
+    /// Where it is.
+    pub domain: Domain,
+    /// Cells of the coarsest grid along z and r.
+    pub coarsest: [usize; 2],
+    /// Levels of refinement: the finest grid has `coarsest · 2^levels` cells.
+    pub levels: u8,
+    /// The liquid's equation of state.
+    pub liquid: StiffenedGas,
+    /// The gas's equation of state.
+    pub gas: StiffenedGas,
+    /// The two-phase model.
+    pub model: Model,
+    /// What keeps the interface sharp; without a say in the paper's mixture.
+    pub sharpening: Sharpening,
+    /// The Riemann solver at cell faces.
+    pub riemann: RiemannSolver,
+    /// The slope limiter.
+    pub limiter: Limiter,
+    /// What bounds it, in the order of [`mesh::Side::ALL`].
+    pub boundaries: [Boundary; 4],
+    /// What enters through sides of kind [`Boundary::Inflow`].
+    pub inflow: Option<PressureHistory>,
+    /// What sides of kind [`Boundary::FarField`] hold.
+    pub far_field: Option<FarField>,
+    /// How the grid adapts; all cells are on the finest level without.
+    pub adaptation: Option<Adaptation>,
+    /// What adaptation measures details by.
+    pub scales: Scales,
+}
+
+/// What fills a cell (centre, widths) at t = 0.
+pub(crate) type InitialState<'a> = dyn Fn([f64; 2], [f64; 2]) -> Contents + Sync + 'a;
+
+/// Whether a block (low corner, high corner, widths of its cells) is too coarse for what is in it at t = 0.
+pub(crate) type AsksForFiner<'a> = dyn Fn([f64; 2], [f64; 2], [f64; 2]) -> bool + Sync + 'a;
