@@ -10,8 +10,8 @@ use std::error::Error;
 use std::path::Path;
 
 use cav::case::Case;
-use cav::run::drive::RunSide;
 use cav::run::fluid_side::{FluidSide, Turn};
+use cav::run::run_side::RunSide;
 use cav::run::stop::Stop;
 use coupler::{
     Endpoint, FluidStep, Participant, ProcessLink, WallMeans, WallParticipant, direct_pair,

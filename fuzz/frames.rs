@@ -6,8 +6,8 @@
 
 use cav::case::Case;
 use cav::run::RunError;
-use cav::run::drive::RunSide as _;
 use cav::run::fluid_side::{FluidSide, Turn};
+use cav::run::run_side::RunSide as _;
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;
 use coupler::{

@@ -6,8 +6,8 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use cav::case::Case;
-use cav::run::drive::RunSide;
 use cav::run::fluid_side::{FluidSide, Turn};
+use cav::run::run_side::RunSide;
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;
 use coupler::direct_pair;

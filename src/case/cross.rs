@@ -2,9 +2,9 @@
 
 use coupler::Scheme;
 
-use super::read::PlacedProbe;
 use super::read_grid::GridPlace;
 use super::reader::{Faults, Given};
+use super::shared::PlacedProbe;
 use super::{GridCase, Medium, Probe};
 
 /// Coordinates closer than this, relative to the domain, are the same.

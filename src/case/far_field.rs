@@ -3,8 +3,8 @@
 use fluid::{Boundary, FarField, FarFieldError, InitialCondition, Mixture, PressureHistory, StiffenedGas};
 use mesh::{Domain, Side};
 
-use super::read::Context;
 use super::reader::{Faults, Given};
+use super::shared::Context;
 use super::{GridCase, Inflow};
 
 /// Makes those sides `"non-reflecting"` that would be `"far-field"` by default in a case that has none, and records why others

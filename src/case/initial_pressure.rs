@@ -3,8 +3,8 @@
 use fluid::{Boundary, InitialCondition, InitialPressure, RayleighError, RayleighField};
 use mesh::Side;
 
-use super::read::Context;
 use super::reader::{Faults, Given};
+use super::shared::Context;
 use super::{GridCase, index};
 
 /// Records why the case cannot begin with Rayleigh's pressure, if that is what it asks for.

@@ -17,6 +17,7 @@ mod read_solid;
 mod reader;
 mod scales;
 mod set;
+mod shared;
 mod steps;
 mod thresholds;
 mod warnings;
@@ -31,9 +32,8 @@ use solid::{InitialStress, Material, PotentialPulse};
 pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
 pub use memory::{Memory, available_memory};
-pub use read_adaptation::DEFAULT_ADAPT_EVERY;
+pub use read_adaptation::{DEFAULT_ADAPT_EVERY, DEFAULT_ERROR};
 pub use steps::SMALLEST_STEP;
-pub use thresholds::DEFAULT_ERROR;
 
 /// A case: everything that says what a run computes, checked and with all defaults filled in.
 #[derive(Clone, Debug)]

@@ -2,9 +2,14 @@
 
 use mesh::{Adaptation, LevelBound, Side, Zone};
 
-use super::read_grid::MOST_LEVELS;
 use super::reader::{Faults, Given, LARGEST, Table};
-use super::thresholds::DEFAULT_ERROR;
+
+/// The error that adaptation may add where a case says nothing and prescribes no wave: about that of a collapse between grids twice as
+/// fine as one another.
+pub const DEFAULT_ERROR: f64 = 1e-2;
+
+/// More levels than this are a mistake.
+pub(super) const MOST_LEVELS: usize = 20;
 
 /// Steps between two adaptations where a case does not say.
 pub const DEFAULT_ADAPT_EVERY: usize = 8;

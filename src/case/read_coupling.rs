@@ -2,8 +2,8 @@
 
 use coupler::{Kappa, Participant, Scheme, StarSolver};
 
-use super::read::history;
 use super::reader::{Faults, Given, Table};
+use super::shared::history;
 use super::{CouplingCase, LoadCase};
 
 /// The most steps that one side makes within one of the other.

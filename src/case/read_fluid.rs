@@ -7,9 +7,9 @@ use fluid::{
 };
 use mesh::{Geometry, Limiter, Side};
 
-use super::read::{Context, boundaries, history};
 use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, Given, Table, number, pair};
+use super::shared::{Context, boundaries, history};
 use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, scales};
 
 /// The shapes of regions and pulses by name.
@@ -109,7 +109,7 @@ pub(super) fn fluid(
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),
         scale_pressure,
         scale_density,
-        wave_epsilon: super::thresholds::DEFAULT_ERROR,
+        wave_epsilon: super::read_adaptation::DEFAULT_ERROR,
     };
     Some((case, place))
 }

@@ -4,14 +4,12 @@ use coupler::Scheme;
 use mesh::{BLOCK, Geometry, Side};
 
 use super::GridCase;
-use super::read::Context;
-use super::read_adaptation::{Asked, Levels, adaptation};
+use super::read_adaptation::{Asked, Levels, MOST_LEVELS, adaptation};
 use super::reader::{Faults, Given, Table};
+use super::shared::Context;
 
 /// More cells than this along one direction are a mistake.
 pub(super) const MOST_CELLS: usize = 1 << 20;
-/// More levels than this are a mistake.
-pub(super) const MOST_LEVELS: usize = 20;
 
 /// Where a side's ranges stand, for what is found out when both sides are known.
 pub(super) struct GridPlace {

@@ -6,9 +6,9 @@ use solid::{Boundary, InitialStress, Material, MaterialError, PotentialPulse};
 use toml::de::DeValue;
 
 use super::error::suggest;
-use super::read::{Context, boundaries};
 use super::read_grid::{GridPlace, grid};
 use super::reader::{Faults, LARGEST, SMALLEST, Table, describe};
+use super::shared::{Context, boundaries};
 use super::{SolidCase, scales};
 
 /// - `acting`: what acts on the solid from outside.

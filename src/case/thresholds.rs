@@ -4,13 +4,10 @@
 //! 20 cells per width; a threshold ε of an interface or a shock, which is on the finest level anyway, adds one of at most 30 ε to the peaks,
 //! loads and times of a collapse. See docs/adaptation.md.
 
-use super::read_adaptation::Asked;
+use super::read_adaptation::{Asked, DEFAULT_ERROR};
 use super::reader::Given;
 use super::{FluidCase, LoadCase, SolidCase, scales};
 
-/// The error that adaptation may add where a case says nothing and prescribes no wave: about that of a collapse between grids twice as
-/// fine as one another.
-pub const DEFAULT_ERROR: f64 = 1e-2;
 /// The same for waves of [`WAVE_CELLS`] cells per width: below the scheme's own error of such waves.
 const WAVE_ERROR: f64 = 1e-4;
 /// Cells per width of the waves for which [`WAVE_ERROR`] is meant. It falls with the square of the cells' width, as the scheme's own.

@@ -10,7 +10,7 @@ use humantime::format_duration;
 use rustix::process::{Pid, Signal, kill_process};
 
 use super::RunError;
-use super::launch::{Options, new_run_id};
+use super::launch_options::{Options, new_run_id};
 use super::stop::Stop;
 use crate::output::run_directory::{FLUID_HISTORY, LOG, SOLID_HISTORY};
 use crate::output::{Join, Progress, ProgressLine, RunDirectory, join_histories};

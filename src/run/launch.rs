@@ -1,8 +1,7 @@
 //! `cav run`: one process, or two children of its own executable.
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 use coupler::{Participant, Scheme};
 use serde_json::Map;
@@ -10,48 +9,13 @@ use serde_json::Map;
 use super::checkpoints::Checkpoints;
 use super::children::two_processes;
 use super::conclusion::{closing_words, conclude};
-use super::drive::{Keeping, in_process};
+use super::drive::in_process;
+use super::launch_options::Options;
 use super::stop::Stop;
 use super::{RunError, drive};
 use crate::case::Case;
 use crate::output::run_directory::CASE;
 use crate::output::{Progress, ProgressLine, RunDirectory};
-
-/// What the command line says besides the case.
-#[derive(Clone, Debug, Default)]
-pub struct Options {
-    /// The case file and its changes, for the children.
-    pub case_path: PathBuf,
-    /// `--set`.
-    pub sets: Vec<String>,
-    /// `--out`.
-    pub out: Option<PathBuf>,
-    /// `--force`.
-    pub force: bool,
-    /// `--in-process`.
-    pub in_process: bool,
-    /// `--threads`, per process.
-    pub threads: Option<usize>,
-    /// `--checkpoint-every`; `None` for no checkpoints.
-    pub checkpoint_every: Option<Duration>,
-    /// The step of the checkpoint to go on from.
-    pub from: Option<u64>,
-    /// What the case is called, if not as its file.
-    pub name: Option<String>,
-    /// The command that is this program, for the children; this process's own executable if empty.
-    pub program: Vec<OsString>,
-    /// `-q`.
-    pub quiet: bool,
-    /// `-v`, counted.
-    pub verbosity: u8,
-}
-
-impl Options {
-    /// What of them is about checkpoints.
-    fn keeping(&self) -> Keeping {
-        Keeping { from: self.from, every: self.checkpoint_every }
-    }
-}
 
 /// The run directory: the command line's, the case's, or one by the case's name.
 pub fn directory_of(case: &Case, out: Option<&Path>) -> PathBuf {
@@ -144,12 +108,6 @@ pub fn thread_pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError
     rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build().map_err(|error| {
         RunError::Start { what: "the worker threads".to_owned(), source: std::io::Error::other(error) }
     })
-}
-
-/// A run id that no other run on the machine has: process and time.
-pub fn new_run_id() -> String {
-    let nanoseconds = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |t| t.as_nanos());
-    format!("{}-{:x}", std::process::id(), nanoseconds)
 }
 
 /// Whether a case has this side, and a peer to meet.

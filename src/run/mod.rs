@@ -10,7 +10,8 @@
 //! | [`fluid_side`], [`solid_side`] | one side's part of the step loop |
 //! | [`cell_exchange`] | the paper's coupling schemes |
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
-//! | [`medium`] | long and short steps of a solver, whichever medium it is for |
+//! | [`coupled_solver`] | long and short steps of a solver, whichever medium it is for |
+//! | [`run_side`] | what the step loops need of either side, and how its part ends |
 //! | [`memory`] | whether a grid that grows still has room |
 //! | [`side_files`] | into which files |
 //! | [`load`] | a given pressure on a solid without a fluid |
@@ -35,11 +36,13 @@ pub mod fluid_record;
 pub mod fluid_side;
 pub mod interface_history;
 pub mod launch;
+pub mod launch_options;
 pub mod load;
 pub mod memory;
 pub mod past;
 pub mod record;
 pub mod resume;
+pub mod run_side;
 pub mod schedule;
 pub mod session;
 pub mod setup;
@@ -51,5 +54,6 @@ pub mod timed;
 pub mod wall_faces;
 
 pub use error::RunError;
-pub use launch::{Options, run};
+pub use launch::run;
+pub use launch_options::Options;
 pub use resume::resume;

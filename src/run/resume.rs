@@ -8,7 +8,8 @@ use serde_json::json;
 
 use super::RunError;
 use super::checkpoints::Checkpoints;
-use super::launch::{Options, carry_out};
+use super::launch::carry_out;
+use super::launch_options::Options;
 use super::stop::Stop;
 use crate::case::{Case, CaseErrors, available_memory};
 use crate::output::run_directory::{CASE, FLUID_HISTORY, SOLID_HISTORY, SUMMARY};

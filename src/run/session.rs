@@ -10,9 +10,9 @@ use solid::SolidSolver;
 
 use super::RunError;
 use super::checkpoints::{Checkpoints, Keeper};
-use super::drive::{RunSide, end, line, part};
 use super::fluid_record::FluidRecord;
 use super::fluid_side::{FluidSide, Turn};
+use super::run_side::{RunSide, end, line, part};
 use super::schedule::Schedule;
 use super::setup::{fluid_solver, solid_solver};
 use super::solid_record::SolidRecord;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use cav::run::drive::RunSide as _;
 use cav::run::fluid_side::Turn;
+use cav::run::run_side::RunSide as _;
 use cav::run::session::{Session, Solvers};
 use cav::run::solid_side::SolidSide;
 use cav::run::stop::Stop;

@@ -6,7 +6,8 @@ use std::process::Output;
 use std::time::Duration;
 
 use cav::case::Case;
-use cav::run::launch::{Options, prepare};
+use cav::run::launch::prepare;
+use cav::run::launch_options::Options;
 use cav::run::session::{Session, Solvers};
 use cav::run::stop::Stop;
 use sha2::{Digest, Sha256};

@@ -6,7 +6,8 @@
 
 use crate::error::CouplerError;
 use crate::exchange::{RegisterRow, TraceRow, WallRegister};
-use crate::frame::{Frame, FrameKind};
+use crate::frame::Frame;
+use crate::kinds::FrameKind;
 use crate::mapping::CommonRefinement;
 
 /// Times of both sides may differ by this share: each adds up its own steps, which are the same but for round-off.
@@ -155,7 +156,7 @@ impl<'a> Frame<'a> {
 mod tests {
     use super::*;
     use crate::frame::FrameHeader;
-    use crate::link::Participant;
+    use crate::kinds::Participant;
 
     const INTERFACE: [f64; 2] = [0.0, 0.05];
     const FACES: usize = 4;

@@ -4,7 +4,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::error::CouplerError;
 use crate::frame::{Frame, FrameHeader};
-use crate::link::{Conversation, Link, LinkCounters, Participant, now_ns};
+use crate::kinds::Participant;
+use crate::link::{Conversation, Link, LinkCounters, now_ns};
 
 /// One direction: the buffer is kept, so frames of known length allocate nothing.
 #[derive(Debug, Default)]
@@ -100,7 +101,7 @@ impl Drop for DirectLink {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{Fault, FrameKind};
+    use crate::kinds::{Fault, FrameKind};
 
     fn trace(step: u64, count: u64) -> FrameHeader {
         FrameHeader { step, count, fields: 2, ..FrameHeader::new(FrameKind::Trace) }

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::frame::{Fault, FrameKind};
-use crate::link::Participant;
+use crate::kinds::Participant;
+use crate::kinds::{Fault, FrameKind};
 
 /// Why two participants could not meet, or could not go on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,46 +1,13 @@
 //! What a solver sees of its peer: send, receive, wait.
 
-use std::fmt;
 use std::time::{Duration, SystemTime};
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::CouplerError;
-use crate::frame::{Expected, Fault, Frame, FrameHeader, FrameKind};
+use crate::frame::{Expected, Frame, FrameHeader};
+use crate::kinds::{Fault, FrameKind, Participant};
 use crate::latency::Latencies;
-
-/// The two parts of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Participant {
-    /// The liquid with its bubble.
-    Fluid,
-    /// The wall.
-    Solid,
-}
-
-impl Participant {
-    /// As in service names, logs and command lines.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fluid => "fluid",
-            Self::Solid => "solid",
-        }
-    }
-
-    /// The other part.
-    pub fn peer(self) -> Self {
-        match self {
-            Self::Fluid => Self::Solid,
-            Self::Solid => Self::Fluid,
-        }
-    }
-}
-
-impl fmt::Display for Participant {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// What a link has done so far. Greetings and goodbyes count, too.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

@@ -6,7 +6,7 @@
 
 use crate::error::CouplerError;
 use crate::exchange::{RegisterRow, TraceRow};
-use crate::link::Participant;
+use crate::kinds::Participant;
 use crate::mapping::{CommonRefinement, SubFace};
 use crate::options::StarSolver;
 use crate::star::{FluidTrace, InterfaceStar, SolidTrace, acoustic_star, exact_star};

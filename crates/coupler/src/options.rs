@@ -1,6 +1,6 @@
 //! The choices a case makes by name.
 
-use crate::link::Participant;
+use crate::kinds::Participant;
 
 /// How fluid and solid meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,8 +10,10 @@
 use crate::content::StepLength;
 use crate::error::CouplerError;
 use crate::exchange::{RegisterRow, TraceRow, WallRegister};
-use crate::frame::{FrameHeader, FrameKind};
-use crate::link::{Link, Participant};
+use crate::frame::FrameHeader;
+use crate::kinds::FrameKind;
+use crate::kinds::Participant;
+use crate::link::Link;
 use crate::star::{FluidTrace, InterfaceStar};
 
 /// A step that the fluid is about to make, and its traces on the interface.

@@ -19,7 +19,7 @@ use iceoryx2::service::port_factory::{event, publish_subscribe};
 use crate::domain::Ipc;
 use crate::error::CouplerError;
 use crate::frame::FrameHeader;
-use crate::link::Participant;
+use crate::kinds::Participant;
 use crate::watch::{PeerWatch, is_alive};
 
 /// A frame was handed over.

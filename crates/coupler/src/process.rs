@@ -9,9 +9,12 @@ use iceoryx2::port::SendError;
 
 use crate::domain::{Domain, Presence, require_room};
 use crate::error::CouplerError;
-use crate::frame::{Frame, FrameHeader, FrameKind};
-use crate::link::{Conversation, Link, LinkCounters, Participant, now_ns};
+use crate::frame::{Frame, FrameHeader};
+use crate::kinds::FrameKind;
+use crate::kinds::Participant;
+use crate::link::{Conversation, Link, LinkCounters, now_ns};
 use crate::making::Making;
+use crate::notice::Notice;
 use crate::ports::{Ports, failed, pid_of};
 use crate::watch::{LINGER, PeerWatch, SLICE};
 
@@ -22,9 +25,6 @@ const ROOM_TO_BEGIN: u64 = 1 << 20;
 fn room_for(len: usize) -> u64 {
     8 * size_of::<f64>() as u64 * len as u64
 }
-
-/// Told what the user should know while a participant waits.
-pub type Notice = Box<dyn FnMut(&str) + Send>;
 
 /// Asked about ten times a second while a participant waits; its error ends the wait.
 pub type Interrupt = Box<dyn FnMut() -> Result<(), CouplerError> + Send>;

@@ -3,8 +3,8 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use crate::link::Participant;
-use crate::process::Notice;
+use crate::kinds::Participant;
+use crate::notice::Notice;
 
 /// A stopped peer is told of after this time.
 const STOPPED_AFTER: Duration = Duration::from_secs(1);

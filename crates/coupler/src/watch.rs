@@ -10,7 +10,7 @@ use iceoryx2::port::{BackpressureAction, BackpressureInfo};
 use iceoryx2::prelude::{Node, NodeState};
 
 use crate::domain::Ipc;
-use crate::process::Notice;
+use crate::notice::Notice;
 use crate::silence::Silence;
 
 /// How often a blocked participant looks after its peer. One look takes well under a millisecond.

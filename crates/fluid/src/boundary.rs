@@ -5,7 +5,7 @@ use mesh::{Domain, FaceState, Mesh, Padded, Side, SideStates};
 use crate::face_rows::FaceRows;
 use crate::far_field::{FarField, Inner, SideImpulses, SourceHistory};
 use crate::hllc::Face;
-use crate::rows::Reconstruction;
+use crate::reconstruction::Reconstruction;
 use crate::{Boundary, Mixture, Primitive, TRACE_GAS};
 
 /// A pressure history, linear between its points and constant beyond them.

@@ -12,11 +12,11 @@ use std::hint::select_unpredictable;
 use mesh::whole_lines;
 
 use crate::Mixture;
-use crate::dispersion::states_at_face;
 use crate::elementary::{exp_and_less_one, ln_of};
 use crate::face_rows::FaceRows;
 use crate::godunov::flux_exact;
-use crate::rows::Reconstruction;
+use crate::reconstruction::Reconstruction;
+use crate::reconstruction::states_at_face;
 
 pub(crate) use listed::{ListedFaces, exact_fluxes};
 

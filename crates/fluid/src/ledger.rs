@@ -27,7 +27,7 @@ pub struct Fixups {
     pub clips: Clips,
 }
 
-/// What crossed the sides of the domain since the start, inwards, in the order of [`Side::ALL`].
+/// What crossed the sides of the domain since the start, inwards, in the order of [`mesh::Side::ALL`].
 ///
 /// Per radian in axial symmetry, per metre of depth in planar geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

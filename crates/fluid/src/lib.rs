@@ -34,6 +34,7 @@ mod participant;
 mod physics;
 mod predictor;
 mod rayleigh;
+mod reconstruction;
 mod reflux;
 mod report;
 mod rows;

@@ -1,10 +1,11 @@
 //! What the cells of a fluid obey, and what bounds them.
 
-use mesh::{Limiter, Step};
+use mesh::{Limiter, Mesh, Step};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::clips::SharedCount;
+use crate::dispersion::Dispersion;
 use crate::far_field::{Moment, SideImpulses, SourceHistory};
 use crate::options::TwoPhaseOptions;
 use crate::{BoundaryLedger, Fixups, Mixture, RiemannSolver};
@@ -67,5 +68,23 @@ impl Fluid {
     /// A step as the far field sees it.
     pub(crate) fn moment<const N: usize>(&self, step: &FluidStep<'_, N>) -> Moment<'_> {
         Moment { middle: step.middle(), dt: step.dt, history: &self.sources }
+    }
+}
+
+impl Fluid {
+    /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.
+    pub(crate) fn dispersion<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        dt: f64,
+        level: u8,
+        axis: usize,
+    ) -> Dispersion {
+        let widths = mesh.widths(level);
+        Dispersion {
+            per_speed: dt / widths[axis],
+            aspect: widths[axis] / widths[1 - axis],
+            liquid_pi: self.mixture.at(0.0).pi,
+        }
     }
 }

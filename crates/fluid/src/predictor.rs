@@ -4,7 +4,8 @@ use mesh::Limiter;
 
 use crate::Mixture;
 use crate::five_equation::is_compliant;
-use crate::rows::{Rows, cut, fraction, half_step, whole_half_step};
+use crate::reconstruction::{Rows, cut, fraction};
+use crate::rows::{half_step, whole_half_step};
 
 /// Cells after which the pass looks whether all of them keep their slopes: whole lines of the cache, few enough that
 /// what they need to be done again is still at hand.

@@ -9,27 +9,10 @@ use std::ops::Range;
 use mesh::whole_lines;
 
 use crate::Mixture;
-use crate::dispersion::{AlongFaces, Dispersion, states_at_face};
 use crate::face_rows::FaceRows;
 use crate::hllc::flux_and_roots;
+use crate::reconstruction::{Reconstruction, fraction, states_at_face};
 use crate::state::primitive;
-
-/// Slices of the five primitive variables ρ, v_z, v_r, p, φ.
-pub(crate) type Rows<'a> = [&'a [f64]; 5];
-
-/// A gas fraction, or that of the liquid where there is no gas: a constant there, from which the compiler makes kernels that
-/// neither read nor carry it.
-#[inline(always)]
-pub(crate) fn fraction<const WITH_GAS: bool>(phi: f64) -> f64 {
-    if WITH_GAS { phi } else { 0.0 }
-}
-
-/// `n` numbers of each row from `at` on.
-#[inline(always)]
-pub(crate) fn cut<'a>(rows: &Rows<'a>, at: usize, n: usize) -> Rows<'a> {
-    let [a, b, c, d, e] = rows;
-    [&a[at..][..n], &b[at..][..n], &c[at..][..n], &d[at..][..n], &e[at..][..n]]
-}
 
 /// Time derivatives of the primitive variables.
 ///
@@ -250,52 +233,6 @@ fn to_primitive_body<const WITH_GAS: bool>(
     for k in 0..n {
         let w = primitive([rho[k], a[k], b[k], c[k], fraction::<WITH_GAS>(phi[k])], mixture);
         (a[k], b[k], c[k]) = (w[1], w[2], w[3]);
-    }
-}
-
-/// The reconstructed cells on whose faces Riemann problems are solved.
-#[derive(Clone, Copy)]
-pub(crate) struct Reconstruction<'a> {
-    /// Mid-step states ρ, normal velocity, tangential velocity, p, φ.
-    pub half: Rows<'a>,
-    /// Limited differences across the cells in the same order.
-    pub differences: Rows<'a>,
-    /// The share of its slopes that each cell keeps, see [`half_step`].
-    pub keep: &'a [f64],
-    /// The cells' sound speed at the beginning of the step, m/s.
-    pub sound: &'a [f64],
-    /// Whether there is gas in any cell. Without it the rows of the gas fraction hold zeros.
-    pub with_gas: bool,
-    pub dispersion: Dispersion,
-    pub along_faces: AlongFaces<'a>,
-}
-
-impl<'a> Reconstruction<'a> {
-    /// The cells whose faces towards the cell `step` farther on have all neighbours that count; `stride` is that of the rows.
-    pub fn lines(&self, step: usize, stride: usize) -> Range<usize> {
-        stride..self.keep.len() - step - self.along_faces.step
-    }
-
-    /// `n` cells from `at` on; not to be cut again.
-    #[inline(always)]
-    pub fn cut(&self, at: usize, n: usize) -> Self {
-        Self {
-            half: cut(&self.half, at, n),
-            differences: cut(&self.differences, at, n),
-            keep: &self.keep[at..][..n],
-            sound: &self.sound[at..][..n],
-            with_gas: self.with_gas,
-            dispersion: self.dispersion,
-            along_faces: self.along_faces.cut(at, n),
-        }
-    }
-
-    /// The state on the lower (`sign` = −1) or upper (+1) face of cell `k`.
-    #[inline(always)]
-    pub fn face_state(&self, k: usize, sign: f64) -> [f64; 5] {
-        let weight = 0.5 * sign * self.keep[k];
-        let at = |c: usize| self.half[c][k] + weight * self.differences[c][k];
-        [at(0), at(1), at(2), at(3), at(4)]
     }
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Mixture;
 use crate::face_rows::FaceRows;
-use crate::rows::{Rows, fraction};
+use crate::reconstruction::{Rows, fraction};
 
 /// Reductions over a block's new cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -6,7 +6,8 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 use cav::run::checkpoints::DEFAULT_INTERVAL;
-use cav::run::launch::{Options, run};
+use cav::run::launch::run;
+use cav::run::launch_options::Options;
 use cav::run::stop::Stop;
 use pyo3::prelude::*;
 

@@ -10,8 +10,8 @@ use crate::run::RunError;
 use crate::run::cell_exchange::CellExchange;
 use crate::run::checkpoints::Keeper;
 use crate::run::coupled_solver;
-use crate::run::drive::RunSide;
 use crate::run::past::Past;
+use crate::run::run_side::RunSide;
 use crate::run::stop::Stop;
 use crate::run::timed::{Clock, Timed};
 

@@ -16,7 +16,7 @@ use crate::exact_rows::{ListedFaces, exact_fluxes};
 use crate::face_rows::used_face;
 use crate::face_rows::{FaceRows, set_face};
 use crate::hllc::Face;
-use crate::rows::Reconstruction;
+use crate::reconstruction::Reconstruction;
 
 /// No mixed cell.
 const NONE: u32 = u32::MAX;

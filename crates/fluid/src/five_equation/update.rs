@@ -9,7 +9,7 @@ use super::relaxation::{Advected, relaxed_fractions};
 use super::windows::{LANES, Lane, bits, lanes};
 use crate::Mixture;
 use crate::face_rows::FaceRows;
-use crate::rows::Rows;
+use crate::reconstruction::Rows;
 use crate::state::conserved::{COUNT, ENERGY, PHI};
 use crate::update::{FaceSlices, FaceValues, Metric, balance, row, settled};
 

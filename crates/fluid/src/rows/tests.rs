@@ -4,7 +4,7 @@ use mesh::{Limiter, Padded};
 
 use super::*;
 use crate::StiffenedGas;
-use crate::dispersion::AlongFaces;
+use crate::dispersion::{AlongFaces, Dispersion};
 use crate::predictor::{Predictor, predict};
 use crate::update::{Metric, update};
 

@@ -10,7 +10,8 @@ use crate::dispersion::AlongFaces;
 use crate::exact_rows::exact_faces;
 use crate::face_rows::{FaceRows, used_face};
 use crate::physics::FluidStep;
-use crate::rows::{self, Reconstruction};
+use crate::reconstruction::Reconstruction;
+use crate::rows::{self};
 use crate::state::conserved::COUNT;
 
 impl<const N: usize> BlockStep<'_, N> {
