@@ -1,6 +1,6 @@
 //! Rows of exact Riemann solutions.
 //!
-//! What [`crate::exact_riemann`] does for one face, for chunks of faces without branches: the same wave curves and
+//! What [`crate::exact_riemann`] does for one face, for chunks of faces (SIMD batches) without branches: the same wave curves and
 //! the same first guess, then Halley's steps (cubic, as there) until all faces of the chunk have converged. A face
 //! that has keeps its numbers, so that they do not depend on the company it is solved in. Faces for which more is
 //! needed (a vacuum or nearly one, the inside of a fan, no convergence) are left to the scalar solver.

@@ -1,6 +1,6 @@
 //! Kernels over the cells of one padded block: primitive variables, predictor, fluxes.
 //!
-//! Every function walks flat rows (see [`mesh::Padded`]) with a body free of branches, so that the compiler
+//! Every function walks flat rows (a structure of arrays, see [`mesh::Padded`]) with a body free of branches, so that the compiler
 //! vectorises it; each is compiled for several instruction sets and the best one is chosen at run time.
 //! Rust never contracts a·b + c, so the results do not depend on that choice.
 

@@ -1,4 +1,4 @@
-//! Cell averages of several components on all blocks.
+//! Cell averages of several components on all blocks: a structure of arrays, block by block.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! Which levels step when.
+//! Which levels step when: subcycling in time.
 
 /// A step that a group of levels is about to make.
 #[derive(Clone, Copy, Debug, PartialEq)]

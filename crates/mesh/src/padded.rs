@@ -1,4 +1,4 @@
-//! One block with its ghost layers.
+//! One block with its ghost layers (halo).
 
 use crate::ghosts::{copy, copy_row, ghost_range, hold, mirror};
 use crate::project::project_finer;

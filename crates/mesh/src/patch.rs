@@ -1,4 +1,4 @@
-//! A block and its surroundings, seen on the next coarser level.
+//! A block and its surroundings, seen on the next coarser level: what prediction (prolongation) starts from.
 
 use crate::details::{DetailRows, details_of_rows};
 use crate::ghosts::{continue_within, ghost_range, index};

@@ -1,4 +1,4 @@
-//! Projection of cells, ghosts among them, from the blocks that own them.
+//! Projection (restriction) of cells, ghosts among them, from the blocks that own them.
 //!
 //! A padded block takes its ghosts from finer blocks, a [`crate::Patch`] its cells from blocks of the level above its
 //! own, of two levels above, or of its own. All walk rows of cells, so that the inner loops are plain ones.

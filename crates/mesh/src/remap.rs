@@ -1,4 +1,4 @@
-//! The step from one mesh to the next: new leaves, and fields carried over.
+//! The step from one mesh to the next (regridding): new leaves, and fields carried over by prolongation and restriction.
 
 use rayon::prelude::*;
 

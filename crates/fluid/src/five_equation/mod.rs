@@ -2,7 +2,7 @@
 //!
 //! The state of a cell is m_g = φρ_g and ρ = m_g + m_l with m_l = (1 − φ)ρ_l, the momentum, the energy and the gas fraction φ.
 //! Pure cells, nearly all, are served by the kernels of the paper's mixture, to which the model then reduces; what is
-//! here serves the mixed ones, found in `cells.rs` and taken by eights (`windows.rs`): the closure that tells how they
+//! here serves the mixed ones, found in `cells.rs` and taken in SIMD batches of eight (`windows.rs`): the closure that tells how they
 //! are compressed (`closure.rs`), their face states (`reconstruction.rs`, `thinc.rs`), their fluxes (`mixed.rs`) and
 //! their update (`update.rs`, `relaxation.rs`).
 

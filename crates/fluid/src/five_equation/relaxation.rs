@@ -1,4 +1,4 @@
-//! Both phases of a mixed cell on their way to one pressure, at the end of a step.
+//! Pressure relaxation: both phases of a mixed cell come to one pressure at the end of a step.
 
 use super::closure::{Compression, LOWEST, PURE, bounded};
 use crate::Mixture;

@@ -1,4 +1,4 @@
-//! Cells of a padded block by eights, for kernels that serve some of them.
+//! SIMD batches of cells of a padded block, eight lanes each, for kernels that serve some of them.
 
 /// Cells served together.
 pub(crate) const LANES: usize = 8;
