@@ -34,7 +34,7 @@ const RESERVED: [(&str, &str); 6] = [
 const MEET_COUPLER: [&str; 2] = ["participant.rs", "boundary.rs"];
 
 /// More lines than this and a file is several files.
-const LONGEST_FILE: usize = 800;
+const LONGEST_FILE: usize = 400;
 
 /// Kinds of files that people write.
 const WRITTEN: [&str; 7] = ["rs", "toml", "md", "py", "sh", "yml", "pyi"];

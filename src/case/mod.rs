@@ -20,6 +20,7 @@ mod set;
 mod shared;
 mod steps;
 mod thresholds;
+mod values;
 mod warnings;
 
 use std::path::{Path, PathBuf};

@@ -5,11 +5,9 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 use cav::run::launch::thread_pool;
 use cav::run::setup::{fluid_solver, solid_solver};
 use coupler::{
-    FluidTrace, InterfaceStar, SolidTrace, fluid_at_moving_wall, fluid_under_pressure, solid_moved,
-    solid_under_pressure,
+    FluidTrace, SolidTrace, fluid_at_moving_wall, fluid_under_pressure, solid_moved, solid_under_pressure,
 };
-use mesh::BLOCK;
-use mesh::FaceState;
+use mesh::{BLOCK, FaceState};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -20,6 +18,7 @@ use solid::SurfaceTrace;
 use crate::case::Case;
 use crate::error::{Failure, guarded};
 use crate::fields;
+use crate::given::Given;
 use crate::initial::{fluid_from, solid_from};
 
 /// A solver with the threads that its scratch memory is made for.
@@ -55,63 +54,6 @@ fn locked<T>(alone: &Mutex<T>) -> PyResult<MutexGuard<'_, T>> {
         Err(TryLockError::WouldBlock) => {
             Err(PyRuntimeError::new_err("the solver is computing in another thread"))
         }
-    }
-}
-
-/// What Python gives for the surface: means over a step, face by face.
-struct Given {
-    pressure: Option<Vec<f64>>,
-    velocity: Option<Vec<f64>>,
-    power: Option<Vec<f64>>,
-}
-
-impl Given {
-    fn new(
-        faces: usize,
-        pressure: Option<PyReadonlyArray1<'_, f64>>,
-        velocity: Option<PyReadonlyArray1<'_, f64>>,
-        power: Option<PyReadonlyArray1<'_, f64>>,
-    ) -> PyResult<Self> {
-        let take = |name: &str, array: Option<PyReadonlyArray1<'_, f64>>| -> PyResult<Option<Vec<f64>>> {
-            let Some(array) = array else { return Ok(None) };
-            let values = array.as_array().to_vec();
-            match values.len() == faces && values.iter().all(|value| value.is_finite()) {
-                true => Ok(Some(values)),
-                false => Err(PyValueError::new_err(format!(
-                    "{name} has to be {faces} finite numbers, one for each face of the surface; it has {}",
-                    values.len()
-                ))),
-            }
-        };
-        let given = Self {
-            pressure: take("pressure", pressure)?,
-            velocity: take("velocity", velocity)?,
-            power: take("power", power)?,
-        };
-        if given.power.is_some() && (given.pressure.is_none() || given.velocity.is_none()) {
-            return Err(PyValueError::new_err("power goes with both pressure and velocity"));
-        }
-        if faces > 0 && given.pressure.is_none() && given.velocity.is_none() {
-            return Err(PyValueError::new_err("pressure or velocity of the surface is needed, or both"));
-        }
-        Ok(given)
-    }
-
-    /// Pressure, velocity and power of a face; what is not given comes from the medium's own wave.
-    fn state(
-        &self,
-        face: usize,
-        under: impl Fn(f64) -> InterfaceStar,
-        moved: impl Fn(f64) -> InterfaceStar,
-    ) -> [f64; 3] {
-        let at = |values: &Option<Vec<f64>>| values.as_ref().map(|values| values[face]);
-        let (pressure, velocity) = match (at(&self.pressure), at(&self.velocity)) {
-            (Some(pressure), Some(velocity)) => (pressure, velocity),
-            (Some(pressure), None) => (pressure, under(pressure).velocity),
-            (None, Some(velocity)) => (moved(velocity).pressure, velocity),
-            (None, None) => (0.0, 0.0),
-        };
-        [pressure, velocity, at(&self.power).unwrap_or(pressure * velocity)]
     }
 }
 

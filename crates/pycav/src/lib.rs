@@ -17,6 +17,7 @@ mod alone;
 mod case;
 mod error;
 mod fields;
+mod given;
 mod initial;
 mod launch;
 mod log;
