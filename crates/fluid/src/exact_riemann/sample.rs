@@ -10,7 +10,7 @@ use super::{Sample, Side, Star, wave};
 /// - returns: density, velocity, pressure, whose fluid it is and whether inside a fan. In the vacuum between
 ///   two receding fluids density 0, velocity `xi`, pressure −min(π_L, π_R): at `xi` = 0 no mass and no energy
 ///   pass.
-/// - valid for: as [`star_state`].
+/// - valid for: as [`super::star_state`].
 /// - errors: none.
 /// - tested by: reference profiles, invariants through a fan, mirror symmetry.
 #[must_use]
