@@ -4,6 +4,7 @@ use coupler::{Link, LinkCounters};
 use serde_json::{Map, Value, json};
 
 use super::RunError;
+use super::coupled_solver::CoupledSolver;
 use super::fluid_side::Turn;
 use super::past::Past;
 use super::stop::Stop;
@@ -12,6 +13,8 @@ use crate::output::{ProgressLine, RunDirectory, summary};
 
 /// What the loops need of either side; [`super::fluid_side::FluidSide`] and [`super::solid_side::SolidSide`] are the two.
 pub trait RunSide {
+    /// Its solver.
+    type Solver: CoupledSolver;
     /// "fluid" or "solid".
     const NAME: &'static str;
     /// The file of its part of the summary.
@@ -25,10 +28,8 @@ pub trait RunSide {
     fn close(&mut self, failed: bool) -> Result<(), RunError>;
     /// Its part of the summary.
     fn summary(&self) -> Map<String, Value>;
-    /// How long the stages of its blocks' steps have taken since the run, or its going on, began, s.
-    fn stage_seconds(&self) -> Vec<(&'static str, f64)>;
-    /// Simulated time and steps so far.
-    fn reached(&self) -> (f64, u64);
+    /// Its solver.
+    fn solver(&self) -> &Self::Solver;
     /// Where the wall time went.
     fn clock(&self) -> Clock;
     /// Since when, and what was done before.
@@ -85,7 +86,7 @@ fn progress_part<S: RunSide>(
     counters: LinkCounters,
 ) -> Map<String, Value> {
     let completed = matches!(result, Ok(Turn::Over(0)));
-    let ((time, steps), clock) = (side.reached(), side.clock());
+    let (solver, clock) = (side.solver(), side.clock());
     let counters = side.past().exchanged(counters);
     let mut coupling = json!({
         "exchanges": counters.received,
@@ -107,12 +108,12 @@ fn progress_part<S: RunSide>(
         },
     });
     let stages: Map<String, Value> =
-        side.stage_seconds().into_iter().map(|(name, seconds)| (name.to_owned(), json!(seconds))).collect();
+        solver.stage_seconds().into_iter().map(|(name, seconds)| (name.to_owned(), json!(seconds))).collect();
     let mut part = Map::new();
     part.insert("stage_seconds".to_owned(), json!({ S::NAME: stages }));
     part.insert("completed".to_owned(), json!(completed));
-    part.insert("t_end".to_owned(), json!(time));
-    part.insert("steps".to_owned(), json!(steps));
+    part.insert("t_end".to_owned(), json!(solver.time()));
+    part.insert("steps".to_owned(), json!(solver.steps()));
     part.insert("wall_seconds".to_owned(), json!(side.past().wall().as_secs_f64()));
     part.insert("coupling".to_owned(), coupling);
     if let Err(error) = result {

@@ -11,7 +11,7 @@ use coupler::{
     StarSolver, StepLength, TraceRow,
 };
 use mesh::{BLOCK, GroupStep};
-use solid::{Interface, SolidSolver};
+use solid::{SolidSolver, WeakExchange};
 
 use super::RunError;
 use super::checkpoints::Keeper;
@@ -33,7 +33,7 @@ pub mod saved;
 pub struct SolidSide {
     solver: SolidSolver<BLOCK>,
     record: Option<SolidRecord>,
-    interface: Interface,
+    exchange: WeakExchange,
     meeting: Meeting,
     /// What presses on the surface where there is no fluid.
     load: Option<Load>,
@@ -81,7 +81,7 @@ impl SolidSide {
             load: case.coupling.load.as_ref().and_then(|load| Load::new(load, &solver)),
             solver,
             record,
-            interface: Interface::default(),
+            exchange: WeakExchange::default(),
             meeting: Meeting::default(),
             schedule: Schedule::new(&case.time.snapshots),
             rule: StepRule::of(case),
@@ -252,7 +252,7 @@ impl SolidSide {
                 Kappa::Printed => factor * received,
                 Kappa::Jump => own + factor * (received - own),
             };
-            self.solver.load_weakly(&mut self.interface, rows, faces, dt, pressure_of);
+            self.solver.load_weakly(&mut self.exchange, rows, faces, dt, pressure_of);
         } else {
             coupled_solver::begin_meeting(&self.solver, &mut self.meeting, (rows, faces));
         }

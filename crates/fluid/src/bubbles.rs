@@ -1,9 +1,10 @@
 //! The gas as a whole, and bubbles told apart along the axis.
 
+use mesh::{BlockSolver, Geometry};
+
 use crate::physics::Fluid;
 use crate::state::conserved::{GAS, PHI};
 use crate::{Bubble, BubbleCuts, FluidSolver, TRACE_GAS};
-use mesh::{BlockSolver, Geometry};
 
 /// Below this gas fraction gas does not belong to an interface.
 const THIN_GAS: f64 = 1e-2;

@@ -28,12 +28,6 @@ pub struct FluidMemory {
 }
 
 impl Fluid {
-    /// What the gas fraction and the gas's mass of a block say: whether there is any.
-    fn has_any_gas(&self, components: &[&[f64]]) -> bool {
-        let has_any = |component: usize| components[component].iter().any(|value| *value != 0.0);
-        self.scheme.two_phase.is_some() && (has_any(PHI) || has_any(GAS))
-    }
-
     /// The conserved variables of a cell that is not physical.
     fn failed_state<const N: usize>(&self, block: &[f64], cell: usize) -> Option<[f64; COUNT]> {
         let u: [f64; COUNT] = std::array::from_fn(|c| block[c * N * N + cell]);
@@ -50,6 +44,7 @@ fn is_sane<const N: usize>(report: &BlockReport<N>) -> bool {
 }
 
 impl<const N: usize> Model<N> for Fluid {
+    const NAME: &'static str = "fluid";
     const INTERFACE: Side = Side::ZMin;
     const REGISTERED: usize = QUANTITIES;
     type Analysis = Analysis;
@@ -58,6 +53,7 @@ impl<const N: usize> Model<N> for Fluid {
     type Error = FluidError;
     type Memory = FluidMemory;
     const STAGES: &'static [&'static str] = STAGES;
+    const RETRIES: bool = true;
 
     fn analysis(&self) -> &Analysis {
         &self.analysis
@@ -105,10 +101,11 @@ impl<const N: usize> Model<N> for Fluid {
             extremes.speed_z = extremes.speed_z.max(speed(w.v_z));
             extremes.speed_r = extremes.speed_r.max(speed(w.v_r));
         }
-        let components: Vec<&[f64]> = block.chunks_exact(N * N).collect();
-        extremes.phi = maximum(components[PHI]);
+        let component = |c: usize| &block[c * N * N..(c + 1) * N * N];
+        extremes.phi = maximum(component(PHI));
         report.extremes = extremes;
-        report.has_gas = self.has_any_gas(&components);
+        let has_any = |c: usize| component(c).iter().any(|value| *value != 0.0);
+        report.has_gas = self.scheme.two_phase.is_some() && (has_any(PHI) || has_any(GAS));
     }
 
     fn signal_speeds(&self, report: &BlockReport<N>) -> [f64; 2] {

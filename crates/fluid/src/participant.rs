@@ -25,7 +25,7 @@ impl<const N: usize> FluidSolver<N> {
 
     /// [`FluidSolver::write_trace`] for the faces of the levels that are about to make a step.
     pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.steps_in(step, slot), put);
+        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
     }
 
     fn write_trace_of(
@@ -132,10 +132,10 @@ impl<const N: usize> FluidSolver<N> {
         let options = two_phase?;
         let cells = Cells { rows: cells.split::<6>(), stride: Padded::<N>::STRIDE };
         let mixture = self.mixture();
-        let stencil = CellRule { limiter, inverse_h, inverse_r, dt, mixture, options };
+        let rule = CellRule { limiter, inverse_h, inverse_r, dt, mixture, options };
         cells.is_at_interface(k, mixture).then(|| {
             let mut states = FaceStates::default();
-            face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &stencil, &mut states);
+            face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &rule, &mut states);
             states.of(0, 0).w
         })
     }

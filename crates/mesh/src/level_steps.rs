@@ -27,6 +27,11 @@ pub struct Registers<const N: usize> {
 }
 
 impl<const N: usize> Registers<N> {
+    /// What the blocks pass in their own steps.
+    pub fn own_mut(&mut self) -> &mut FluxRegister<N> {
+        &mut self.own
+    }
+
     /// What finer neighbours of a block on a level have passed during its step.
     pub fn finer_side(&self, clock: &LevelClock, level: u8) -> FinerSide<'_, N> {
         let is_one_step = clock.group(level) == clock.group(level + 1);
@@ -134,26 +139,15 @@ impl<const N: usize> LevelSteps<N> {
         self.clock.start(limit)
     }
 
-    /// The clock, where a group writes its new state (into `next` if it is the finest), and the register of its faces.
+    /// The clock, where a group writes its new state (into `next` if it is the finest), and what blocks pass each other.
     pub fn target<'a>(
         &'a mut self,
         group: usize,
         next: &'a mut Field,
-    ) -> (&'a LevelClock, &'a mut Field, &'a mut FluxRegister<N>) {
+    ) -> (&'a LevelClock, &'a mut Field, &'a mut Registers<N>) {
         let is_finest = group == self.clock.finest();
         let target = if is_finest { next } else { &mut self.ahead };
-        (&self.clock, target, &mut self.registers.own)
-    }
-
-    /// The clock, the new state of a group, and what finer neighbours have passed.
-    pub fn corrected<'a>(
-        &'a mut self,
-        group: usize,
-        next: &'a mut Field,
-    ) -> (&'a LevelClock, &'a mut Field, &'a Registers<N>) {
-        let is_finest = group == self.clock.finest();
-        let target = if is_finest { next } else { &mut self.ahead };
-        (&self.clock, target, &self.registers)
+        (&self.clock, target, &mut self.registers)
     }
 
     /// Takes what the blocks of a group have passed in their step into the means over the coarser group's step.

@@ -1,18 +1,17 @@
 //! Cells and samples of a solver as arrays, all of them copies.
 
-use mesh::{BLOCK, BlockSolver, Mesh};
+use cav::run::coupled_solver::CoupledSolver;
+use mesh::{BLOCK, Mesh};
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// A solver whose state can be read cell by cell and point by point.
-pub trait Readable: Sync {
+pub trait Readable: CoupledSolver + Sync {
     /// Names of what [`Readable::at`] gives.
     const SAMPLED: &'static [&'static str];
 
-    /// The mesh.
-    fn mesh(&self) -> &Mesh<BLOCK>;
     /// Names and values of the fields with one number a cell.
     fn scalars(&self) -> Vec<(&'static str, Vec<f64>)>;
     /// The state at a point by the linear reconstruction in its cell; `None` outside.
@@ -22,11 +21,6 @@ pub trait Readable: Sync {
 impl Readable for fluid::FluidSolver<BLOCK> {
     const SAMPLED: &'static [&'static str] =
         &["density", "velocity_z", "velocity_r", "pressure", "gas_fraction"];
-
-    fn mesh(&self) -> &Mesh<BLOCK> {
-        // Not this method itself.
-        BlockSolver::mesh(self)
-    }
 
     fn scalars(&self) -> Vec<(&'static str, Vec<f64>)> {
         let snapshot = self.snapshot();
@@ -49,11 +43,6 @@ impl Readable for fluid::FluidSolver<BLOCK> {
 impl Readable for solid::SolidSolver<BLOCK> {
     const SAMPLED: &'static [&'static str] =
         &["velocity_z", "velocity_r", "stress_zz", "stress_zr", "stress_rr", "stress_phiphi", "von_mises"];
-
-    fn mesh(&self) -> &Mesh<BLOCK> {
-        // Not this method itself.
-        BlockSolver::mesh(self)
-    }
 
     fn scalars(&self) -> Vec<(&'static str, Vec<f64>)> {
         let snapshot = self.snapshot();

@@ -36,7 +36,7 @@ pub use error::SolidError;
 pub use ledger::BoundaryLedger;
 pub use material::{Material, MaterialError};
 pub use options::{Boundary, InitialStress, PotentialPulse};
-pub use participant::{Interface, SurfaceTrace};
+pub use participant::{SurfaceTrace, WeakExchange};
 pub use physics::Solid;
 pub use riemann::WaveSpeeds;
 pub use setup::SolidSetup;

@@ -19,6 +19,7 @@ pub struct SolidMemory {
 }
 
 impl<const N: usize> Model<N> for Solid {
+    const NAME: &'static str = "solid";
     const INTERFACE: Side = Side::ZMax;
     const REGISTERED: usize = QUANTITIES;
     type Analysis = Analysis;

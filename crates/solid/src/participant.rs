@@ -11,7 +11,7 @@ use crate::step::{BlockScratch, reconstruct};
 
 /// What the solid knows of its interface with the fluid in the weak scheme: faces, sub-faces, and the last step's states.
 #[derive(Clone, Debug, Default)]
-pub struct Interface {
+pub struct WeakExchange {
     edges: Vec<f64>,
     /// The mesh whose faces the edges are of.
     generation: Option<u64>,
@@ -49,7 +49,7 @@ impl<const N: usize> SolidSolver<N> {
 
     /// [`SolidSolver::write_trace`] for the faces of the levels that are about to make a step.
     pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.steps_in(step, slot), put);
+        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
     }
 
     fn write_trace_of(
@@ -108,26 +108,26 @@ impl<const N: usize> SolidSolver<N> {
     /// - `pressure_of`: the traction's pressure from (received, own) pressures: κ̂ p as printed, or p_s + κ̂ (p − p_s).
     pub fn load_weakly(
         &mut self,
-        interface: &mut Interface,
+        exchange: &mut WeakExchange,
         payload: &[f64],
         count: usize,
         dt: f64,
         pressure_of: impl Fn(f64, f64) -> f64,
     ) {
-        self.traces_at_mid_step(dt, &mut interface.traces);
-        self.refine(interface, TraceRow::Edge.of(payload, count));
+        self.traces_at_mid_step(dt, &mut exchange.traces);
+        self.refine(exchange, TraceRow::Edge.of(payload, count));
         let received = TraceRow::Pressure.of(payload, count);
-        interface.stars.clear();
-        for sub in interface.refinement.sub_faces() {
-            let own = &interface.traces[sub.second];
-            interface.stars.push(InterfaceStar {
+        exchange.stars.clear();
+        for sub in exchange.refinement.sub_faces() {
+            let own = &exchange.traces[sub.second];
+            exchange.stars.push(InterfaceStar {
                 pressure: pressure_of(received[sub.first], own.pressure),
                 velocity: own.velocity,
                 iterations: 0,
                 floored: false,
             });
         }
-        self.set_surface_from(interface);
+        self.set_surface_from(exchange);
     }
 
     /// Cell means of the velocity under the surface on the fluid's faces, for the paper's schemes.
@@ -136,13 +136,13 @@ impl<const N: usize> SolidSolver<N> {
     /// - `trial`: of the new state of a step that has been run and not finished, in which all levels step alike.
     pub fn write_cell_velocities(
         &self,
-        interface: &mut Interface,
+        exchange: &mut WeakExchange,
         edges: &[f64],
         trial: bool,
         mut put: impl FnMut(RegisterRow, usize, f64),
     ) {
-        self.refine(interface, edges);
-        let Interface { refinement, cells, .. } = interface;
+        self.refine(exchange, edges);
+        let WeakExchange { refinement, cells, .. } = exchange;
         cells.clear();
         for &slot in self.interface().blocks() {
             let state = if trial { self.trial_state() } else { self.state() };
@@ -159,7 +159,7 @@ impl<const N: usize> SolidSolver<N> {
 
     /// [`SolidSolver::traces_at_mid_step`] for the faces of the levels that are about to make a step; of others, nothing.
     pub fn group_traces_at_mid_step(&self, step: GroupStep, traces: &mut Vec<SurfaceTrace>) {
-        self.mid_step_of(step.dt, |slot| self.steps_in(step, slot), traces);
+        self.mid_step_of(step.dt, |slot| self.makes(step, slot), traces);
     }
 
     fn mid_step_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, traces: &mut Vec<SurfaceTrace>) {
@@ -184,18 +184,18 @@ impl<const N: usize> SolidSolver<N> {
         });
     }
 
-    fn refine(&self, interface: &mut Interface, fluid_edges: &[f64]) {
-        if interface.generation != Some(self.mesh().generation()) {
-            interface.edges = self.interface_edges();
-            interface.generation = Some(self.mesh().generation());
+    fn refine(&self, exchange: &mut WeakExchange, fluid_edges: &[f64]) {
+        if exchange.generation != Some(self.mesh().generation()) {
+            exchange.edges = self.interface_edges();
+            exchange.generation = Some(self.mesh().generation());
         }
         let domain = self.mesh().domain();
         let axisymmetric = domain.geometry == Geometry::Axisymmetric;
-        interface.refinement.update(domain.r[0], fluid_edges, &interface.edges, axisymmetric);
+        exchange.refinement.update(domain.r[0], fluid_edges, &exchange.edges, axisymmetric);
     }
 
-    fn set_surface_from(&mut self, interface: &Interface) {
-        let Interface { refinement, stars, .. } = interface;
+    fn set_surface_from(&mut self, exchange: &WeakExchange) {
+        let WeakExchange { refinement, stars, .. } = exchange;
         let surface = self.interface_mut().states_mut();
         refinement.means(true, |k| stars[k].pressure, |face, mean| surface[face].pressure = mean);
         refinement.means(true, |k| stars[k].velocity, |face, mean| surface[face].velocity = mean);

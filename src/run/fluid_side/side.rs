@@ -1,6 +1,8 @@
 //! What the step loops need of the fluid's side.
 
 use coupler::{Link, LinkCounters};
+use fluid::FluidSolver;
+use mesh::BLOCK;
 use serde_json::{Map, Value};
 
 use super::{FluidSide, Turn};
@@ -16,6 +18,7 @@ use crate::run::stop::Stop;
 use crate::run::timed::{Clock, Timed};
 
 impl RunSide for FluidSide {
+    type Solver = FluidSolver<BLOCK>;
     const NAME: &'static str = "fluid";
     const SUMMARY: &'static str = FLUID_SUMMARY;
 
@@ -48,12 +51,8 @@ impl RunSide for FluidSide {
         part
     }
 
-    fn stage_seconds(&self) -> Vec<(&'static str, f64)> {
-        self.solver.stage_seconds()
-    }
-
-    fn reached(&self) -> (f64, u64) {
-        (self.solver.time(), self.solver.steps())
+    fn solver(&self) -> &Self::Solver {
+        &self.solver
     }
 
     fn clock(&self) -> Clock {

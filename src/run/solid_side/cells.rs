@@ -63,7 +63,7 @@ impl SolidSide {
             ..self.header(FrameKind::Register, RegisterRow::COUNT, stop)
         };
         let is_trial = self.trial.is_some();
-        let (solver, interface, edges) = (&self.solver, &mut self.interface, &self.fluid_edges);
+        let (solver, interface, edges) = (&self.solver, &mut self.exchange, &self.fluid_edges);
         link.send(header, |payload| {
             solver.write_cell_velocities(interface, edges, is_trial, |row, face, value| {
                 payload[row as usize * faces + face] = value;

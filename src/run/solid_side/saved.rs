@@ -40,7 +40,7 @@ impl SolidSide {
             solver,
             record,
             // The weak scheme's scratch.
-            interface: _,
+            exchange: _,
             meeting,
             // It is what the case says.
             load: _,

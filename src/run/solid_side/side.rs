@@ -19,6 +19,7 @@ use crate::run::stop::Stop;
 use crate::run::timed::{Clock, Timed};
 
 impl RunSide for SolidSide {
+    type Solver = SolidSolver<BLOCK>;
     const NAME: &'static str = "solid";
     const SUMMARY: &'static str = SOLID_SUMMARY;
 
@@ -94,12 +95,8 @@ impl RunSide for SolidSide {
         part
     }
 
-    fn stage_seconds(&self) -> Vec<(&'static str, f64)> {
-        self.solver.stage_seconds()
-    }
-
-    fn reached(&self) -> (f64, u64) {
-        (self.solver.time(), self.solver.steps())
+    fn solver(&self) -> &Self::Solver {
+        &self.solver
     }
 
     fn clock(&self) -> Clock {

@@ -55,7 +55,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         has_gas.then_some(Self { ctx, slot, options, inverse_h })
     }
 
-    fn stencil<'b>(&self, inverse_r: &'b [f64]) -> CellRule<'b>
+    fn rule<'b>(&self, inverse_r: &'b [f64]) -> CellRule<'b>
     where
         'a: 'b,
     {
@@ -78,7 +78,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         gas.mixed.clear();
         gas.mixed.collect::<N>(
             &Cells { rows, stride: Padded::<N>::STRIDE },
-            &self.stencil(inverse_r),
+            &self.rule(inverse_r),
             Side::ALL.map(|side| self.outer(side)),
             (!self.ctx.marks.is_empty()).then_some(&gas.is_marked),
         );
@@ -134,7 +134,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         gas: &mut GasScratch,
         faces: &mut FaceRows,
     ) {
-        gas.mixed.solve_faces::<N>(axis, cells, &self.stencil(inverse_r), faces);
+        gas.mixed.solve_faces::<N>(axis, cells, &self.rule(inverse_r), faces);
     }
 
     /// Makes the gas's mass fluxes from those of the mass, which must be final.
@@ -169,7 +169,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             [old_gas, new_gas],
             faces,
             metric,
-            &self.stencil(inverse_r),
+            &self.rule(inverse_r),
             &mut rows,
             speeds,
             &mut gas.marked,

@@ -13,8 +13,7 @@ use super::windows::{LANES, Window, lanes, windows};
 use crate::boundary::beside;
 use crate::clips::Clips;
 use crate::exact_rows::{ListedFaces, exact_fluxes};
-use crate::face_rows::used_face;
-use crate::face_rows::{FaceRows, set_face};
+use crate::face_rows::{FaceRows, set_face, used_face};
 use crate::hllc::Face;
 use crate::reconstruction::Reconstruction;
 
@@ -108,13 +107,13 @@ impl MixedCells {
     pub fn collect<const N: usize>(
         &mut self,
         cells: &Cells<'_>,
-        stencil: &CellRule<'_>,
+        rule: &CellRule<'_>,
         outer: [Outer; 4],
         is_marked: Option<&[bool]>,
     ) {
         self.windows.clear();
         self.mixed.clear();
-        if !find_interface(cells, stencil.mixture, &mut self.kinds) && is_marked.is_none() {
+        if !find_interface(cells, rule.mixture, &mut self.kinds) && is_marked.is_none() {
             return;
         }
         if let Some(is_marked) = is_marked {
@@ -146,7 +145,7 @@ impl MixedCells {
             lanes(window.listed).for_each(|lane| self.list(window.cell(lane), first + lane));
         }
         self.windows = windows;
-        face_states(cells, &self.windows, stencil, &mut self.states);
+        face_states(cells, &self.windows, rule, &mut self.states);
         self.count_bounded(own_windows, is_marked);
         if let Some(is_marked) = is_marked {
             for (k, place) in self.cells.iter().filter(|(k, _)| is_marked[*k]) {
@@ -192,20 +191,20 @@ impl MixedCells {
         &mut self,
         axis: usize,
         cells: &Reconstruction<'_>,
-        stencil: &CellRule<'_>,
+        rule: &CellRule<'_>,
         faces: &mut FaceRows,
     ) {
         if axis == 0 {
-            self.solve_along::<N, 0>(cells, stencil, faces);
+            self.solve_along::<N, 0>(cells, rule, faces);
         } else {
-            self.solve_along::<N, 1>(cells, stencil, faces);
+            self.solve_along::<N, 1>(cells, rule, faces);
         }
     }
 
     fn solve_along<const N: usize, const AXIS: usize>(
         &mut self,
         cells: &Reconstruction<'_>,
-        stencil: &CellRule<'_>,
+        rule: &CellRule<'_>,
         faces: &mut FaceRows,
     ) {
         let step = if AXIS == 0 { 1 } else { Padded::<N>::STRIDE };
@@ -223,8 +222,8 @@ impl MixedCells {
         let shares = &mut self.shares[AXIS];
         let fluxes = faces.fluxes_mut();
         let states = &self.states;
-        let mut listed = Along::<AXIS> { states, cells, stencil, step, shares, fluxes, emptied: 0 };
-        exact_fluxes(&problems, &mut listed, stencil.mixture);
+        let mut listed = Along::<AXIS> { states, cells, rule, step, shares, fluxes, emptied: 0 };
+        exact_fluxes(&problems, &mut listed, rule.mixture);
         self.clips.emptied_faces += listed.emptied;
         self.problems = problems;
     }
@@ -243,7 +242,7 @@ struct Along<'a, const AXIS: usize> {
     states: &'a FaceStates,
     /// The other cells.
     cells: &'a Reconstruction<'a>,
-    stencil: &'a CellRule<'a>,
+    rule: &'a CellRule<'a>,
     step: usize,
     shares: &'a mut Vec<(usize, f64)>,
     fluxes: [&'a mut [f64]; 6],
@@ -272,7 +271,7 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
 
     #[inline(always)]
     fn star_fraction(&self, p: f64, phi: f64, compression: f64) -> f64 {
-        let CellRule { mixture, options, .. } = self.stencil;
+        let CellRule { mixture, options, .. } = self.rule;
         let behind = Compression::at(p, phi, mixture, options.has_closure).star_fraction(phi, compression);
         if is_mixed(phi) { behind } else { phi }
     }

@@ -47,19 +47,19 @@ pub(crate) struct CellRule<'a> {
 pub(crate) fn face_states(
     cells: &Cells<'_>,
     windows: &[Window],
-    stencil: &CellRule<'_>,
+    rule: &CellRule<'_>,
     states: &mut FaceStates,
 ) {
     let mc = |a, b| Limiter::Mc.difference(a, b);
     let minmod = |a, b| Limiter::Minmod.difference(a, b);
     let eno = |a, b| Limiter::Eno.difference(a, b);
     let none = |a, b| Limiter::None.difference(a, b);
-    match (stencil.limiter, stencil.options.fraction_limiter(stencil.limiter)) {
-        (Limiter::Mc, _) => states_of(mc, mc, cells, windows, stencil, states),
-        (Limiter::Minmod, Limiter::Mc) => states_of(minmod, mc, cells, windows, stencil, states),
-        (Limiter::Minmod, _) => states_of(minmod, minmod, cells, windows, stencil, states),
-        (Limiter::Eno, _) => states_of(eno, eno, cells, windows, stencil, states),
-        (Limiter::None, _) => states_of(none, none, cells, windows, stencil, states),
+    match (rule.limiter, rule.options.fraction_limiter(rule.limiter)) {
+        (Limiter::Mc, _) => states_of(mc, mc, cells, windows, rule, states),
+        (Limiter::Minmod, Limiter::Mc) => states_of(minmod, mc, cells, windows, rule, states),
+        (Limiter::Minmod, _) => states_of(minmod, minmod, cells, windows, rule, states),
+        (Limiter::Eno, _) => states_of(eno, eno, cells, windows, rule, states),
+        (Limiter::None, _) => states_of(none, none, cells, windows, rule, states),
     }
 }
 
@@ -69,11 +69,11 @@ fn states_of(
     limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
     windows: &[Window],
-    stencil: &CellRule<'_>,
+    rule: &CellRule<'_>,
     states: &mut FaceStates,
 ) {
     for (window, (faces, bounded)) in windows.iter().zip(states.of_windows(windows.len())) {
-        *bounded = window_states(limit, limit_fraction, cells, *window, stencil, faces);
+        *bounded = window_states(limit, limit_fraction, cells, *window, rule, faces);
     }
 }
 
@@ -83,7 +83,7 @@ fn window_states(
     limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
     cells: &Cells<'_>,
     at: Window,
-    stencil: &CellRule<'_>,
+    rule: &CellRule<'_>,
     faces: &mut [[Lane; 6]; 4],
 ) -> Bounded {
     let w = phases(cells, at, 0, [&[0.0; LANES]; 2]);
@@ -103,11 +103,11 @@ fn window_states(
             differences[PHI][k] = limit_fraction(w[PHI][k] - below[PHI][k], above[PHI][k] - w[PHI][k]);
         }
     }
-    let mut half = half_step(&w, &differences, &at.load(stencil.inverse_r, 0), stencil);
+    let mut half = half_step(&w, &differences, &at.load(rule.inverse_r, 0), rule);
     let mut shares = [1.0; LANES];
-    if !stencil.options.has_closure {
+    if !rule.options.has_closure {
         for (lane, k) in lanes(at.listed).zip(at.cells()) {
-            shares[lane] = kept_share(cells, k, stencil);
+            shares[lane] = kept_share(cells, k, rule);
         }
         for k in 0..LANES {
             for c in 0..6 {
@@ -126,9 +126,9 @@ fn window_states(
             }
         }
     }
-    if stencil.options.is_sharp {
-        let normals = normals(&around, stencil.inverse_h);
-        sharpen(&w, &around, &normals, stencil.inverse_h.map(|inverse_h| stencil.dt * inverse_h), &mut ends);
+    if rule.options.is_sharp {
+        let normals = normals(&around, rule.inverse_h);
+        sharpen(&w, &around, &normals, rule.inverse_h.map(|inverse_h| rule.dt * inverse_h), &mut ends);
     }
     let mut is_bounded = [[0; LANES]; 3];
     for (phases, face) in ends.as_flattened().iter().zip(faces) {
@@ -163,9 +163,9 @@ fn phases(cells: &Cells<'_>, at: Window, by: isize, else_densities: [&Lane; 2]) 
 }
 
 #[inline(always)]
-fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, stencil: &CellRule<'_>) -> Phases {
-    let [inverse_hz, inverse_hr] = stencil.inverse_h;
-    let half_dt = 0.5 * stencil.dt;
+fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, rule: &CellRule<'_>) -> Phases {
+    let [inverse_hz, inverse_hr] = rule.inverse_h;
+    let half_dt = 0.5 * rule.dt;
     let mut half = ZERO;
     for k in 0..LANES {
         let of = |rows: &Phases| [rows[0][k], rows[1][k], rows[2][k], rows[3][k], rows[4][k], rows[5][k]];
@@ -175,7 +175,7 @@ fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, stencil: &C
         let cell = of(w);
         let (d_z, d_r) = (per_width(of(s_z), inverse_hz), per_width(of(s_r), inverse_hr));
         let phi = cell[PHI];
-        let c = Compression::at(cell[PRESSURE], phi, stencil.mixture, stencil.options.has_closure);
+        let c = Compression::at(cell[PRESSURE], phi, rule.mixture, rule.options.has_closure);
         let per_rho = 1.0 / (phi * cell[RHO_G] + (1.0 - phi) * cell[RHO_L]);
         let divergence = d_z[V_Z] + d_r[V_R] + cell[V_R] * inverse_r[k];
         let source = [
@@ -287,28 +287,21 @@ fn admissible(phases: &Phases, w: &Phases, face: &mut [Lane; 6], is_bounded: &mu
 
 /// The share of its slopes that a cell keeps. Without the closure a mixed cell is nearly as stiff as liquid, and face
 /// states of gas would let round-off grow, see [`crate::rows::half_step`]; with it the cell gives way.
-fn kept_share(cells: &Cells<'_>, k: usize, stencil: &CellRule<'_>) -> f64 {
-    if stencil.options.has_closure {
+fn kept_share(cells: &Cells<'_>, k: usize, rule: &CellRule<'_>) -> f64 {
+    if rule.options.has_closure {
         return 1.0;
     }
     let [w, west, east, south, north] =
         [k, k - 1, k + 1, k - cells.stride, k + cells.stride].map(|k| cells.mean(k).w);
-    let fraction_limiter = stencil.options.fraction_limiter(stencil.limiter);
+    let fraction_limiter = rule.options.fraction_limiter(rule.limiter);
     let limited = |below: [f64; 5], above: [f64; 5]| -> [f64; 5] {
-        let limiter = |c: usize| if c == 4 { fraction_limiter } else { stencil.limiter };
+        let limiter = |c: usize| if c == 4 { fraction_limiter } else { rule.limiter };
         std::array::from_fn(|c| limiter(c).difference(w[c] - below[c], above[c] - w[c]))
     };
     let (s_z, s_r) = (limited(west, east), limited(south, north));
-    let half_dt = 0.5 * stencil.dt;
-    let (_, share) = crate::rows::half_step(
-        w,
-        s_z,
-        s_r,
-        stencil.inverse_h,
-        stencil.inverse_r[k],
-        half_dt,
-        stencil.mixture,
-    );
+    let half_dt = 0.5 * rule.dt;
+    let (_, share) =
+        crate::rows::half_step(w, s_z, s_r, rule.inverse_h, rule.inverse_r[k], half_dt, rule.mixture);
     share
 }
 

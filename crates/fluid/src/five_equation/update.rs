@@ -152,12 +152,12 @@ pub(crate) fn update_mixed<const N: usize>(
     gas: [&[f64]; 2],
     faces: [&FaceRows; 2],
     metric: &Metric<'_>,
-    stencil: &CellRule<'_>,
+    rule: &CellRule<'_>,
     new: &mut [&mut [f64]; COUNT],
     speeds: &mut [&mut [f64]; 3],
     marked: &mut Vec<usize>,
 ) -> u64 {
-    let CellRule { mixture, options, dt, .. } = *stencil;
+    let CellRule { mixture, options, dt, .. } = *rule;
     marked.clear();
     let mut clipped = 0;
     let faces = faces.map(FaceRows::fluxes);

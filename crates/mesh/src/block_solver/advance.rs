@@ -48,7 +48,8 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// - errors: as [`BlockSolver::step`].
     pub fn run(&mut self, step: GroupStep, part: Part) -> Result<(), M::Error> {
         let Self { model, mesh, state, next, levels, reports, interface, workers, progress, .. } = self;
-        let (clock, target, register) = levels.target(step.group, next);
+        let (clock, target, registers) = levels.target(step.group, next);
+        let register = registers.own_mut();
         let (time, dt, marks) = (progress.time, step.dt, &NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, marks, time, dt };
         let in_group = |slot: usize| clock.group_of(mesh, slot) == step.group;
@@ -58,8 +59,11 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             *report = workers.with(|worker| worker.step_block(&context, slot, new, fluxes));
         });
         // A cell that falls back changes what its neighbours get: first all parts must be there.
-        if part != Part::AwayFromInterface {
+        let is_whole = part != Part::AwayFromInterface;
+        if M::RETRIES && is_whole {
             context.retry(target, register, pending, in_group, workers);
+        }
+        if !M::RETRIES || is_whole {
             check(model, mesh, target, pending, (progress.time + step.dt, progress.steps + 1))?;
         }
         let due = (0..mesh.blocks()).filter(|slot| is_due(*slot)).count();
@@ -104,7 +108,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Corrects the cells of a group along finer neighbours.
     fn correct(&mut self, group: usize) -> Result<(), M::Error> {
         let Self { model, mesh, state, next, levels, reports, interface, progress, .. } = self;
-        let (clock, target, registers) = levels.corrected(group, next);
+        let (clock, target, registers) = levels.target(group, next);
         let (time, dt, marks) = (progress.time, clock.length(group), &NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, marks, time, dt };
         let is_due = |slot: usize| clock.group_of(mesh, slot) == group && FluxRegister::is_due(mesh, slot);

@@ -147,7 +147,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         &self.next
     }
 
-    /// The state and the physics, to put something else into cells; for tests and studies.
+    /// The components of all blocks, to put something else into cells; for tests and studies.
     pub fn state_mut(&mut self) -> &mut Field {
         &mut self.state
     }
@@ -208,7 +208,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     }
 
     /// Whether a block belongs to the levels that make a step.
-    pub fn steps_in(&self, step: GroupStep, slot: usize) -> bool {
+    pub fn makes(&self, step: GroupStep, slot: usize) -> bool {
         self.clock().group_of(&self.mesh, slot) == step.group
     }
 

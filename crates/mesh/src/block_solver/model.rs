@@ -15,6 +15,8 @@ pub type Marks = BTreeMap<usize, Vec<usize>>;
 /// `N` is the number of cells along a block's side. Everything that is about levels, time, storage and threads is the solver's;
 /// what is asked here is about one block at a time, from whatever thread.
 pub trait Model<const N: usize>: Sized + Sync {
+    /// What messages call it.
+    const NAME: &'static str;
     /// The side of the domain beyond which the other medium is, if there is one.
     const INTERFACE: Side;
     /// Numbers that are registered of each face between levels.
@@ -69,7 +71,9 @@ pub trait Model<const N: usize>: Sized + Sync {
     fn inadmissible_cell(&self, report: &Self::Report, block: &[f64]) -> Option<usize>;
     /// That a cell of a block is not, and where.
     fn error(&self, block: &[f64], cell: usize, place: Place) -> Self::Error;
-    /// Cells of a block that should make their step again at first order.
+    /// Whether cells may make their step again at first order. Cells of a model without are looked at as soon as they are made.
+    const RETRIES: bool = false;
+    /// Cells of a block that should.
     fn cells_to_redo(&self, _report: &Self::Report, _block: &[f64]) -> Vec<usize> {
         Vec::new()
     }

@@ -73,10 +73,10 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let mesh = self.mesh.restored(leaves.into_owned(), generation)?;
         let blocks = mesh.blocks();
         if !state.has_shape(blocks, N * N, self.state.components()) {
-            return Err(Misfit(format!("the cells are not those of {blocks} blocks")));
+            return Err(Misfit(format!("the {}'s cells are not those of {blocks} blocks", M::NAME)));
         }
         if [finished.len(), pending.len()] != [blocks; 2] {
-            return Err(Misfit(format!("not every one of {blocks} blocks has a report")));
+            return Err(Misfit(format!("not every one of the {}'s {blocks} blocks has a report", M::NAME)));
         }
         self.mesh = mesh;
         self.interface.index(&self.mesh);

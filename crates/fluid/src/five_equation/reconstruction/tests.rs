@@ -16,7 +16,7 @@ fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState
     let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
     let inverse_r = [0.0; 5 * STRIDE];
     let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
-    let stencil = CellRule {
+    let rule = CellRule {
         limiter: Limiter::Mc,
         inverse_h: [1e4, 1e4],
         inverse_r: &inverse_r,
@@ -25,7 +25,7 @@ fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState
         options,
     };
     let mut states = FaceStates::default();
-    face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &stencil, &mut states);
+    face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &rule, &mut states);
     [0, 1, 2, 3].map(|face| states.of(0, face))
 }
 
@@ -63,7 +63,7 @@ fn what_is_bounded_is_told() {
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
-        let stencil = CellRule {
+        let rule = CellRule {
             limiter: Limiter::None,
             inverse_h: [1e4, 1e4],
             inverse_r: &[0.0; 5 * STRIDE],
@@ -73,7 +73,7 @@ fn what_is_bounded_is_told() {
         };
         let mut states = FaceStates::default();
         let window = Window { first: 2 * STRIDE + 2, step: 1, listed: 1 };
-        face_states(&cells, &[window], &stencil, &mut states);
+        face_states(&cells, &[window], &rule, &mut states);
         states.bounded()[0].map(|lanes| lanes & 1)
     };
     let of =
