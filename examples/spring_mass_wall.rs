@@ -10,9 +10,9 @@ use std::error::Error;
 use std::path::Path;
 
 use cav::case::Case;
-use cav::run::fluid_side::{FluidSide, Turn};
-use cav::run::run_side::RunSide;
-use cav::run::stop::Stop;
+use cav::run::process::stop::Stop;
+use cav::run::side::RunSide;
+use cav::run::side::fluid_side::{FluidSide, Turn};
 use coupler::{
     Endpoint, FluidStep, Participant, ProcessLink, WallMeans, WallParticipant, direct_pair,
     fluid_at_moving_wall,

@@ -6,10 +6,10 @@
 
 use cav::case::Case;
 use cav::run::RunError;
-use cav::run::fluid_side::{FluidSide, Turn};
-use cav::run::run_side::RunSide as _;
-use cav::run::solid_side::SolidSide;
-use cav::run::stop::Stop;
+use cav::run::process::stop::Stop;
+use cav::run::side::RunSide as _;
+use cav::run::side::fluid_side::{FluidSide, Turn};
+use cav::run::side::solid_side::SolidSide;
 use coupler::{
     CouplerError, DirectLink, Expected, FlowParticipant, FlowTrace, Frame, FrameHeader, InterfaceStar, Link,
     LinkCounters, TraceRow, WallParticipant, direct_pair, fluid_at_moving_wall,

@@ -9,10 +9,10 @@ use std::time::Duration;
 
 use crate::case::{Case, CaseErrors, materials_table, report};
 use crate::output::run_directory::LOG;
-use crate::run::drive::Joining;
-use crate::run::launch::run_side;
-use crate::run::launch_options::Options;
-use crate::run::stop::Stop;
+use crate::run::process::drive::Joining;
+use crate::run::process::launch::run_side;
+use crate::run::process::launch_options::Options;
+use crate::run::process::stop::Stop;
 use crate::run::{RunError, resume, run};
 use clap::{Args, Parser, Subcommand};
 use coupler::Participant;

@@ -6,10 +6,10 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use cav::case::Case;
-use cav::run::fluid_side::{FluidSide, Turn};
-use cav::run::run_side::RunSide;
-use cav::run::solid_side::SolidSide;
-use cav::run::stop::Stop;
+use cav::run::process::stop::Stop;
+use cav::run::side::RunSide;
+use cav::run::side::fluid_side::{FluidSide, Turn};
+use cav::run::side::solid_side::SolidSide;
 use coupler::direct_pair;
 
 /// Counts allocations of at least [`SIZE`] bytes.

@@ -13,14 +13,14 @@ use coupler::Participant;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::RunError;
-use super::fluid_side::saved::FluidSideState;
-use super::solid_side::saved::SolidSideState;
 use crate::case::Case;
 use crate::output::checkpoint::{self, CheckpointFault, Head};
 use crate::output::run_directory::CHECKPOINTS;
 use crate::output::safe_file::TEMPORARY_SUFFIX;
 use crate::output::{OutputError, RunDirectory};
+use crate::run::RunError;
+use crate::run::side::fluid_side::saved::FluidSideState;
+use crate::run::side::solid_side::saved::SolidSideState;
 
 /// How often, if nothing else is said.
 pub const DEFAULT_INTERVAL: Duration = Duration::from_secs(300);

@@ -1,7 +1,7 @@
 //! Whether a grid that grows still has room in memory.
 
-use super::RunError;
 use crate::case::{Memory, available_memory};
+use crate::run::RunError;
 
 /// Looks again when a grid has grown by this.
 const GROWTH: f64 = 1.1;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use cav::case::Case;
-use cav::run::collapse::CollapseFinder;
+use cav::run::record::collapse::CollapseFinder;
 
 use crate::harness::Sides;
 

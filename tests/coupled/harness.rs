@@ -1,11 +1,11 @@
 //! Two ways to drive both media: as a run does, from a case; and by hand, from functions of the place.
 
 use cav::case::Case;
-use cav::run::coupled_solver::{self, CoupledSolver, StepRule};
-use cav::run::fluid_side::{FluidSide, Turn};
-use cav::run::run_side::RunSide as _;
-use cav::run::solid_side::SolidSide;
-use cav::run::stop::Stop;
+use cav::run::process::stop::Stop;
+use cav::run::side::RunSide as _;
+use cav::run::side::coupled_solver::{self, CoupledSolver, StepRule};
+use cav::run::side::fluid_side::{FluidSide, Turn};
+use cav::run::side::solid_side::SolidSide;
 use coupler::{
     DirectLink, Link as _, LinkCounters, Meeting, Participant, RegisterRow, ShortStep, StarSolver, TraceRow,
     WallRegister, direct_pair,

@@ -1,9 +1,9 @@
 //! The solid alone, against exact solutions: a load on its surface (Lamb's problem), a spherical wave about the axis.
 //! Numbers of the exact solutions: Hankel–Laplace integrals, d'Alembert; the whole tables are scripts/reference_tables.py's.
 
-use cav::run::fluid_side::Turn;
-use cav::run::session::{Session, Solvers};
-use cav::run::stop::Stop;
+use cav::run::process::session::{Session, Solvers};
+use cav::run::process::stop::Stop;
+use cav::run::side::fluid_side::Turn;
 use solid::ElasticState;
 
 use crate::harness::{STEEL, case};

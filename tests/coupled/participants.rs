@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use cav::run::fluid_side::Turn;
-use cav::run::run_side::RunSide as _;
-use cav::run::session::{Session, Solvers};
-use cav::run::solid_side::SolidSide;
-use cav::run::stop::Stop;
+use cav::run::process::session::{Session, Solvers};
+use cav::run::process::stop::Stop;
+use cav::run::side::RunSide as _;
+use cav::run::side::fluid_side::Turn;
+use cav::run::side::solid_side::SolidSide;
 use coupler::{FlowParticipant, FlowTrace, direct_pair};
 
 use crate::harness::{case, solid_cells};

@@ -7,11 +7,11 @@ use std::time::Duration;
 use cav::case::Case;
 use cav::output::RunDirectory;
 use cav::run::checkpoints::Checkpoints;
-use cav::run::conclusion::conclude;
-use cav::run::drive::{Keeping, in_process};
-use cav::run::fluid_side::Turn;
-use cav::run::session::{Session, Solvers};
-use cav::run::stop::Stop;
+use cav::run::process::drive::{Keeping, in_process};
+use cav::run::process::session::{Session, Solvers};
+use cav::run::process::stop::Stop;
+use cav::run::record::conclusion::conclude;
+use cav::run::side::fluid_side::Turn;
 
 use crate::cases::{COUPLED, LOADED, SECOND_BUBBLE, SOLID, fluid_alone};
 use crate::compare::{assert_same, datasets};

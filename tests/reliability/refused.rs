@@ -6,10 +6,10 @@ use std::process::Output;
 use std::time::Duration;
 
 use cav::case::Case;
-use cav::run::launch::prepare;
-use cav::run::launch_options::Options;
-use cav::run::session::{Session, Solvers};
-use cav::run::stop::Stop;
+use cav::run::process::launch::prepare;
+use cav::run::process::launch_options::Options;
+use cav::run::process::session::{Session, Solvers};
+use cav::run::process::stop::Stop;
 use sha2::{Digest, Sha256};
 
 use crate::cases::COUPLED;

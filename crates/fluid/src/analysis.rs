@@ -2,9 +2,9 @@
 
 use mesh::{MOST_COMPONENTS, Multiresolution, Side};
 
-use crate::five_equation::is_mixed;
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
 use crate::state::primitive;
+use crate::two_phase::is_mixed;
 use crate::{Boundary, Mixture, Primitive};
 
 /// Reference values of the thresholds of adaptation.

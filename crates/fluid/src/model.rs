@@ -7,15 +7,15 @@ use mesh::{
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
-use crate::bubbles::follow_sources;
-use crate::clips::{CountedAnalysis, SharedCount};
-use crate::far_field::{SideImpulses, SourceHistory};
+use crate::boundary::far_field::{SideImpulses, SourceHistory};
+use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
-use crate::reflux::{self, QUANTITIES};
-use crate::report::BlockReport;
 use crate::state::conserved::{COUNT, GAS, PHI};
+use crate::step::clips::{CountedAnalysis, SharedCount};
+use crate::step::reflux::{self, QUANTITIES};
+use crate::step::report::BlockReport;
+use crate::step::update::Extremes;
 use crate::step::{BlockScratch, STAGES, step_block};
-use crate::update::Extremes;
 use crate::{Boundary, BoundaryLedger, Fixups, FluidError, Primitive};
 
 /// What of a fluid changes in time besides its cells.

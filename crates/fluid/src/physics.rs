@@ -4,10 +4,10 @@ use mesh::{Limiter, Mesh, Step};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
-use crate::clips::SharedCount;
-use crate::dispersion::Dispersion;
-use crate::far_field::{Moment, SideImpulses, SourceHistory};
+use crate::boundary::far_field::{Moment, SideImpulses, SourceHistory};
 use crate::options::TwoPhaseOptions;
+use crate::reconstruction::dispersion::Dispersion;
+use crate::step::clips::SharedCount;
 use crate::{BoundaryLedger, Fixups, Mixture, RiemannSolver};
 
 /// A fluid of two phases: what its cells obey, and what bounds them.

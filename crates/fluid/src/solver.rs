@@ -6,15 +6,15 @@ use mesh::{BlockSolver, Domain, SavedBlocks, Side, SideStates};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
-use crate::bubbles::follow_sources;
+use crate::diagnostics::bubbles::follow_sources;
 use crate::model::FluidMemory;
 use crate::options::TwoPhaseOptions;
 use crate::physics::{Fluid, Scheme, Tally};
-use crate::report::BlockReport;
 use crate::setup::{AsksForFiner, InitialState};
 use crate::state::Contents;
 use crate::state::conserved::COUNT;
 use crate::step::BlockScratch;
+use crate::step::report::BlockReport;
 use crate::{
     Boundary, BoundaryLedger, Fixups, FluidError, FluidSetup, InitialCondition, Mixture, Primitive,
     RayleighField,
@@ -40,9 +40,9 @@ impl<const N: usize> FluidSolver<N> {
         Self::with(
             setup,
             &|centre, widths| {
-                crate::fill::average(initial, field.as_ref(), geometry, &mixture, centre, widths)
+                crate::initial::fill::average(initial, field.as_ref(), geometry, &mixture, centre, widths)
             },
-            &|low, high, widths| crate::fill::asks_for_finer(initial, low, high, widths),
+            &|low, high, widths| crate::initial::fill::asks_for_finer(initial, low, high, widths),
         )
     }
 
@@ -75,7 +75,7 @@ impl<const N: usize> FluidSolver<N> {
         let has_phases = components > COUNT;
         let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales, has_phases };
         let (mesh, state) =
-            crate::initial_mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
+            crate::initial::mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
         let sides = SideStates::new(&mesh, |centre, widths| {
             let Contents { state, gas } = initial(centre, widths);

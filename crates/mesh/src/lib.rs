@@ -16,65 +16,41 @@
 
 #![forbid(unsafe_code)]
 
-mod adaptation;
-mod ahead;
-mod aligned;
 pub mod array;
 mod block_solver;
 mod cell_fields;
-mod courant;
-mod details;
-mod dispersion;
-mod domain;
-mod field;
-mod geometry;
 mod ghosts;
-mod horizon;
-mod initial;
-mod level_clock;
-mod level_steps;
-mod limiter;
-mod marks;
+mod kernels;
 mod multiresolution;
-mod padded;
-mod parallel;
-mod patch;
-mod project;
-mod quadtree;
-mod radial;
-mod reduce;
-mod register;
-mod remap;
-mod side_faces;
-mod side_states;
-mod stage_timer;
+mod subcycling;
+mod tree;
 
-pub use adaptation::{Adaptation, LevelBound, Zone};
-pub use aligned::{AlignedRow, whole_lines};
+pub use block_solver::stage_timer::StageTimer;
 pub use block_solver::{
     BlockSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks, Step,
 };
 pub use cell_fields::CellField;
-pub use courant::longest_step;
-pub use dispersion::{dispersion_share, oblique_dispersion_shares};
-pub use domain::{Domain, Mesh, MeshError, Misfit};
-pub use field::Field;
-pub use geometry::{Geometry, Side};
-pub use horizon::Horizon;
-pub use level_clock::{GroupStep, LevelClock, steps_in};
-pub use level_steps::{FinerSide, LevelSteps, MOST_HALVINGS, Part, Registers};
-pub use limiter::{Limiter, limited_differences};
+pub use ghosts::padded::{GHOSTS, Padded};
+pub use ghosts::side_faces::SideFaces;
+pub use ghosts::side_states::SideStates;
+pub use kernels::aligned::{AlignedRow, whole_lines};
+pub use kernels::dispersion::{dispersion_share, oblique_dispersion_shares};
+pub use kernels::limiter::{Limiter, limited_differences};
+pub use kernels::parallel::{ScratchPool, for_each_block, for_some_blocks};
+pub use kernels::reduce::maximum;
+pub use multiresolution::adaptation::{Adaptation, LevelBound, Zone};
+pub use multiresolution::horizon::Horizon;
+pub use multiresolution::patch::Patch;
+pub use multiresolution::remap::{Adapted, Origin};
 pub use multiresolution::{MOST_COMPONENTS, Multiresolution};
-pub use padded::{GHOSTS, Padded};
-pub use parallel::{ScratchPool, for_each_block, for_some_blocks};
-pub use patch::Patch;
-pub use quadtree::{BlockId, Neighbour, Offset, Quadtree};
-pub use reduce::maximum;
-pub use register::{CorrectedFace, FluxRegister};
-pub use remap::{Adapted, Origin};
-pub use side_faces::SideFaces;
-pub use side_states::SideStates;
-pub use stage_timer::StageTimer;
+pub use subcycling::courant::longest_step;
+pub use subcycling::level_clock::{GroupStep, LevelClock, steps_in};
+pub use subcycling::level_steps::{FinerSide, LevelSteps, MOST_HALVINGS, Part, Registers};
+pub use subcycling::register::{CorrectedFace, FluxRegister};
+pub use tree::domain::{Domain, Mesh, MeshError, Misfit};
+pub use tree::field::Field;
+pub use tree::geometry::{Geometry, Side};
+pub use tree::quadtree::{BlockId, Neighbour, Offset, Quadtree};
 
 /// Cells along one side of a block, unless a test chooses otherwise.
 pub const BLOCK: usize = 16;

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
-use cav::run::launch::thread_pool;
+use cav::run::process::launch::thread_pool;
 use cav::run::setup::{fluid_solver, solid_solver};
 use coupler::{
     FluidTrace, SolidTrace, fluid_at_moving_wall, fluid_under_pressure, solid_moved, solid_under_pressure,

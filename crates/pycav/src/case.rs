@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use cav::case;
-use cav::run::launch::directory_of;
+use cav::run::process::launch::directory_of;
 use pyo3::prelude::*;
 
 use crate::error::case_error;

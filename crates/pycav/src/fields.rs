@@ -1,6 +1,6 @@
 //! Cells and samples of a solver as arrays, all of them copies.
 
-use cav::run::coupled_solver::CoupledSolver;
+use cav::run::side::coupled_solver::CoupledSolver;
 use mesh::{BLOCK, Mesh};
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyReadonlyArray1};

@@ -6,9 +6,9 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 use cav::run::checkpoints::DEFAULT_INTERVAL;
-use cav::run::launch::run;
-use cav::run::launch_options::Options;
-use cav::run::stop::Stop;
+use cav::run::process::launch::run;
+use cav::run::process::launch_options::Options;
+use cav::run::process::stop::Stop;
 use pyo3::prelude::*;
 
 use crate::case::Case;

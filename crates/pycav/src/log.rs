@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use cav::case::Case;
 use cav::output::run_directory::LOG;
 use cav::run::RunError;
-use cav::run::launch::log_case;
+use cav::run::process::launch::log_case;
 use tracing::Level;
 use tracing::dispatcher::{self, DefaultGuard, Dispatch};
 

@@ -3,11 +3,11 @@
 use mesh::{FinerSide, Interface, Mesh, Misfit, Model, Place, Side, StageTimer};
 use serde::{Deserialize, Serialize};
 
-use crate::absorbing::SideFilters;
 use crate::analysis::Analysis;
+use crate::boundary::absorbing::SideFilters;
 use crate::physics::{Solid, SolidStep};
-use crate::reflux::{self, QUANTITIES};
-use crate::report::{BlockReport, report_stresses};
+use crate::step::reflux::{self, QUANTITIES};
+use crate::step::report::{BlockReport, report_stresses};
 use crate::step::{BlockScratch, STAGES, step_block};
 use crate::{Boundary, BoundaryLedger, SolidError};
 

@@ -2,10 +2,10 @@
 
 use mesh::Step;
 
-use crate::absorbing::SideMemory;
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
-use crate::rows::Elasticity;
+use crate::boundary::absorbing::SideMemory;
+use crate::step::rows::Elasticity;
 use crate::{BoundaryLedger, SolidSetup};
 
 /// An elastic solid: what its cells obey, and what bounds them.

@@ -4,14 +4,14 @@ use std::ops::{Deref, DerefMut};
 
 use mesh::{BlockSolver, SavedBlocks, SideStates};
 
-use crate::absorbing::SideMemory;
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
+use crate::boundary::absorbing::SideMemory;
 use crate::model::SolidMemory;
 use crate::physics::Solid;
-use crate::report::BlockReport;
-use crate::rows::Elasticity;
 use crate::step::BlockScratch;
+use crate::step::report::BlockReport;
+use crate::step::rows::Elasticity;
 use crate::{BoundaryLedger, ElasticState, SolidError, SolidSetup};
 
 /// The solid: a [`BlockSolver`] of elastic waves, which says how it is advanced, adapted, kept and taken up again.

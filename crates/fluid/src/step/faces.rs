@@ -6,13 +6,13 @@ use super::BlockStep;
 use super::scratch::BlockScratch;
 use crate::RiemannSolver;
 use crate::boundary::Boundaries;
-use crate::dispersion::AlongFaces;
-use crate::exact_rows::exact_faces;
-use crate::face_rows::{FaceRows, used_face};
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
-use crate::rows::{self};
+use crate::reconstruction::dispersion::AlongFaces;
+use crate::riemann::exact_rows::exact_faces;
 use crate::state::conserved::COUNT;
+use crate::step::face_rows::{FaceRows, used_face};
+use crate::step::rows::{self};
 
 impl<const N: usize> BlockStep<'_, N> {
     /// Fluxes through all faces: HLLC or exact between pure cells, the mixed cells' own, and those that the state of the wall to

@@ -1,5 +1,12 @@
 //! One MUSCL-Hancock step of one block: the algorithm, stage by stage.
 
+pub(crate) mod clips;
+pub(crate) mod face_rows;
+pub(crate) mod reflux;
+pub(crate) mod report;
+pub(crate) mod rows;
+pub(crate) mod update;
+
 mod faces;
 mod scratch;
 mod stages;
@@ -10,9 +17,9 @@ pub use scratch::BlockScratch;
 pub(crate) use scratch::split_block;
 pub(crate) use stages::reconstruct;
 
-use crate::five_equation::GasBlock;
 use crate::physics::FluidStep;
-use crate::report::BlockReport;
+use crate::step::report::BlockReport;
+use crate::two_phase::GasBlock;
 
 /// The stages of a step, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 
 use mesh::{AlignedRow, Padded, Patch};
 
-use crate::face_rows::FaceRows;
-use crate::five_equation::GasScratch;
 use crate::state::conserved::{COUNT, GAS, PHI};
+use crate::step::face_rows::FaceRows;
+use crate::two_phase::GasScratch;
 
 /// Scratch of one thread.
 pub struct BlockScratch<const N: usize> {

@@ -4,16 +4,16 @@ use mesh::{Padded, Side, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
-use crate::clips::{Clips, CountedAnalysis};
-use crate::even::{even_slopes, predict_beside_mirrors};
-use crate::five_equation::{GasBlock, may_have_gas};
 use crate::physics::FluidStep;
-use crate::predictor::{Predictor, predict};
-use crate::reflux::register_fluxes;
-use crate::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};
-use crate::rows;
+use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
+use crate::reconstruction::predictor::{Predictor, predict};
 use crate::state::conserved::{COUNT, PHI};
-use crate::update::{Extremes, Metric, update};
+use crate::step::clips::{Clips, CountedAnalysis};
+use crate::step::reflux::register_fluxes;
+use crate::step::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};
+use crate::step::rows;
+use crate::step::update::{Extremes, Metric, update};
+use crate::two_phase::{GasBlock, may_have_gas};
 
 /// Assembles a block with its ghosts: primitive variables in `cells`.
 ///

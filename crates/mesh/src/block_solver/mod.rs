@@ -1,5 +1,7 @@
 //! The solver of both media: what it holds, and how it is made and looked at.
 
+pub(crate) mod stage_timer;
+
 mod adapt;
 mod advance;
 mod interface;

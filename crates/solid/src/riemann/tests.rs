@@ -1,7 +1,7 @@
 //! The elastic Riemann problem against its equations.
 
 use super::*;
-use crate::eigen::{Direction, Eigensystem, Vector6};
+use crate::riemann::eigen::{Direction, Eigensystem, Vector6};
 
 const STEEL: WaveSpeeds = WaveSpeeds { density: 7800.0, c1: 5990.0, c2: 3458.0 };
 const PMMA: WaveSpeeds = WaveSpeeds { density: 1190.0, c1: 2690.0, c2: 1340.0 };

@@ -1,5 +1,10 @@
 //! One MUSCL-Hancock step of one block: the algorithm, stage by stage.
 
+pub(crate) mod reflux;
+pub(crate) mod report;
+pub(crate) mod rows;
+pub(crate) mod update;
+
 mod scratch;
 mod stages;
 
@@ -9,7 +14,7 @@ pub use scratch::BlockScratch;
 pub(crate) use stages::reconstruct;
 
 use crate::physics::SolidStep;
-use crate::report::BlockReport;
+use crate::step::report::BlockReport;
 
 /// The stages of a step, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use mesh::{Padded, Patch};
 
-use crate::rows::FaceRows;
 use crate::state::component::COUNT;
+use crate::step::rows::FaceRows;
 
 /// Scratch of one thread.
 pub struct BlockScratch<const N: usize> {

@@ -6,12 +6,12 @@ use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
 use crate::boundary::Boundaries;
 use crate::physics::{Solid, SolidStep};
-use crate::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
-use crate::reflux::register_stars;
-use crate::report::{BlockReport, boundary_inflow, yielded_volume};
-use crate::rows::{self, Elasticity, Reconstruction};
+use crate::reconstruction::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R};
-use crate::update::{Metric, update};
+use crate::step::reflux::register_stars;
+use crate::step::report::{BlockReport, boundary_inflow, yielded_volume};
+use crate::step::rows::{self, Elasticity, Reconstruction};
+use crate::step::update::{Metric, update};
 
 impl Solid {
     /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.

@@ -1,0 +1,227 @@
+//! What bounds the fluid: ghost cells before the slopes, outer states and wall fluxes after them.
+
+pub(crate) mod far_field;
+pub(crate) mod outer_states;
+pub(crate) mod participant;
+pub(crate) mod wall_trace;
+
+use mesh::{Domain, FaceState, Mesh, Padded, Side, SideStates};
+
+use crate::boundary::far_field::{FarField, Inner, SideImpulses, SourceHistory};
+use crate::reconstruction::Reconstruction;
+use crate::riemann::hllc::Face;
+use crate::step::face_rows::FaceRows;
+use crate::{Boundary, Mixture, Primitive, TRACE_GAS};
+
+/// A pressure history, linear between its points and constant beyond them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PressureHistory {
+    points: Vec<[f64; 2]>,
+}
+
+impl PressureHistory {
+    /// From (time s, pressure Pa) points in ascending order of time; `None` if there is none or they descend.
+    pub fn new(points: Vec<[f64; 2]>) -> Option<Self> {
+        let ascending = points.windows(2).all(|w| w[0][0] <= w[1][0]);
+        (!points.is_empty() && ascending).then_some(Self { points })
+    }
+
+    /// Pressure at a time, Pa.
+    pub fn at(&self, time: f64) -> f64 {
+        let after = self.points.partition_point(|p| p[0] <= time);
+        match (after.checked_sub(1).map(|k| self.points[k]), self.points.get(after).copied()) {
+            (Some([t0, p0]), Some([t1, p1])) => p0 + (p1 - p0) * ((time - t0) / (t1 - t0)),
+            (Some([_, p]), None) | (None, Some([_, p])) => p,
+            (None, None) => unreachable!("there is at least one point"),
+        }
+    }
+}
+
+/// The four sides of the domain.
+#[derive(Clone, Debug)]
+pub(crate) struct Boundaries {
+    kinds: [Boundary; 4],
+    /// The initial state in the cells along each side, and the gas's part of its mass.
+    pub(crate) initial: SideStates<(Primitive, f64)>,
+    pub(crate) inflow: Option<PressureHistory>,
+    pub(crate) far_field: Option<FarField>,
+    /// The open sides that have gas beyond them.
+    has_gas_beyond: [bool; 4],
+}
+
+impl Boundaries {
+    pub fn new(
+        kinds: [Boundary; 4],
+        initial: SideStates<(Primitive, f64)>,
+        inflow: Option<PressureHistory>,
+        far_field: Option<FarField>,
+    ) -> Self {
+        let has_gas =
+            |side: Side| initial.along(side).any(|(state, share)| state.phi != 0.0 || *share != 0.0);
+        let has_gas_beyond = Side::ALL.map(|side| kinds[side as usize].is_open() && has_gas(side));
+        Self { kinds, initial, inflow, far_field, has_gas_beyond }
+    }
+
+    /// Whether a block touches an open side of the domain that has gas beyond it.
+    pub fn may_let_gas_in<const N: usize>(&self, mesh: &Mesh<N>, slot: usize) -> bool {
+        Side::ALL.into_iter().any(|side| self.has_gas_beyond[side as usize] && mesh.touches(slot, side))
+    }
+
+    pub fn kind(&self, side: Side) -> Boundary {
+        self.kinds[side as usize]
+    }
+
+    pub fn has_far_field(&self, side: Side) -> bool {
+        self.kind(side) == Boundary::FarField
+    }
+
+    pub fn far_field(&self) -> Option<&FarField> {
+        self.far_field.as_ref()
+    }
+
+    /// What the far field is to know of the bubbles: nothing yet.
+    pub fn source_history(&self, domain: &Domain) -> SourceHistory {
+        let of = |far_field| SourceHistory::new(far_field, domain, self.kinds);
+        self.far_field.as_ref().map_or_else(SourceHistory::default, of)
+    }
+
+    /// The impulses with which the far field begins, such that the faces have the initial state.
+    pub fn initial_impulses<const N: usize>(&self, mesh: &Mesh<N>, mixture: &Mixture) -> SideImpulses {
+        let finest = mesh.tree().finest();
+        SideImpulses::new(
+            mesh,
+            |side| self.has_far_field(side),
+            |side, along, face| {
+                let (Primitive { density, v_z, v_r, pressure, phi }, _) =
+                    *self.initial.at(side, finest, along);
+                let state = Inner([density, v_z, v_r, pressure]);
+                let far_field = self.far_field.as_ref().filter(|_| phi.abs() <= TRACE_GAS);
+                far_field.map_or(0.0, |far_field| far_field.initial_impulse(side, face, state, mixture))
+            },
+        )
+    }
+
+    /// Fills the ghosts of one block beyond the domain, in primitive variables.
+    pub fn fill_ghosts<const N: usize>(&self, mesh: &Mesh<N>, slot: usize, cells: &mut Padded<N>) {
+        // r first: the z sides then find the ghosts beyond r filled and complete the corners.
+        for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+            if !mesh.touches(slot, side) {
+                continue;
+            }
+            for component in 0..cells.components() {
+                let row = cells.component_mut(component);
+                match self.kind(side) {
+                    Boundary::Axis | Boundary::Wall => {
+                        Padded::<N>::reflect(row, side, if component == normal(side) { -1.0 } else { 1.0 });
+                    }
+                    Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow | Boundary::Interface => {
+                        Padded::<N>::extrapolate(row, side)
+                    }
+                    Boundary::Periodic => unreachable!("a periodic side has neighbours"),
+                }
+            }
+        }
+    }
+
+    /// The gas's part of the mass that open sides hold outside; `None` at other sides.
+    pub fn initial_gas_share<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        side: Side,
+        along: usize,
+    ) -> Option<f64> {
+        let id = mesh.tree().leaves()[slot];
+        let first = id.first_face::<N>(side);
+        self.kind(side).is_open().then(|| self.initial.at(side, id.level, first + along).1)
+    }
+
+    /// Replaces the fluxes through the wall between fluid and solid by those that the wall's state makes.
+    ///
+    /// On the fixed mesh the wall's motion carries fluid through the face: mass ρ*v*, momentum p* + ρ*v*²,
+    /// energy (1 + β₁) p*v* + β₂ v* + ½ρ*v*|v|², gas fraction with v*. Without it the liquid would not feel the
+    /// wall give way.
+    ///
+    /// - `wall`: the states of the wall's faces, in the order of r; `first`: the block's first one.
+    pub fn impose_wall<const N: usize>(
+        wall: &[FaceState],
+        cells: &Reconstruction<'_>,
+        mixture: &Mixture,
+        faces: &mut FaceRows,
+    ) {
+        for (j, state) in wall.iter().enumerate() {
+            let inner = Padded::<N>::index(0, j as isize);
+            faces.set(inner - 1, wall_face(cells.face_state(inner, -1.0), *state, mixture));
+        }
+    }
+}
+
+/// The flux through a wall that moves with `wall.velocity`, see [`Boundaries::impose_wall`].
+fn wall_face(trace: [f64; 5], wall: FaceState, mixture: &Mixture) -> Face {
+    let [density, v_n, v_t, pressure, phi] = trace;
+    // As in the trace that the other side got: on the wall the reconstruction may leave the unit interval.
+    let phi = phi.clamp(0.0, 1.0);
+    let at = mixture.at(phi);
+    let fluid = coupler::FluidTrace { pressure, velocity: v_n, density, gamma: at.gamma, pi: at.pi };
+    let star = coupler::star_density(&fluid, wall.pressure);
+    let mass = star * wall.velocity;
+    let kinetic = 0.5 * mass * (wall.velocity * wall.velocity + v_t * v_t);
+    let energy = (1.0 + mixture.beta1(phi)) * wall.power + mixture.beta2(phi) * wall.velocity + kinetic;
+    Face {
+        mass,
+        velocity: wall.velocity,
+        pressure: wall.pressure,
+        shear: mass * v_t,
+        energy,
+        phi,
+        compression: star / density,
+    }
+}
+
+/// Component of the velocity normal to a side: 1 (v_z) or 2 (v_r).
+pub(crate) fn normal(side: Side) -> usize {
+    if matches!(side, Side::ZMin | Side::ZMax) { 1 } else { 2 }
+}
+
+/// The cell next to a side, `along` cells from its beginning, and the ghost beyond.
+pub(crate) fn beside(side: Side, n: usize, along: isize) -> [(isize, isize); 2] {
+    let n = n as isize;
+    match side {
+        Side::ZMin => [(0, along), (-1, along)],
+        Side::ZMax => [(n - 1, along), (n, along)],
+        Side::RMin => [(along, 0), (along, -1)],
+        Side::RMax => [(along, n - 1), (along, n)],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::StiffenedGas;
+
+    #[test]
+    fn a_history_is_linear_between_points_and_constant_beyond() {
+        let history = PressureHistory::new(vec![[0.0, 1e5], [1e-6, 3e5], [2e-6, 3e5], [2e-6, 1e5]]).unwrap();
+        assert_eq!(history.at(-1.0), 1e5);
+        assert_eq!(history.at(0.5e-6), 2e5);
+        assert_eq!(history.at(1.5e-6), 3e5);
+        assert_eq!(history.at(5.0), 1e5);
+        assert!(PressureHistory::new(vec![]).is_none());
+        assert!(PressureHistory::new(vec![[1.0, 0.0], [0.0, 0.0]]).is_none());
+    }
+
+    #[test]
+    fn a_wall_at_rest_passes_pressure_only_and_a_moving_one_the_physical_flux() {
+        let mixture =
+            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let trace = [1000.0, 0.0, 3.0, 5e7, 0.0];
+        let rest = wall_face(trace, FaceState { pressure: 5e7, velocity: 0.0, power: 0.0 }, &mixture);
+        assert_eq!((rest.mass, rest.pressure, rest.energy, rest.shear), (0.0, 5e7, 0.0, 0.0));
+        // A wall that moves with the fluid at its pressure passes the fluid's own flux.
+        let trace = [1000.0, 2.0, 3.0, 5e7, 0.0];
+        let moving = wall_face(trace, FaceState { pressure: 5e7, velocity: 2.0, power: 1e8 }, &mixture);
+        let own = crate::riemann::hllc::flux_hllc(trace, trace, &mixture);
+        approx::assert_relative_eq!(moving.mass, own.mass, max_relative = 1e-14);
+        approx::assert_relative_eq!(moving.energy, own.energy, max_relative = 1e-14);
+    }
+}

@@ -1,0 +1,181 @@
+//! The fluid as one side of the interface: the only place where it meets the coupler.
+
+use coupler::{FluidTrace, TraceRow};
+use mesh::{GroupStep, Padded};
+
+use crate::boundary::wall_trace::Trace;
+use crate::physics::Scheme;
+use crate::step::rows::{half_step, rates};
+use crate::step::{BlockScratch, reconstruct};
+use crate::two_phase::{CellRule, Cells, FaceStates, Window, face_states};
+use crate::{FluidSolver, Mixture, TRACE_GAS};
+
+impl<const N: usize> FluidSolver<N> {
+    /// Writes the traces on the wall at the present time and their rates of change.
+    ///
+    /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the
+    /// predictor uses; at mid-step it is what the face's Riemann problem would see. It is a state on the whole of the step and
+    /// the face: density and p + π stay clear of zero.
+    ///
+    /// - `dt`: the step about to be made: a cell that falls back to first order in it has no slope and no rate.
+    /// - `row`: gives the place to write one [`TraceRow`] of a face.
+    pub fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(dt, |_| true, put);
+    }
+
+    /// [`FluidSolver::write_trace`] for the faces of the levels that are about to make a step.
+    pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
+    }
+
+    fn write_trace_of(
+        &self,
+        dt: f64,
+        is_due: impl Fn(usize) -> bool,
+        mut put: impl FnMut(TraceRow, usize, f64),
+    ) {
+        let context = self.context(dt);
+        let mut scaled = 0;
+        for slot in self.interface().blocks().iter().copied().filter(|slot| is_due(*slot)) {
+            let Some(first) = self.interface().first_face(slot) else { continue };
+            let id = self.mesh().tree().leaves()[slot];
+            let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
+            self.with_scratch(|scratch| {
+                reconstruct(&context, slot, scratch);
+                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = &*scratch;
+                let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);
+                for j in 0..N {
+                    let k = Padded::<N>::index(0, j as isize);
+                    if let Some(state) = at_interface(k) {
+                        put_rows(Trace::steady(state), self.mixture(), first + j, &mut put);
+                        continue;
+                    }
+                    let w: [f64; 5] = std::array::from_fn(|c| cells.component(c)[k]);
+                    let d_z: [f64; 5] = std::array::from_fn(|c| s_z.component(c)[k]);
+                    let d_r: [f64; 5] = std::array::from_fn(|c| s_r.component(c)[k]);
+                    let (_, keep) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, self.mixture());
+                    let slope = d_r.map(|d| keep * d * inverse_h[1]);
+                    let rate = rates(
+                        w,
+                        d_z.map(|d| d * inverse_h[0]),
+                        d_r.map(|d| d * inverse_h[1]),
+                        inverse_r[k],
+                        self.mixture(),
+                    )
+                    .map(|rate| keep * rate);
+                    let mut state: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
+                    let dispersion = context.model.dispersion(context.mesh, dt, id.level, 0);
+                    let more = |c: usize, component: usize| {
+                        let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
+                        let stride = Padded::<N>::STRIDE;
+                        let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
+                        let sound = (self.mixture().bulk_modulus(w[3], w[4]) / w[0]).sqrt();
+                        let speed = w[1].abs() + sound;
+                        keep * dispersion.on_wall(c, [w[3], w[4], d_z[3]], speed, across, along)
+                    };
+                    state[1] += more(0, 1);
+                    state[3] += more(1, 3);
+                    // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
+                    // mixture's β₁ soon has the wrong sign, and γ with it.
+                    let phi = state[4];
+                    state[4] = phi.clamp(0.0, 1.0);
+                    let whole = Trace { state, rate, slope };
+                    let reach = [0.5 * dt, 0.5 / inverse_h[1]];
+                    let trace = whole.admissible(w, reach, self.mixture());
+                    let is_bounded = (phi - state[4]).abs() > TRACE_GAS;
+                    scaled += u64::from(is_bounded || trace != whole);
+                    put_rows(trace, self.mixture(), first + j, &mut put);
+                }
+            });
+        }
+        self.model().tally.scaled_traces.add(scaled);
+    }
+
+    /// The fluid's own states on the wall in the middle of a step of length `dt`, face by face.
+    ///
+    /// - `traces`: overwritten.
+    pub fn traces_at_mid_step(&self, dt: f64, traces: &mut Vec<FluidTrace>) {
+        const NOTHING: FluidTrace =
+            FluidTrace { pressure: 0.0, velocity: 0.0, density: 0.0, gamma: 0.0, pi: 0.0 };
+        traces.clear();
+        traces.resize(self.interface().faces(), NOTHING);
+        if traces.is_empty() {
+            return;
+        }
+        let half = 0.5 * dt;
+        self.write_trace(dt, |row, face, value| {
+            let trace = &mut traces[face];
+            match row {
+                TraceRow::Pressure => trace.pressure += value,
+                TraceRow::PressureRate => trace.pressure += half * value,
+                TraceRow::NormalVelocity => trace.velocity += value,
+                TraceRow::NormalVelocityRate => trace.velocity += half * value,
+                TraceRow::Density => trace.density += value,
+                TraceRow::DensityRate => trace.density += half * value,
+                TraceRow::Gamma => trace.gamma = value,
+                TraceRow::Pi => trace.pi = value,
+                _ => {}
+            }
+        });
+    }
+
+    /// The state at mid-step on the wall's face of a cell that holds both phases; `None` of other cells.
+    fn interface_trace(
+        &self,
+        cells: &Padded<N>,
+        inverse_r: &[f64],
+        inverse_h: [f64; 2],
+        k: usize,
+        dt: f64,
+    ) -> Option<[f64; 5]> {
+        let Scheme { limiter, two_phase, .. } = self.model().scheme;
+        let options = two_phase?;
+        let cells = Cells { rows: cells.split::<6>(), stride: Padded::<N>::STRIDE };
+        let mixture = self.mixture();
+        let rule = CellRule { limiter, inverse_h, inverse_r, dt, mixture, options };
+        cells.is_at_interface(k, mixture).then(|| {
+            let mut states = FaceStates::default();
+            face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &rule, &mut states);
+            states.of(0, 0).w
+        })
+    }
+
+    /// Cell means next to the wall: pressure and normal velocity, face by face; what the paper's schemes exchange.
+    ///
+    /// - `trial`: of the new state of a step that has been run and not finished, in which all levels step alike.
+    pub fn wall_cells(&self, trial: bool, mut put: impl FnMut(usize, f64, f64)) {
+        let state = if trial { self.trial_state() } else { self.state() };
+        for (first, &slot) in self.interface().blocks().iter().enumerate().map(|(k, slot)| (k * N, slot)) {
+            for j in 0..N {
+                let cell = self.cell_of(state, slot, 0, j);
+                put(first + j, cell.pressure, cell.v_z);
+            }
+        }
+    }
+}
+
+/// Writes the rows of a trace.
+fn put_rows(trace: Trace, mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
+    let Trace { state: [rho, v_z, v_r, p, phi], rate, slope } = trace;
+    let at = mixture.at(phi);
+    let impedance = (rho * mixture.bulk_modulus(p, phi)).max(0.0).sqrt();
+    for (row, value) in [
+        (TraceRow::Density, rho),
+        (TraceRow::NormalVelocity, v_z),
+        (TraceRow::TangentialVelocity, v_r),
+        (TraceRow::Pressure, p),
+        (TraceRow::Shear, 0.0),
+        (TraceRow::DensityRate, rate[0]),
+        (TraceRow::NormalVelocityRate, rate[1]),
+        (TraceRow::TangentialVelocityRate, rate[2]),
+        (TraceRow::PressureRate, rate[3]),
+        (TraceRow::Gamma, at.gamma),
+        (TraceRow::Pi, at.pi),
+        (TraceRow::Impedance, impedance),
+        (TraceRow::DensitySlope, slope[0]),
+        (TraceRow::NormalVelocitySlope, slope[1]),
+        (TraceRow::PressureSlope, slope[3]),
+    ] {
+        put(row, face, value);
+    }
+}

@@ -1,0 +1,201 @@
+//! Numbers that are read off the fluid's state.
+
+pub(crate) mod bubble_cuts;
+pub(crate) mod bubbles;
+pub(crate) mod ledger;
+
+use mesh::{Field, GHOSTS, Padded, limited_differences};
+use serde::{Deserialize, Serialize};
+
+use crate::state::conserved::{COUNT, ENERGY, MOMENTUM_Z, PHI, RHO};
+use crate::step::{BlockScratch, reconstruct};
+use crate::{FluidSolver, Primitive};
+
+/// The gas as a whole, or of one of several bubbles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Bubble {
+    /// ∫ φ [φ > 1e-6] dV, m³ (planar: m² per metre of depth).
+    pub volume: f64,
+    /// ∫ φ [0 < φ ≤ 1e-6] dV, in the same unit.
+    pub trace_volume: f64,
+    /// ∫ φ [1e-6 < φ < 1e-2] dV, part of the volume: gas that the interface left behind, which tension may inflate.
+    pub thin_volume: f64,
+    /// (3V/4π)^(1/3), planar (V/π)^(1/2), m.
+    pub equivalent_radius: f64,
+    /// Mean z weighted with the gas fraction, m; NaN without gas.
+    pub centroid_z: f64,
+    /// Mass of the gas, traces included, kg (planar: kg per metre of depth); NaN with the paper's mixture, whose phases
+    /// have no masses of their own.
+    pub gas_mass: f64,
+}
+
+/// What happens on the axis (planar: in the first row of cells).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisState {
+    /// The distal (largest z) crossing of φ = ½, m; NaN if there is none.
+    pub jet_tip_z: f64,
+    /// The fastest liquid (φ < ½) towards the wall, m/s, positive towards it; NaN if all is gas.
+    pub jet_velocity: f64,
+}
+
+/// Cell means along z_min.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WallPressures {
+    /// In the cell on the axis, Pa.
+    pub axis: f64,
+    /// The largest, Pa.
+    pub anywhere: f64,
+}
+
+/// Integrals over the domain, per radian in axial symmetry, per metre of depth in planar geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Axial momentum, N s.
+    pub momentum_z: f64,
+    /// Energy, J.
+    pub energy: f64,
+}
+
+mesh::cell_fields! {
+    /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
+    Snapshot, CELL_FIELDS {
+        density: 1, "kg/m3", "density";
+        pressure: 1, "Pa", "pressure";
+        velocity: 3, "m/s", "velocity (z, r, 0)";
+        gas_fraction: 1, "1", "volume fraction of gas";
+        schlieren: 1, "kg/m4", "magnitude of the density gradient";
+        level: 1, "1", "refinement level";
+    }
+}
+
+impl<const N: usize> FluidSolver<N> {
+    /// The primitive variables of one cell.
+    pub fn cell(&self, slot: usize, i: usize, j: usize) -> Primitive {
+        self.cell_of(self.state(), slot, i, j)
+    }
+
+    /// [`FluidSolver::cell`] of a field.
+    pub(crate) fn cell_of(&self, field: &Field, slot: usize, i: usize, j: usize) -> Primitive {
+        let u: [f64; COUNT] = std::array::from_fn(|c| field.component(slot, c)[j * N + i]);
+        Primitive::from_conserved(u, &self.model().mixture)
+    }
+
+    /// What happens on the axis.
+    pub fn axis(&self) -> AxisState {
+        let mut state = AxisState { jet_tip_z: f64::NAN, jet_velocity: f64::NAN };
+        let mut before: Option<(f64, f64)> = None;
+        for &slot in &self.model().axis_blocks {
+            let id = self.mesh().tree().leaves()[slot];
+            for i in 0..N {
+                let z = self.mesh().centre(id, i, 0)[0];
+                let (rho, momentum, phi) = (
+                    self.state().component(slot, RHO)[i],
+                    self.state().component(slot, MOMENTUM_Z)[i],
+                    self.state().component(slot, PHI)[i],
+                );
+                if phi < 0.5 {
+                    state.jet_velocity = state.jet_velocity.max(-momentum / rho);
+                }
+                if let Some((z0, phi0)) = before
+                    && (phi0 < 0.5) != (phi < 0.5)
+                {
+                    state.jet_tip_z = z0 + (z - z0) * (0.5 - phi0) / (phi - phi0);
+                }
+                before = Some((z, phi));
+            }
+        }
+        state
+    }
+
+    /// Cell means of the pressure along z_min.
+    pub fn wall_pressures(&self) -> WallPressures {
+        let mut pressures = WallPressures { axis: f64::NAN, anywhere: f64::NEG_INFINITY };
+        for (first, &slot) in self.interface().blocks().iter().enumerate() {
+            for j in 0..N {
+                let pressure = self.cell(slot, 0, j).pressure;
+                if first + j == 0 {
+                    pressures.axis = pressure;
+                }
+                pressures.anywhere = pressures.anywhere.max(pressure);
+            }
+        }
+        pressures
+    }
+
+    /// Mean pressure of its level's present or last step on each face of z_min, in the order of r, Pa.
+    pub fn wall_face_pressures(&self, pressures: &mut Vec<f64>) {
+        pressures.clear();
+        for slot in self.interface().blocks() {
+            pressures.extend_from_slice(&self.reports().pending[*slot].wall_pressure);
+        }
+    }
+
+    /// Mass, axial momentum and energy in the domain, added up row by row and block by block.
+    pub fn totals(&self) -> Totals {
+        let mut totals = Totals::default();
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
+            let mut block = [0.0; 3];
+            for j in 0..N {
+                let volume = self.mesh().volume(*id, j);
+                for (sum, component) in block.iter_mut().zip([RHO, MOMENTUM_Z, ENERGY]) {
+                    let row = &self.state().component(slot, component)[j * N..(j + 1) * N];
+                    *sum += volume * row.iter().sum::<f64>();
+                }
+            }
+            totals.mass += block[0];
+            totals.momentum_z += block[1];
+            totals.energy += block[2];
+        }
+        totals
+    }
+
+    /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
+    pub fn sample(&self, point: [f64; 2]) -> Option<Primitive> {
+        let (slot, i, j) = self.mesh().locate(point)?;
+        let id = self.mesh().tree().leaves()[slot];
+        let (centre, widths) = (self.mesh().centre(id, i, j), self.mesh().widths(id.level));
+        let (a, b) = ((point[0] - centre[0]) / widths[0], (point[1] - centre[1]) / widths[1]);
+        Some(self.with_scratch(|scratch| {
+            reconstruct(&self.context(0.0), slot, scratch);
+            let k = Padded::<N>::index(i as isize, j as isize);
+            let BlockScratch { cells, s_z, s_r, .. } = scratch;
+            Primitive::from_array(std::array::from_fn(|c| {
+                cells.component(c)[k] + a * s_z.component(c)[k] + b * s_r.component(c)[k]
+            }))
+        }))
+    }
+
+    /// All fields, cell by cell.
+    pub fn snapshot(&self) -> Snapshot {
+        let mut snapshot = Snapshot::default();
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
+            let [h_z, h_r] = self.mesh().widths(id.level);
+            self.with_scratch(|scratch| {
+                reconstruct(&self.context(0.0), slot, scratch);
+                let BlockScratch { cells, s_z, s_r, .. } = scratch;
+                limited_differences(
+                    mesh::Limiter::None,
+                    cells.component(0),
+                    Padded::<N>::STRIDE,
+                    s_z.component_mut(0),
+                    s_r.component_mut(0),
+                );
+                for j in GHOSTS..GHOSTS + N {
+                    for k in j * Padded::<N>::STRIDE + GHOSTS..j * Padded::<N>::STRIDE + GHOSTS + N {
+                        let at = |c: usize| cells.component(c)[k];
+                        snapshot.density.push(at(0));
+                        snapshot.velocity.extend([at(1), at(2), 0.0]);
+                        snapshot.pressure.push(at(3));
+                        snapshot.gas_fraction.push(at(4));
+                        let gradient = [s_z.component(0)[k] / h_z, s_r.component(0)[k] / h_r];
+                        snapshot.schlieren.push(gradient[0].hypot(gradient[1]));
+                        snapshot.level.push(f64::from(id.level));
+                    }
+                }
+            });
+        }
+        snapshot
+    }
+}

@@ -1,0 +1,113 @@
+//! What fills the fluid's domain at t = 0.
+
+pub(crate) mod fill;
+pub(crate) mod mesh;
+pub(crate) mod rayleigh;
+
+/// Which of the two fluids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// The liquid, φ = 0.
+    Liquid,
+    /// The gas, φ = 1.
+    Gas,
+}
+
+impl Phase {
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 2] = [("liquid", Self::Liquid), ("gas", Self::Gas)];
+}
+
+/// A uniform state of one phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhaseState {
+    /// Which fluid.
+    pub phase: Phase,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Pressure, Pa.
+    pub pressure: f64,
+    /// Velocity (z, r), m/s.
+    pub velocity: [f64; 2],
+}
+
+/// A shape in the (z, r) plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// A ball (in planar geometry a disc) about `centre` = (z, r), m.
+    Sphere {
+        /// Centre (z, r), m.
+        centre: [f64; 2],
+        /// Radius, m.
+        radius: f64,
+    },
+    /// The rectangle z × r, m.
+    Box {
+        /// Range in z, m.
+        z: [f64; 2],
+        /// Range in r, m.
+        r: [f64; 2],
+    },
+}
+
+/// A shape filled with a uniform state; regions are painted in order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// Where.
+    pub shape: Shape,
+    /// With what.
+    pub state: PhaseState,
+}
+
+/// A Gaussian pressure pulse p' = A exp(−d²/a²) laid over the liquid, density isentropic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulse {
+    /// Sphere (distance to `centre`) or plane (distance to the plane through `centre`).
+    pub shape: PulseShape,
+    /// Centre (z, r), m; a plane uses what its normal needs.
+    pub centre: [f64; 2],
+    /// Width a, m.
+    pub width: f64,
+    /// Amplitude A, Pa.
+    pub amplitude: f64,
+}
+
+/// The shape of a [`Pulse`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PulseShape {
+    /// Distance to the centre, fluid at rest.
+    Sphere,
+    /// Distance along z to the centre. With a `direction` (unit vector (z, r)) distance is measured along it
+    /// and the pulse travels that way: v = p'/(ρc) along it.
+    Plane {
+        /// Direction of travel; `None`: at rest, splitting into two.
+        direction: Option<[f64; 2]>,
+    },
+}
+
+/// The pressure in the ambient liquid at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InitialPressure {
+    /// That of the ambient state, up to the bubbles' walls.
+    Uniform,
+    /// The harmonic field that ends at the gas's pressure on the bubbles, see [`crate::RayleighField`].
+    Rayleigh,
+}
+
+impl InitialPressure {
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 2] = [("uniform", Self::Uniform), ("rayleigh", Self::Rayleigh)];
+}
+
+/// Everything that fills the domain at t = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InitialCondition {
+    /// What is there before any region is painted.
+    pub ambient: PhaseState,
+    /// The pressure that the ambient liquid has about the regions.
+    pub pressure: InitialPressure,
+    /// Painted in order.
+    pub regions: Vec<Region>,
+    /// Added last.
+    pub pulses: Vec<Pulse>,
+}

@@ -1,0 +1,114 @@
+//! Reconstructed cells, and the states that they have on their faces.
+
+pub(crate) mod dispersion;
+pub(crate) mod even;
+pub(crate) mod predictor;
+
+use std::ops::Range;
+
+use crate::reconstruction::dispersion::{AlongFaces, Dispersion, Shares};
+
+/// Slices of the five primitive variables ρ, v_z, v_r, p, φ.
+pub(crate) type Rows<'a> = [&'a [f64]; 5];
+
+/// A gas fraction, or that of the liquid where there is no gas: a constant there, from which the compiler makes kernels that
+/// neither read nor carry it.
+#[inline(always)]
+pub(crate) fn fraction<const WITH_GAS: bool>(phi: f64) -> f64 {
+    if WITH_GAS { phi } else { 0.0 }
+}
+
+/// `n` numbers of each row from `at` on.
+#[inline(always)]
+pub(crate) fn cut<'a>(rows: &Rows<'a>, at: usize, n: usize) -> Rows<'a> {
+    let [a, b, c, d, e] = rows;
+    [&a[at..][..n], &b[at..][..n], &c[at..][..n], &d[at..][..n], &e[at..][..n]]
+}
+
+/// The reconstructed cells on whose faces Riemann problems are solved.
+#[derive(Clone, Copy)]
+pub(crate) struct Reconstruction<'a> {
+    /// Mid-step states ρ, normal velocity, tangential velocity, p, φ.
+    pub half: Rows<'a>,
+    /// Limited differences across the cells in the same order.
+    pub differences: Rows<'a>,
+    /// The share of its slopes that each cell keeps, see [`half_step`].
+    pub keep: &'a [f64],
+    /// The cells' sound speed at the beginning of the step, m/s.
+    pub sound: &'a [f64],
+    /// Whether there is gas in any cell. Without it the rows of the gas fraction hold zeros.
+    pub with_gas: bool,
+    pub dispersion: Dispersion,
+    pub along_faces: AlongFaces<'a>,
+}
+
+impl<'a> Reconstruction<'a> {
+    /// The cells whose faces towards the cell `step` farther on have all neighbours that count; `stride` is that of the rows.
+    pub fn lines(&self, step: usize, stride: usize) -> Range<usize> {
+        stride..self.keep.len() - step - self.along_faces.step
+    }
+
+    /// `n` cells from `at` on; not to be cut again.
+    #[inline(always)]
+    pub fn cut(&self, at: usize, n: usize) -> Self {
+        Self {
+            half: cut(&self.half, at, n),
+            differences: cut(&self.differences, at, n),
+            keep: &self.keep[at..][..n],
+            sound: &self.sound[at..][..n],
+            with_gas: self.with_gas,
+            dispersion: self.dispersion,
+            along_faces: self.along_faces.cut(at, n),
+        }
+    }
+
+    /// The state on the lower (`sign` = −1) or upper (+1) face of cell `k`.
+    #[inline(always)]
+    pub fn face_state(&self, k: usize, sign: f64) -> [f64; 5] {
+        let weight = 0.5 * sign * self.keep[k];
+        let at = |c: usize| self.half[c][k] + weight * self.differences[c][k];
+        [at(0), at(1), at(2), at(3), at(4)]
+    }
+}
+
+/// What v_n (component 0) or p (1) lacks on the face between cells `k`, of which both keep `kept` of their slopes and take
+/// what is left out across and along it.
+#[inline(always)]
+fn left_out(
+    lower: &Reconstruction<'_>,
+    upper: &Reconstruction<'_>,
+    component: usize,
+    k: usize,
+    shares: Shares,
+    kept: [f64; 2],
+) -> f64 {
+    let row = [1, 3][component];
+    let across = upper.differences[row][k] - lower.differences[row][k];
+    let low = lower.along_faces.second_difference(component, k);
+    let high = upper.along_faces.second_difference(component, k);
+    shares.left_out(component, kept, across, 0.5 * (low + high))
+}
+
+/// The states on both sides of the face between cells `k` of `lower` and of `upper`.
+///
+/// Normal velocity and pressure are all that matters in a weak wave; density and the rest stay as they are.
+#[inline(always)]
+pub(crate) fn states_at_face<const WITH_GAS: bool>(
+    lower: &Reconstruction<'_>,
+    upper: &Reconstruction<'_>,
+    k: usize,
+) -> [[f64; 5]; 2] {
+    let dispersion = lower.dispersion;
+    let takes = |cells: &Reconstruction<'_>| {
+        dispersion.takes(cells.half[3][k], fraction::<WITH_GAS>(cells.half[4][k]), cells.differences[3][k])
+    };
+    let (low, high) = (takes(lower), takes(upper));
+    let keep = lower.keep[k] * upper.keep[k];
+    let kept = [if low[0] & high[0] { keep } else { 0.0 }, if low[1] & high[1] { keep } else { 0.0 }];
+    let speed = |cells: &Reconstruction<'_>| cells.half[1][k].abs() + cells.sound[k];
+    let shares = dispersion.shares(0.5 * (speed(lower) + speed(upper)));
+    let velocity = left_out(lower, upper, 0, k, shares, kept);
+    let pressure = left_out(lower, upper, 1, k, shares, kept);
+    [lower.face_state(k, 1.0), upper.face_state(k, -1.0)]
+        .map(|[rho, v_n, v_t, p, phi]| [rho, v_n + velocity, v_t, p + pressure, fraction::<WITH_GAS>(phi)])
+}

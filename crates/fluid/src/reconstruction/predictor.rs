@@ -1,0 +1,298 @@
+//! Slopes and predictor in one pass over the cells of a padded block; written as the kernels of `step/rows.rs`.
+
+use mesh::Limiter;
+
+use crate::Mixture;
+use crate::reconstruction::{Rows, cut, fraction};
+use crate::step::rows::{half_step, whole_half_step};
+use crate::two_phase::is_compliant;
+
+/// Cells after which the pass looks whether all of them keep their slopes: whole lines of the cache, few enough that
+/// what they need to be done again is still at hand.
+const CHUNK: usize = 64;
+
+/// What the predictor needs to know of a block's geometry and of the step.
+#[derive(Clone, Copy)]
+pub(crate) struct Predictor<'a> {
+    pub limiter: Limiter,
+    /// Of the gas fraction.
+    pub fraction_limiter: Limiter,
+    /// Distance between cells that neighbour each other along r.
+    pub stride: usize,
+    /// 1/h_z, 1/h_r.
+    pub inverse_h: [f64; 2],
+    /// 1/r per padded cell, or 0 in planar geometry.
+    pub inverse_r: &'a [f64],
+    /// Half the time step, s.
+    pub half_dt: f64,
+    /// Whether there is gas in any cell. Without it the rows of the gas fraction are left alone; they must hold zeros.
+    pub with_gas: bool,
+    /// Whether mixed cells count. Those of the five-equation model that are compliant have face states of their own.
+    pub with_mixed: bool,
+}
+
+/// Limited differences, primitive variables at mid-step, the share of slopes kept and the sound speed, in all cells but the
+/// outermost layer.
+///
+/// MUSCL-Hancock: [`mesh::limited_differences`], then the predictor, paper eqs. (24), (25) with τ = Δt/2, in both
+/// directions at once. The differences are made and used in registers. Nearly all cells keep their slopes; a chunk of
+/// cells in which one does not is predicted again by [`half_step`].
+///
+/// - `w`: the cells. `s_z`, `s_r`, `half`, `keep`, `sound`: padded rows, written.
+/// - tested by: equality with the limiter and [`half_step`], cell by cell.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn predict(
+    w: Rows<'_>,
+    p: Predictor<'_>,
+    mixture: &Mixture,
+    s_z: [&mut [f64]; 5],
+    s_r: [&mut [f64]; 5],
+    half: [&mut [f64]; 5],
+    keep: &mut [f64],
+    sound: &mut [f64],
+) {
+    let m = *mixture;
+    // A function of its own for each, so that the compiler sees what it does.
+    let mc = |a, b| Limiter::Mc.difference(a, b);
+    let minmod = |a, b| Limiter::Minmod.difference(a, b);
+    let eno = |a, b| Limiter::Eno.difference(a, b);
+    let none = |a, b| Limiter::None.difference(a, b);
+    // Without gas all limiters give the gas fraction the same slopes: none.
+    match (p.limiter, p.fraction_limiter, p.with_gas) {
+        (Limiter::Mc, _, true) => body::<true>(mc, mc, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::Mc, _, false) => body::<false>(mc, mc, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::Minmod, Limiter::Mc, true) => {
+            body::<true>(minmod, mc, w, p, m, s_z, s_r, half, keep, sound)
+        }
+        (Limiter::Minmod, _, true) => body::<true>(minmod, minmod, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::Minmod, _, false) => body::<false>(minmod, minmod, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::Eno, ..) => body::<true>(eno, eno, w, p, m, s_z, s_r, half, keep, sound),
+        (Limiter::None, ..) => body::<true>(none, none, w, p, m, s_z, s_r, half, keep, sound),
+    }
+}
+
+#[inline(always)]
+fn body<const WITH_GAS: bool>(
+    limit: impl Fn(f64, f64) -> f64 + Copy,
+    limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
+    w: Rows<'_>,
+    p: Predictor<'_>,
+    mixture: Mixture,
+    [z0, z1, z2, z3, z4]: [&mut [f64]; 5],
+    [r0, r1, r2, r3, r4]: [&mut [f64]; 5],
+    [h0, h1, h2, h3, h4]: [&mut [f64]; 5],
+    keep: &mut [f64],
+    sound: &mut [f64],
+) {
+    // The first and the last cell of these rows have neighbours, if not their own; all lines are whole.
+    let end = keep.len() - p.stride;
+    let mut first = p.stride;
+    while first < end {
+        let n = CHUNK.min(end - first);
+        let here = cut(&w, first, n);
+        let inverse_r = &p.inverse_r[first..][..n];
+        differences_and_half::<WITH_GAS>(
+            n,
+            limit,
+            limit_fraction,
+            here,
+            [
+                cut(&w, first - 1, n),
+                cut(&w, first + 1, n),
+                cut(&w, first - p.stride, n),
+                cut(&w, first + p.stride, n),
+            ],
+            inverse_r,
+            p.inverse_h,
+            p.half_dt,
+            &mixture,
+            &mut z0[first..][..n],
+            &mut z1[first..][..n],
+            &mut z2[first..][..n],
+            &mut z3[first..][..n],
+            &mut z4[first..][..n],
+            &mut r0[first..][..n],
+            &mut r1[first..][..n],
+            &mut r2[first..][..n],
+            &mut r3[first..][..n],
+            &mut r4[first..][..n],
+            &mut h0[first..][..n],
+            &mut h1[first..][..n],
+            &mut h2[first..][..n],
+            &mut h3[first..][..n],
+            &mut h4[first..][..n],
+            &mut keep[first..][..n],
+            &mut sound[first..][..n],
+        );
+        let dropped: u64 = keep[first..][..n].iter().map(|share| u64::from(*share == 0.0)).sum();
+        let [_, _, _, pressure, phi] = here;
+        let counts = |k: usize| keep[first + k] == 0.0 && !is_compliant(pressure[k], phi[k], &mixture);
+        if dropped > 0 && (p.with_mixed || (0..n).any(counts)) {
+            half_again(
+                n,
+                here,
+                cut(&[&*z0, &*z1, &*z2, &*z3, &*z4], first, n),
+                cut(&[&*r0, &*r1, &*r2, &*r3, &*r4], first, n),
+                inverse_r,
+                p.inverse_h,
+                p.half_dt,
+                &mixture,
+                &mut h0[first..][..n],
+                &mut h1[first..][..n],
+                &mut h2[first..][..n],
+                &mut h3[first..][..n],
+                &mut h4[first..][..n],
+                &mut keep[first..][..n],
+            );
+        }
+        first += n;
+    }
+}
+
+#[inline(always)]
+fn differences_and_half<const WITH_GAS: bool>(
+    n: usize,
+    limit: impl Fn(f64, f64) -> f64,
+    limit_fraction: impl Fn(f64, f64) -> f64,
+    w: Rows<'_>,
+    [west, east, south, north]: [Rows<'_>; 4],
+    inverse_r: &[f64],
+    inverse_h: [f64; 2],
+    half_dt: f64,
+    mixture: &Mixture,
+    z0: &mut [f64],
+    z1: &mut [f64],
+    z2: &mut [f64],
+    z3: &mut [f64],
+    z4: &mut [f64],
+    r0: &mut [f64],
+    r1: &mut [f64],
+    r2: &mut [f64],
+    r3: &mut [f64],
+    r4: &mut [f64],
+    h0: &mut [f64],
+    h1: &mut [f64],
+    h2: &mut [f64],
+    h3: &mut [f64],
+    h4: &mut [f64],
+    keep: &mut [f64],
+    sound: &mut [f64],
+) {
+    for k in 0..n {
+        let phi = fraction::<WITH_GAS>(w[4][k]);
+        let here = [w[0][k], w[1][k], w[2][k], w[3][k], phi];
+        let along_z = |c: usize| limit(here[c] - west[c][k], east[c][k] - here[c]);
+        let along_r = |c: usize| limit(here[c] - south[c][k], north[c][k] - here[c]);
+        let fraction_along_z = limit_fraction(phi - west[4][k], east[4][k] - phi);
+        let fraction_along_r = limit_fraction(phi - south[4][k], north[4][k] - phi);
+        let s_z = [along_z(0), along_z(1), along_z(2), along_z(3), fraction::<WITH_GAS>(fraction_along_z)];
+        let s_r = [along_r(0), along_r(1), along_r(2), along_r(3), fraction::<WITH_GAS>(fraction_along_r)];
+        let (half, kept, speed) =
+            whole_half_step::<WITH_GAS>(here, s_z, s_r, inverse_h, inverse_r[k], half_dt, mixture);
+        [z0[k], z1[k], z2[k], z3[k], _] = s_z;
+        [r0[k], r1[k], r2[k], r3[k], _] = s_r;
+        [h0[k], h1[k], h2[k], h3[k], _] = half;
+        if WITH_GAS {
+            (z4[k], r4[k], h4[k]) = (s_z[4], s_r[4], half[4]);
+        }
+        (keep[k], sound[k]) = (kept, speed);
+    }
+}
+
+#[inline(always)]
+fn half_again(
+    n: usize,
+    w: Rows<'_>,
+    s_z: Rows<'_>,
+    s_r: Rows<'_>,
+    inverse_r: &[f64],
+    inverse_h: [f64; 2],
+    half_dt: f64,
+    mixture: &Mixture,
+    h0: &mut [f64],
+    h1: &mut [f64],
+    h2: &mut [f64],
+    h3: &mut [f64],
+    h4: &mut [f64],
+    keep: &mut [f64],
+) {
+    for k in 0..n {
+        let at = |rows: &Rows<'_>| [rows[0][k], rows[1][k], rows[2][k], rows[3][k], rows[4][k]];
+        let (half, kept) = half_step(at(&w), at(&s_z), at(&s_r), inverse_h, inverse_r[k], half_dt, mixture);
+        [h0[k], h1[k], h2[k], h3[k], h4[k]] = half;
+        keep[k] = kept;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::StiffenedGas;
+
+    #[test]
+    fn one_pass_equals_limiter_and_half_step_cell_by_cell() {
+        let (stride, half_dt, inverse_h) = (12, 1e-8, [3e4, 5e4]);
+        let len = stride * stride;
+        let mixture =
+            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let wave = |rate: f64, k: usize| ((k * k) as f64 * rate).sin();
+        // Smooth liquid in the lower half, anything in the upper one.
+        let row = |low: f64, high: f64, rate: f64| -> Vec<f64> {
+            let size = |k: usize| if k < len / 2 { 1e-3 } else { 0.5 };
+            (0..len).map(|k| low + (high - low) * (0.5 + size(k) * wave(rate, k))).collect()
+        };
+        let w = [
+            row(1.0, 1000.0, 0.37),
+            row(-9.0, 9.0, 0.21),
+            row(-9.0, 9.0, 0.53),
+            row(1e5, 1e7, 0.71),
+            row(0.0, 1.0, 0.11),
+        ];
+        let inverse_r = row(10.0, 30.0, 0.07);
+        let mut shares = [0; 3];
+        let sharper = [("minmod", Limiter::Minmod, Limiter::Mc)];
+        let limiters = Limiter::NAMES.map(|(name, limiter)| (name, limiter, limiter));
+        for (name, limiter, fraction_limiter) in limiters.into_iter().chain(sharper) {
+            let of_component = |c: usize| if c == 4 { fraction_limiter } else { limiter };
+            let rows = || -> [Vec<f64>; 5] { std::array::from_fn(|_| vec![0.0; len]) };
+            let (mut s_z, mut s_r, mut half, mut keep) = (rows(), rows(), rows(), vec![0.0; len]);
+            let mut sound = vec![0.0; len];
+            predict(
+                w.each_ref().map(|row| &row[..]),
+                Predictor {
+                    limiter,
+                    fraction_limiter,
+                    stride,
+                    inverse_h,
+                    inverse_r: &inverse_r,
+                    half_dt,
+                    with_gas: true,
+                    with_mixed: true,
+                },
+                &mixture,
+                s_z.each_mut().map(|row| &mut row[..]),
+                s_r.each_mut().map(|row| &mut row[..]),
+                half.each_mut().map(|row| &mut row[..]),
+                &mut keep,
+                &mut sound,
+            );
+            for k in stride + 1..len - stride - 1 {
+                let here: [f64; 5] = std::array::from_fn(|c| w[c][k]);
+                let slopes = |by: usize| -> [f64; 5] {
+                    std::array::from_fn(|c| {
+                        of_component(c).difference(here[c] - w[c][k - by], w[c][k + by] - here[c])
+                    })
+                };
+                let (z, r) = (slopes(1), slopes(stride));
+                assert_eq!(s_z.each_ref().map(|row| row[k]), z, "{name}");
+                assert_eq!(s_r.each_ref().map(|row| row[k]), r, "{name}");
+                let (state, kept) = half_step(here, z, r, inverse_h, inverse_r[k], half_dt, &mixture);
+                assert_eq!((half.each_ref().map(|row| row[k]), keep[k]), (state, kept), "{name}, cell {k}");
+                let bulk_modulus = mixture.bulk_modulus(here[3], here[4]);
+                approx::assert_relative_eq!(sound[k].powi(2), bulk_modulus / here[0], max_relative = 1e-13);
+                shares[(2.0 * kept) as usize] += 1;
+            }
+        }
+        assert!(shares.iter().all(|count| *count > 10), "{shares:?}");
+    }
+}

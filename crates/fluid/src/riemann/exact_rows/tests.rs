@@ -1,0 +1,237 @@
+//! Tests of the rows against the scalar solver.
+
+use super::*;
+use crate::StiffenedGas;
+use crate::reconstruction::dispersion::{AlongFaces, Dispersion};
+use crate::riemann::exact_riemann::tests::{EXTREME, REFERENCE, Random};
+use crate::riemann::exact_riemann::{Side, sample, star_state};
+use crate::riemann::hllc::Face;
+use crate::two_phase::FaceState;
+
+/// The first lane of a chunk solved: pressure, velocity of the contact, flux; and whether it counts.
+fn solve_one(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> (f64, f64, Face, bool) {
+    let mut chunk = Chunk::zeros();
+    for (sides, state) in [(&mut chunk.left, left), (&mut chunk.right, right)] {
+        [sides.rho[0], sides.u[0], sides.v[0], sides.p[0], sides.phi[0]] = state;
+    }
+    solve(1, &mut chunk, mixture);
+    let mut out = [[0.0]; 6];
+    let [mass, velocity, pressure, shear, energy, phi] = &mut out;
+    let (mut compression, mut solved) = ([0.0; LANES], [0.0; LANES]);
+    fluxes(1, &chunk, mixture, mass, velocity, pressure, shear, energy, phi, &mut compression, &mut solved);
+    let [[mass], [velocity], [pressure], [shear], [energy], [phi]] = out;
+    let u = 0.5 * ((chunk.left.u[0] - chunk.f_left[0]) + (chunk.right.u[0] + chunk.f_right[0]));
+    let face = Face { mass, velocity, pressure, shear, energy, phi, compression: compression[0] };
+    (chunk.p[0], u, face, solved[0] == 1.0)
+}
+
+/// Asserts that a problem has the scalar solver's star state to 1e-9; says whether the rows solve it.
+///
+/// `round_off` is the share of the largest speeds and pressures that either solver may lose.
+fn compare(left: &Side, right: &Side, round_off: f64) -> bool {
+    let mixture = Mixture::new(left.law(), right.law());
+    let state = |s: &Side, phi: f64| [s.rho, s.u, 5.0, s.p, phi];
+    let (l, r) = (state(left, 0.0), state(right, 1.0));
+    let (p, u, face, solved) = solve_one(l, r, &mixture);
+    if !solved {
+        return false;
+    }
+    let star = star_state(left, right);
+    assert!(!star.vacuum, "{left:?} {right:?}");
+    let (a, b) = (left.sound_speed(), right.sound_speed());
+    let speeds = a + b + left.u.abs() + right.u.abs();
+    let pressures = left.p.abs() + right.p.abs() + left.pi + right.pi;
+    assert!(
+        (p - star.p).abs() <= 1e-9 * star.p.abs() + round_off * pressures,
+        "{p} {star:?} {left:?} {right:?}"
+    );
+    let u_size = star.u.abs().max(a.min(b));
+    assert!((u - star.u).abs() <= 1e-9 * u_size + round_off * speeds, "{u} {star:?} {left:?} {right:?}");
+    // Where the sign of a small velocity is one of round-off, either side may be upwind.
+    if star.u.abs() > 1e-9 * u_size + round_off * speeds {
+        let want = flux_exact(l, r, &mixture);
+        assert_eq!(face.phi, want.phi);
+        let (rho, rho_want) = (face.mass / face.velocity, want.mass / want.velocity);
+        assert!((rho - rho_want).abs() <= 1e-9 * rho_want, "{rho} {rho_want} {left:?} {right:?}");
+        assert!(
+            (face.compression - want.compression).abs() <= 1e-9 * want.compression,
+            "{face:?} {want:?} {left:?} {right:?}"
+        );
+        let scale =
+            want.velocity.abs().max(1e-3 * u_size) * (want.energy / want.velocity).abs().max(pressures);
+        assert!((face.energy - want.energy).abs() <= (1e-8 + 10.0 * round_off) * scale, "{face:?} {want:?}");
+    }
+    true
+}
+
+#[test]
+fn reference_and_extreme_states_are_the_scalar_solver_s() {
+    for case in REFERENCE.iter().chain(&EXTREME) {
+        let solved = compare(&case.left, &case.right, 4.0 * f64::EPSILON);
+        eprintln!("{:28} {}", case.name, if solved { "solved" } else { "left to the scalar solver" });
+        let star = star_state(&case.left, &case.right);
+        let fan = sample(&case.left, &case.right, &star, 0.0).in_fan;
+        let softer = if case.left.pi < case.right.pi { case.left } else { case.right };
+        let near_vacuum = star.shifted < 1e-6 * (softer.p + softer.pi);
+        assert!(solved || fan || near_vacuum, "{}", case.name);
+    }
+}
+
+#[test]
+fn random_states_are_the_scalar_solver_s() {
+    let mut random = Random(11);
+    let (mut solved, total) = (0, 300_000);
+    for _ in 0..total {
+        let (left, right) = random.problem();
+        solved += usize::from(compare(&left, &right, 1e-12));
+    }
+    eprintln!("{solved} of {total} solved in rows");
+    assert!(solved > total / 2, "{solved}");
+}
+
+fn water_and_gas() -> Mixture {
+    Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
+}
+
+/// Padded rows of mixed states with jumps up to a thousandfold, and something that is no state.
+fn rows(random: &mut Random, len: usize) -> ([Vec<f64>; 5], [Vec<f64>; 5], Vec<f64>) {
+    let (mut half, mut differences) = (<[Vec<f64>; 5]>::default(), <[Vec<f64>; 5]>::default());
+    let mut keep = vec![];
+    for k in 0..len {
+        let phi = [0.0, 1.0, random.uniform(0.0, 1.0)][(random.bits() % 3) as usize];
+        let p = if k % 97 == 13 { -1e12 } else { random.log_uniform(1e5, 1e8) };
+        let rho = 1000.0 * (1.0 - phi) + 1.2 * phi;
+        for (c, value) in
+            [rho, random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0), p, phi].into_iter().enumerate()
+        {
+            half[c].push(value);
+            differences[c].push(if c == 4 { 0.0 } else { 0.2 * value * random.uniform(-1.0, 1.0) });
+        }
+        keep.push([0.0, 0.5, 1.0][(random.bits() % 3) as usize]);
+    }
+    (half, differences, keep)
+}
+
+#[test]
+fn rows_equal_the_scalar_flux_and_do_not_depend_on_their_company() {
+    let (stride, mixture) = (20, water_and_gas());
+    let len = stride * stride;
+    let (half, differences, keep) = rows(&mut Random(12), len);
+    let cells = Reconstruction {
+        half: half.each_ref().map(|row| &row[..]),
+        differences: differences.each_ref().map(|row| &row[..]),
+        keep: &keep,
+        sound: &vec![1.0; len],
+        with_gas: true,
+        // Of so fast a sound nothing is left out.
+        dispersion: Dispersion { per_speed: 1.0, ..Dispersion::default() },
+        along_faces: AlongFaces::new([&differences[1], &differences[3]], 1),
+    };
+    fn real(k: usize, step: usize) -> bool {
+        k % 97 != 13 && (k + step) % 97 != 13
+    }
+    for step in [1, stride] {
+        let solve = |range: std::ops::Range<usize>| {
+            let mut faces = FaceRows::zeros(len, stride);
+            exact_faces(&cells, step, stride, range, real, &mixture, &mut faces);
+            faces
+        };
+        let faces = solve(41..358);
+        let of = |f: &FaceRows, k: usize| {
+            [f.mass[k], f.velocity[k], f.pressure[k], f.shear[k], f.energy[k], f.phi[k]]
+        };
+        for k in (41..358).filter(|k| real(*k, step)) {
+            let want = flux_exact(cells.face_state(k, 1.0), cells.face_state(k + step, -1.0), &mixture);
+            let want = [want.mass, want.velocity, want.pressure, want.shear, want.energy, want.phi];
+            for (got, want) in of(&faces, k).into_iter().zip(want) {
+                assert!((got - want).abs() <= 1e-9 * want.abs() + 1e-300, "{got} {want} at {k}");
+            }
+        }
+        for first in [49, 60, 199] {
+            let others = solve(first..first + 3);
+            for k in (first..first + 3).filter(|k| real(*k, step)) {
+                assert_eq!(of(&others, k), of(&faces, k));
+            }
+        }
+    }
+}
+
+#[test]
+fn contacts_and_equal_states_come_back_bitwise() {
+    for u in [0.0, 150.0, -150.0, 3000.0] {
+        let (l, r) = ([1000.0, u, 3.0, 1e5, 0.0], [1.2, u, -2.0, 1e5, 1.0]);
+        let (p, u_star, face, solved) = solve_one(l, r, &water_and_gas());
+        assert!(solved);
+        assert_eq!((p, u_star, face.pressure, face.velocity), (1e5, u, 1e5, u));
+        let upwind = if u >= 0.0 { l } else { r };
+        assert_eq!((face.mass, face.phi), (upwind[0] * u, upwind[4]));
+    }
+}
+
+#[test]
+fn mirrored_states_give_the_mirrored_flux_bitwise() {
+    let (l, r) = ([998.0, 13.0, 5.0, 3e6, 0.01], [700.0, -41.0, 2.0, 8e5, 0.4]);
+    let mirror = |w: [f64; 5]| [w[0], -w[1], w[2], w[3], w[4]];
+    let (_, _, a, _) = solve_one(l, r, &water_and_gas());
+    let (_, _, b, _) = solve_one(mirror(r), mirror(l), &water_and_gas());
+    assert_eq!((a.mass, a.velocity, a.energy, a.shear), (-b.mass, -b.velocity, -b.energy, -b.shear));
+    assert_eq!((a.pressure, a.phi), (b.pressure, b.phi));
+    let (_, u, wall, _) = solve_one(l, mirror(l), &water_and_gas());
+    assert_eq!((u, wall.mass, wall.velocity), (0.0, 0.0, 0.0));
+}
+
+/// Numbered faces with a quarter of gas below and three quarters above.
+struct Listed<F> {
+    fraction: F,
+    found: Vec<(usize, Face)>,
+}
+
+impl<F: Fn(f64, f64, f64) -> f64> ListedFaces for Listed<F> {
+    type Face = (usize, [[f64; 5]; 2]);
+
+    fn states(&self, (_, [lower, upper]): &Self::Face) -> [FaceState; 2] {
+        [FaceState { w: *lower, gas_share: 0.25 }, FaceState { w: *upper, gas_share: 0.75 }]
+    }
+
+    fn star_fraction(&self, p: f64, phi: f64, compression: f64) -> f64 {
+        (self.fraction)(p, phi, compression)
+    }
+
+    fn put(&mut self, (number, _): &Self::Face, solution: Face, gas_share: f64) {
+        assert_eq!(gas_share, if solution.velocity < 0.0 { 0.75 } else { 0.25 });
+        self.found.push((*number, solution));
+    }
+}
+
+#[test]
+fn listed_faces_do_not_depend_on_their_company() {
+    let mixture = water_and_gas();
+    let mut random = Random(5);
+    let mut state = || {
+        let phi = random.uniform(0.0, 1.0);
+        let p = random.log_uniform(1e3, 1e9);
+        [1.2 + 999.0 * (1.0 - phi), random.uniform(-50.0, 50.0), 3.0, p, phi]
+    };
+    let problems: Vec<(usize, [[f64; 5]; 2])> =
+        (0..3 * LANES + 5).map(|face| (face, [state(), state()])).collect();
+    // Some function of what the fluid comes from.
+    let fraction = |p: f64, phi: f64, compression: f64| phi + 1e-3 * p + compression;
+    let solved = |problems: &[(usize, [[f64; 5]; 2])]| {
+        let mut faces = Listed { fraction, found: Vec::new() };
+        exact_fluxes(problems, &mut faces, &mixture);
+        faces.found
+    };
+    let together = solved(&problems);
+    assert_eq!(together.len(), problems.len());
+    for (k, (face, (_, [lower, upper]))) in together.iter().zip(&problems).enumerate() {
+        assert_eq!(solved(&problems[k..=k]), [*face], "face {k}");
+        let (number, face) = *face;
+        assert_eq!(number, k);
+        let want = flux_exact(*lower, *upper, &mixture);
+        approx::assert_relative_eq!(face.pressure, want.pressure, max_relative = 1e-8);
+        approx::assert_relative_eq!(face.mass, want.mass, max_relative = 1e-8);
+        approx::assert_relative_eq!(face.compression, want.compression, max_relative = 1e-8);
+        let [_, _, _, p, phi] = if want.velocity < 0.0 { *upper } else { *lower };
+        approx::assert_relative_eq!(face.phi, fraction(p, phi, want.compression), max_relative = 1e-8);
+    }
+}

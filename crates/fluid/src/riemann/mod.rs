@@ -1,0 +1,7 @@
+//! Riemann solvers: of one face, and of rows of faces.
+
+pub(crate) mod elementary;
+pub mod exact_riemann;
+pub(crate) mod exact_rows;
+pub(crate) mod godunov;
+pub(crate) mod hllc;

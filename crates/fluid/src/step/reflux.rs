@@ -1,0 +1,121 @@
+//! Flux correction at level jumps: the finer side's fluxes pass for both.
+
+use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
+
+use crate::Mixture;
+use crate::physics::FluidStep;
+use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
+use crate::state::primitive;
+use crate::step::face_rows::FaceRows;
+use crate::step::report::BlockReport;
+use crate::two_phase::{Compression, is_mixed};
+
+/// What is registered of a face: mass flux, normal momentum it carries, pressure, tangential momentum flux, energy
+/// flux, velocity u_f of the face, u_f φ_f, mass flux of the gas.
+///
+/// u_f and u_f φ_f carry the gas fraction in its non-conservative form (27): u_f (φ_f − φ) is linear in both, and at
+/// uniform p and u the energy flux is the same linear function of φ_f and ρ_f on every face, so means of fine
+/// faces keep uniform p and u as single faces do.
+pub(crate) const QUANTITIES: usize = 8;
+
+/// Keeps the fluxes on those sides of a block that meet another level.
+pub(crate) fn register_fluxes<const N: usize>(
+    mesh: &Mesh<N>,
+    slot: usize,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+    values: &mut [f64],
+) {
+    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, |side, k| {
+        let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
+        let velocity = faces.velocity[k];
+        [
+            faces.mass[k],
+            faces.mass[k] * velocity,
+            faces.pressure[k],
+            faces.shear[k],
+            faces.energy[k],
+            velocity,
+            velocity * faces.phi[k],
+            faces.gas()[k],
+        ]
+    });
+}
+
+/// Corrects the cells of a block along its finer neighbours, after all blocks have made their step.
+///
+/// - `finer`: what those neighbours have passed in the meantime.
+///
+/// The formulas are those of `update.rs` for one face; the floors of pressure and of the phases' masses hold for the corrected cells,
+/// too.
+pub(crate) fn correct<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    finer: FinerSide<'_, N>,
+    slot: usize,
+    new: &mut [f64],
+    report: &mut BlockReport<N>,
+) {
+    let id = ctx.mesh.tree().leaves()[slot];
+    let [h_z, h_r] = ctx.mesh.widths(id.level);
+    let (dt_z, dt_r) = (ctx.dt / h_z, ctx.dt / h_r);
+    let r_low = ctx.mesh.origin(id)[1];
+    finer.for_corrected_faces(ctx.mesh, slot, |face: CorrectedFace<QUANTITIES>| {
+        let CorrectedFace { side, outward, cell: [i, j], difference } = face;
+        let [mass, carried, pressure, shear, energy, velocity, velocity_phi, gas] = difference;
+        let cell = |c: usize| (c * N + j) * N + i;
+        let phi = velocity_phi - velocity * (ctx.old.block(slot)[cell(PHI)] + expansion(ctx, slot, [i, j]));
+        let changes = if matches!(side, Side::ZMin | Side::ZMax) {
+            [mass, carried + pressure, shear, energy, phi, gas].map(|change| outward * dt_z * change)
+        } else {
+            let face = r_low + if side == Side::RMin { 0.0 } else { N as f64 * h_r };
+            let weight = ctx.mesh.weight(face) / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
+            // The pressure's share of the radial momentum has no weight, see `update.rs`.
+            let radial = weight * carried + pressure;
+            [weight * mass, weight * shear, radial, weight * energy, weight * phi, weight * gas]
+                .map(|change| outward * dt_r * change)
+        };
+        let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
+        let added = settle(&mut u, &ctx.model.mixture, report);
+        if added > 0.0 {
+            report.lift_pressure(added, ctx.mesh.volume(id, j));
+        }
+        for (c, value) in u.into_iter().enumerate() {
+            new[cell(c)] = value;
+        }
+        if ctx.model.scheme.two_phase.is_some() {
+            new[cell(GAS)] -= changes[GAS];
+            report.lift_phase(new[cell(RHO)], &mut new[cell(GAS)], ctx.mesh.volume(id, j));
+            report.has_gas |= new[cell(GAS)] != 0.0 || new[cell(PHI)] != 0.0;
+        }
+    });
+}
+
+/// What the closure adds to the gas fraction of a mixed cell per change of its volume, see
+/// [`Compression::expansion`]. (Where the interface is on the finest level, as adaptation keeps it, no such cell is
+/// corrected.)
+fn expansion<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize, [i, j]: [usize; 2]) -> f64 {
+    let u: [f64; COUNT] = std::array::from_fn(|c| ctx.old.component(slot, c)[j * N + i]);
+    match ctx.model.scheme.two_phase {
+        Some(options) if is_mixed(u[PHI]) => {
+            let [_, _, _, p, phi] = primitive(u, &ctx.model.mixture);
+            Compression::at(p, phi, &ctx.model.mixture, options.has_closure).expansion(phi)
+        }
+        _ => 0.0,
+    }
+}
+
+/// Applies the pressure floor to a corrected cell and takes its speeds into the report; returns the energy added.
+fn settle<const N: usize>(u: &mut [f64; COUNT], mixture: &Mixture, report: &mut BlockReport<N>) -> f64 {
+    let [rho, v_z, v_r, p, phi] = primitive(*u, mixture);
+    let lifted = p.max(mixture.pressure_floor(phi));
+    let added = mixture.beta1(phi) * (lifted - p);
+    u[ENERGY] += added;
+    let sound = (mixture.bulk_modulus(lifted, phi) / rho).sqrt();
+    let sane = (rho > 0.0) & (sound < f64::MAX);
+    let extremes = &mut report.extremes;
+    let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
+    extremes.speed_z = extremes.speed_z.max(speed(v_z));
+    extremes.speed_r = extremes.speed_r.max(speed(v_r));
+    extremes.phi = extremes.phi.max(phi);
+    added
+}

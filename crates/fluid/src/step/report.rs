@@ -1,0 +1,208 @@
+//! What one block tells of its step.
+
+use mesh::{Padded, Side};
+use serde::{Deserialize, Serialize};
+
+use crate::boundary::far_field::face_centre;
+use crate::boundary::{beside, normal};
+use crate::physics::FluidStep;
+use crate::step::clips::Clips;
+use crate::step::face_rows::FaceRows;
+use crate::step::update::Extremes;
+use crate::two_phase::missing_mass;
+
+/// What one block tells of its step.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct BlockReport<const N: usize> {
+    pub(crate) extremes: Extremes,
+    /// Whether there is gas in the block, or a trace of its mass.
+    pub(crate) has_gas: bool,
+    /// Cells that should be done again at first order: a phase was drained, or the pressure floor would act.
+    pub(crate) marked: CellBits<N>,
+    /// Cells that were done again.
+    pub(crate) redone: u32,
+    pub(crate) redone_volume: f64,
+    /// Cells that fell back to first order.
+    pub(crate) fallbacks: u32,
+    /// How often other bounds acted.
+    pub(crate) clips: Clips,
+    /// Mass that the gas and the liquid got where they had less than none, kg (per radian in axial symmetry).
+    pub(crate) phase_mass_added: [f64; 2],
+    /// Cells lifted to the pressure floor, their volume and the energy that took (per radian in axial symmetry), J.
+    pub(crate) floored: u32,
+    pub(crate) floored_volume: f64,
+    pub(crate) floor_energy: f64,
+    /// What came in through each side of the domain: mass, axial momentum, energy (per radian).
+    pub(crate) inflow: [[f64; 3]; 4],
+    /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
+    #[serde(with = "mesh::array")]
+    pub(crate) wall_pressure: [f64; N],
+    /// What the far field's impulse on the faces of each side has gained, Pa s.
+    pub(crate) impulse: [FaceRow<N>; 4],
+}
+
+/// Some of the cells of a block: bit i of number j is cell (i, j).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CellBits<const N: usize>(#[serde(with = "mesh::array")] [u32; N]);
+
+impl<const N: usize> Default for CellBits<N> {
+    fn default() -> Self {
+        const { assert!(N <= 32, "a row fits its bits") };
+        Self([0; N])
+    }
+}
+
+impl<const N: usize> CellBits<N> {
+    /// - `cell`: j N + i.
+    pub fn insert(&mut self, cell: usize) {
+        self.0[cell / N] |= 1 << (cell % N);
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.iter().all(|row| *row == 0)
+    }
+
+    /// Ascending.
+    pub fn cells(&self) -> impl Iterator<Item = usize> {
+        let rows = self.0;
+        (0..N * N).filter(move |cell| rows[cell / N] >> (cell % N) & 1 == 1)
+    }
+}
+
+/// A number on each face along a side of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FaceRow<const N: usize>(#[serde(with = "mesh::array")] pub [f64; N]);
+
+impl<const N: usize> Default for BlockReport<N> {
+    fn default() -> Self {
+        Self {
+            extremes: Extremes::default(),
+            has_gas: false,
+            marked: CellBits::default(),
+            redone: 0,
+            redone_volume: 0.0,
+            fallbacks: 0,
+            clips: Clips::default(),
+            phase_mass_added: [0.0; 2],
+            floored: 0,
+            floored_volume: 0.0,
+            floor_energy: 0.0,
+            inflow: [[0.0; 3]; 4],
+            wall_pressure: [0.0; N],
+            impulse: [FaceRow([0.0; N]); 4],
+        }
+    }
+}
+
+impl<const N: usize> BlockReport<N> {
+    /// Takes down that a cell was lifted to the pressure floor.
+    ///
+    /// - `added`: the energy for it, J/m³; `volume`: the cell's.
+    pub fn lift_pressure(&mut self, added: f64, volume: f64) {
+        self.floored += 1;
+        self.floored_volume += volume;
+        self.floor_energy += added * volume;
+    }
+
+    /// Gives a phase of a cell that has less than no mass what it lacks, from the other phase: ρ stays.
+    ///
+    /// - `gas`: mass of the gas, kg/m³; `volume`: the cell's.
+    pub fn lift_phase(&mut self, density: f64, gas: &mut f64, volume: f64) {
+        let missing = missing_mass(density, *gas);
+        if missing == [0.0; 2] {
+            return;
+        }
+        *gas += missing[0] - missing[1];
+        self.clips.lifted_phases += 1;
+        for (added, missing) in self.phase_mass_added.iter_mut().zip(missing) {
+            *added += missing * volume;
+        }
+    }
+}
+
+/// Cells of the block that keep none of their slopes, and those that keep half, for want of admissible face states.
+pub(crate) fn count_kept<const N: usize>(keep: &[f64]) -> [u32; 2] {
+    let (mut dropped, mut halved) = (0, 0);
+    for j in 0..N {
+        let at = Padded::<N>::index(0, j as isize);
+        for share in &keep[at..at + N] {
+            // Mixed cells of the five-equation model hold −0: they have face states of their own.
+            dropped += u32::from(share.to_bits() == 0);
+            halved += u32::from(*share == 0.5);
+        }
+    }
+    [dropped, halved]
+}
+
+/// What the far field's impulses gain on the faces of a block.
+///
+/// - `half`: the cells at mid-step.
+pub(crate) fn far_field_gains<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    half: &Padded<N>,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+) -> [FaceRow<N>; 4] {
+    let mut gains = [FaceRow([0.0; N]); 4];
+    let Some(far_field) = ctx.model.boundaries.far_field() else { return gains };
+    let id = ctx.mesh.tree().leaves()[slot];
+    for side in Side::ALL {
+        if !(ctx.model.boundaries.has_far_field(side) && ctx.mesh.touches(slot, side)) {
+            continue;
+        }
+        let faces = if normal(side) == 1 { z_faces } else { r_faces };
+        let is_low = matches!(side, Side::ZMin | Side::RMin);
+        for along in 0..N {
+            let [inner, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+            let k = if is_low { ghost } else { inner };
+            let u_n = if is_low { -faces.velocity[k] } else { faces.velocity[k] };
+            let [rho, u_t] = [0, 3 - normal(side)].map(|component| half.component(component)[inner]);
+            let centre = face_centre(ctx.mesh, side, id.level, id.first_face::<N>(side) + along);
+            let state = [u_n, u_t, faces.pressure[k]];
+            gains[side as usize].0[along] = far_field.gain(side, centre, rho, state, ctx.model.moment(ctx));
+        }
+    }
+    gains
+}
+
+/// Mass, axial momentum and energy that a block took in through the sides of the domain.
+pub(crate) fn boundary_inflow<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+    face_weight: &[f64],
+) -> [[f64; 3]; 4] {
+    let mut inflow = [[0.0; 3]; 4];
+    let id = ctx.mesh.tree().leaves()[slot];
+    let [h_z, h_r] = ctx.mesh.widths(id.level);
+    for side in Side::ALL {
+        if !ctx.mesh.touches(slot, side) {
+            continue;
+        }
+        let total = &mut inflow[side as usize];
+        for along in 0..N {
+            let [mass, momentum, energy] = match side {
+                Side::ZMin | Side::ZMax => {
+                    let i = if side == Side::ZMin { -1 } else { N as isize - 1 };
+                    let k = Padded::<N>::index(i, along as isize);
+                    let area = ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r;
+                    let momentum = z_faces.mass[k] * z_faces.velocity[k] + z_faces.pressure[k];
+                    [area * z_faces.mass[k], area * momentum, area * z_faces.energy[k]]
+                }
+                Side::RMin | Side::RMax => {
+                    let j = if side == Side::RMin { -1 } else { N as isize - 1 };
+                    let k = Padded::<N>::index(along as isize, j);
+                    let area = face_weight[(j + 1) as usize] * h_z;
+                    [area * r_faces.mass[k], area * r_faces.shear[k], area * r_faces.energy[k]]
+                }
+            };
+            let sign = if matches!(side, Side::ZMin | Side::RMin) { ctx.dt } else { -ctx.dt };
+            total[0] += sign * mass;
+            total[1] += sign * momentum;
+            total[2] += sign * energy;
+        }
+    }
+    inflow
+}

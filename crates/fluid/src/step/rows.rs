@@ -1,0 +1,304 @@
+//! Kernels over the cells of one padded block: primitive variables, predictor, fluxes.
+//!
+//! Every function walks flat rows (a structure of arrays, see [`mesh::Padded`]) with a body free of branches, so that the compiler
+//! vectorises it; each is compiled for several instruction sets and the best one is chosen at run time.
+//! Rust never contracts a·b + c, so the results do not depend on that choice.
+
+use std::ops::Range;
+
+use mesh::whole_lines;
+
+use crate::Mixture;
+use crate::reconstruction::{Reconstruction, fraction, states_at_face};
+use crate::riemann::hllc::flux_and_roots;
+use crate::state::primitive;
+use crate::step::face_rows::FaceRows;
+
+/// Time derivatives of the primitive variables.
+///
+/// Paper eqs. (7)–(9) in primitive form, with the geometric term of the axisymmetric divergence.
+///
+/// - `w`: ρ, v_z, v_r, p, φ; `d_z`, `d_r`: their derivatives, per m; `inverse_r`: 1/r, or 0 in planar geometry.
+/// - returns: ∂w/∂t.  valid for ρ > 0.  errors: none.
+#[inline(always)]
+pub(crate) fn rates(
+    w: [f64; 5],
+    d_z: [f64; 5],
+    d_r: [f64; 5],
+    inverse_r: f64,
+    mixture: &Mixture,
+) -> [f64; 5] {
+    rates_of(w, d_z, d_r, inverse_r, 1.0 / w[0], mixture.bulk_modulus(w[3], w[4]))
+}
+
+/// [`rates`] with 1/ρ and ρc² at hand.
+#[inline(always)]
+fn rates_of(
+    w: [f64; 5],
+    d_z: [f64; 5],
+    d_r: [f64; 5],
+    inverse_r: f64,
+    inverse_rho: f64,
+    bulk_modulus: f64,
+) -> [f64; 5] {
+    let [rho, v_z, v_r, ..] = w;
+    let divergence = d_z[1] + d_r[2] + v_r * inverse_r;
+    let advected = |k: usize| v_z * d_z[k] + v_r * d_r[k];
+    [
+        -(advected(0) + rho * divergence),
+        -(advected(1) + d_z[3] * inverse_rho),
+        -(advected(2) + d_r[3] * inverse_rho),
+        -(advected(3) + bulk_modulus * divergence),
+        -advected(4),
+    ]
+}
+
+/// What the predictor takes from a cell's equation of state. One division makes all three: it is what the time goes
+/// into.
+#[derive(Clone, Copy)]
+struct CellLaw {
+    inverse_rho: f64,
+    /// ρc², see [`Mixture::bulk_modulus`].
+    bulk_modulus: f64,
+    /// p + π.
+    excess: f64,
+}
+
+impl CellLaw {
+    #[inline(always)]
+    fn at(rho: f64, p: f64, phi: f64, mixture: &Mixture) -> Self {
+        let (b1, b2) = (mixture.beta1(phi), mixture.beta2(phi));
+        let above = 1.0 + b1;
+        let inverse = 1.0 / (rho * (b1 * above));
+        let per_law = inverse * rho;
+        Self {
+            inverse_rho: inverse * (b1 * above),
+            bulk_modulus: (above * p + b2) * (above * per_law),
+            excess: p + b2 * (b1 * per_law),
+        }
+    }
+}
+
+/// Whether the four face states of a cell, `half` ± half the differences, are fit for Riemann problems:
+///
+/// - densities and p + π above a thousandth of the cell's own;
+/// - impedances ρc above (Δt/h) ρc² of the cell. Where gas lies beyond a face of a mixed cell, a pressure p' in
+///   the cell drives the flow p'/(ρc) through the face, and that changes the pressure by (Δt/h) ρc² p'/(ρc):
+///   with slopes so steep that the face state is gas while the cell is still stiff, it would overshoot
+///   manyfold in every step. Smooth flow never comes near: there the ratio is the Courant number.
+///
+/// `ratio` is Δt/h along the narrower width.
+#[inline(always)]
+fn admissible(
+    w: [f64; 5],
+    law: CellLaw,
+    half: [f64; 5],
+    reach: [f64; 5],
+    ratio: f64,
+    mixture: &Mixture,
+) -> bool {
+    let lowest_density = half[0] - reach[0];
+    let face = CellLaw::at(1.0, half[3] - reach[3], half[4] + reach[4], mixture);
+    let carried = ratio * law.bulk_modulus;
+    let impedance_squared = lowest_density * face.bulk_modulus;
+    (lowest_density > 1e-3 * w[0])
+        & (face.excess > 1e-3 * law.excess)
+        & (impedance_squared > carried * carried)
+}
+
+#[inline(always)]
+fn scaled([a, b, c, d, e]: [f64; 5], factor: f64) -> [f64; 5] {
+    [a * factor, b * factor, c * factor, d * factor, e * factor]
+}
+
+/// The predictor of one cell, ready to move by all of a half step or a share of it.
+struct Prediction<'a> {
+    w: [f64; 5],
+    law: CellLaw,
+    /// ∂w/∂t times half the time step.
+    change: [f64; 5],
+    /// Half the larger difference of ρ, p and φ.
+    reach: [f64; 5],
+    /// Δt/h along the narrower width.
+    ratio: f64,
+    mixture: &'a Mixture,
+}
+
+impl<'a> Prediction<'a> {
+    #[inline(always)]
+    fn new(
+        w: [f64; 5],
+        s_z: [f64; 5],
+        s_r: [f64; 5],
+        inverse_h: [f64; 2],
+        inverse_r: f64,
+        half_dt: f64,
+        mixture: &'a Mixture,
+    ) -> Self {
+        let law = CellLaw::at(w[0], w[3], w[4], mixture);
+        let (d_z, d_r) = (scaled(s_z, inverse_h[0]), scaled(s_r, inverse_h[1]));
+        let rate = rates_of(w, d_z, d_r, inverse_r, law.inverse_rho, law.bulk_modulus);
+        let reach = |k: usize| {
+            let (a, b) = (s_z[k].abs(), s_r[k].abs());
+            0.5 * if a > b { a } else { b }
+        };
+        let [inverse_hz, inverse_hr] = inverse_h;
+        Self {
+            w,
+            law,
+            change: scaled(rate, half_dt),
+            reach: [reach(0), 0.0, 0.0, reach(3), reach(4)],
+            ratio: 2.0 * half_dt * if inverse_hz > inverse_hr { inverse_hz } else { inverse_hr },
+            mixture,
+        }
+    }
+
+    /// c, m/s.
+    #[inline(always)]
+    fn sound_speed(&self) -> f64 {
+        (self.law.bulk_modulus * self.law.inverse_rho).sqrt()
+    }
+
+    #[inline(always)]
+    fn at(&self, share: f64) -> [f64; 5] {
+        let moved = |k: usize| self.w[k] + share * self.change[k];
+        [moved(0), moved(1), moved(2), moved(3), moved(4)]
+    }
+
+    #[inline(always)]
+    fn admissible(&self, share: f64) -> bool {
+        let reach = scaled(self.reach, share);
+        admissible(self.w, self.law, self.at(share), reach, self.ratio, self.mixture)
+    }
+}
+
+/// The state at mid-step, and the share of its slopes that the cell keeps: all (1), or half of them (MC slopes
+/// are then no steeper than minmod's), or none (0, first order), whichever gives admissible face states.
+#[inline(always)]
+pub(crate) fn half_step(
+    w: [f64; 5],
+    s_z: [f64; 5],
+    s_r: [f64; 5],
+    inverse_h: [f64; 2],
+    inverse_r: f64,
+    half_dt: f64,
+    mixture: &Mixture,
+) -> ([f64; 5], f64) {
+    let prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
+    let fallback = if prediction.admissible(0.5) { 0.5 } else { 0.0 };
+    let keep = if prediction.admissible(1.0) { 1.0 } else { fallback };
+    (prediction.at(keep), keep)
+}
+
+/// [`half_step`] where all slopes are kept, and the cell's sound speed; where they are not, 0 tells so and the state counts for
+/// nothing.
+#[inline(always)]
+pub(crate) fn whole_half_step<const WITH_GAS: bool>(
+    w: [f64; 5],
+    s_z: [f64; 5],
+    s_r: [f64; 5],
+    inverse_h: [f64; 2],
+    inverse_r: f64,
+    half_dt: f64,
+    mixture: &Mixture,
+) -> ([f64; 5], f64, f64) {
+    let mut prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
+    prediction.change[4] = fraction::<WITH_GAS>(prediction.change[4]);
+    (prediction.at(1.0), if prediction.admissible(1.0) { 1.0 } else { 0.0 }, prediction.sound_speed())
+}
+
+/// Conserved to primitive variables, in place of rows of equal length; without gas the last row is left alone.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn to_primitive(rows: [&mut [f64]; 5], with_gas: bool, mixture: &Mixture) {
+    let n = rows[0].len();
+    let [rho, a, b, c, phi] = rows;
+    let (rho, phi) = (&rho[..n], &phi[..n]);
+    if with_gas {
+        to_primitive_body::<true>(n, rho, &mut a[..n], &mut b[..n], &mut c[..n], phi, mixture);
+    } else {
+        to_primitive_body::<false>(n, rho, &mut a[..n], &mut b[..n], &mut c[..n], phi, mixture);
+    }
+}
+
+#[inline(always)]
+fn to_primitive_body<const WITH_GAS: bool>(
+    n: usize,
+    rho: &[f64],
+    a: &mut [f64],
+    b: &mut [f64],
+    c: &mut [f64],
+    phi: &[f64],
+    mixture: &Mixture,
+) {
+    for k in 0..n {
+        let w = primitive([rho[k], a[k], b[k], c[k], fraction::<WITH_GAS>(phi[k])], mixture);
+        (a[k], b[k], c[k]) = (w[1], w[2], w[3]);
+    }
+}
+
+/// HLLC at the faces between cells `k` and `k + step`, for `k` in `range` and in whatever completes its lines;
+/// `stride` is that of the rows. Without gas the gas fractions on the faces are left alone.
+///
+/// - returns: whether all of them have sound speeds on both sides, also those of which nothing is used.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn hllc_faces(
+    cells: &Reconstruction<'_>,
+    step: usize,
+    stride: usize,
+    range: Range<usize>,
+    mixture: &Mixture,
+    faces: &mut FaceRows,
+) -> bool {
+    let range = whole_lines(range, cells.lines(step, stride));
+    let (first, n) = (range.start, range.len());
+    let mixture = *mixture;
+    let (lower, upper) = (cells.cut(first, n), cells.cut(first + step, n));
+    let [mass, velocity, pressure, shear, energy, phi] = faces.fluxes_mut();
+    let (mass, velocity, pressure) =
+        (&mut mass[first..][..n], &mut velocity[first..][..n], &mut pressure[first..][..n]);
+    let (shear, energy, phi) = (&mut shear[first..][..n], &mut energy[first..][..n], &mut phi[first..][..n]);
+    if cells.with_gas {
+        hllc_body::<true>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi)
+    } else {
+        hllc_body::<false>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi)
+    }
+}
+
+#[inline(always)]
+fn hllc_body<const WITH_GAS: bool>(
+    n: usize,
+    lower: Reconstruction<'_>,
+    upper: Reconstruction<'_>,
+    mixture: &Mixture,
+    mass: &mut [f64],
+    velocity: &mut [f64],
+    pressure: &mut [f64],
+    shear: &mut [f64],
+    energy: &mut [f64],
+    phi: &mut [f64],
+) -> bool {
+    let mut without = 0;
+    for k in 0..n {
+        let [left, right] = states_at_face::<WITH_GAS>(&lower, &upper, k);
+        let (face, has_roots) = flux_and_roots(left, right, mixture);
+        without |= u64::from(!has_roots);
+        mass[k] = face.mass;
+        velocity[k] = face.velocity;
+        pressure[k] = face.pressure;
+        shear[k] = face.shear;
+        energy[k] = face.energy;
+        if WITH_GAS {
+            phi[k] = face.phi;
+        }
+    }
+    without == 0
+}
+
+/// Whether both sides of the face above cell `k` have a sound speed, see [`flux_and_roots`].
+pub(crate) fn has_roots(cells: &Reconstruction<'_>, k: usize, step: usize, mixture: &Mixture) -> bool {
+    let [left, right] = states_at_face::<true>(&cells.cut(k, 1), &cells.cut(k + step, 1), 0);
+    flux_and_roots(left, right, mixture).1
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,302 @@
+//! The kernel that advances the cells of a block by their face fluxes; written as those of `rows.rs`.
+
+use mesh::maximum;
+
+use serde::{Deserialize, Serialize};
+
+use crate::Mixture;
+use crate::reconstruction::{Rows, fraction};
+use crate::step::face_rows::FaceRows;
+
+/// Reductions over a block's new cells.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Extremes {
+    /// Largest |v_z| + c, infinite if a cell is not admissible.
+    pub speed_z: f64,
+    /// Largest |v_r| + c, infinite if a cell is not admissible.
+    pub speed_r: f64,
+    /// Largest gas fraction.
+    pub phi: f64,
+    /// Largest energy per volume that the pressure floor added to a cell.
+    pub floor: f64,
+}
+
+impl Extremes {
+    /// Of the rows that [`update`] writes.
+    pub fn of(phi: &[f64], [speed_z, speed_r, floor]: [&[f64]; 3]) -> Self {
+        Self {
+            speed_z: maximum(speed_z),
+            speed_r: maximum(speed_r),
+            phi: maximum(phi),
+            floor: maximum(floor),
+        }
+    }
+}
+
+/// What the update needs to know of a block's geometry.
+pub(crate) struct Metric<'a> {
+    /// Stride and flat index of cell (0, 0) of padded rows.
+    pub stride: usize,
+    /// See `stride`.
+    pub origin: usize,
+    /// 1/h_z, 1/h_r.
+    pub inverse_h: [f64; 2],
+    /// Weights r_j−1/2 (or 1) of the N + 1 r-faces.
+    pub face_weight: &'a [f64],
+    /// 1/r_j (or 1) of the N rows.
+    pub inverse_weight: &'a [f64],
+}
+
+impl Metric<'_> {
+    /// Of row `j`, for a step of length `dt`.
+    #[inline(always)]
+    pub fn row(&self, j: usize, dt: f64) -> RowMetric {
+        RowMetric {
+            dt_z: dt * self.inverse_h[0],
+            dt_r: dt * self.inverse_h[1],
+            lower: self.face_weight[j] * self.inverse_weight[j],
+            upper: self.face_weight[j + 1] * self.inverse_weight[j],
+        }
+    }
+}
+
+/// Conservative update of a block of N² cells from its face fluxes, gas fraction in the form (27).
+///
+/// Paper eqs. (23), (27). The pressure's share of the radial momentum is (p₊ − p₋)/Δr: flux and source of the
+/// axisymmetric form taken together, with the source the mean of both faces' pressures, so that a uniform
+/// pressure exerts exactly no radial force.
+///
+/// - `old`, `new`: conserved variables `[component][j][i]` without ghosts.
+/// - `with_gas`: whether gas is in or comes into any cell; without it the gas fraction's rows are neither read nor written.
+/// - `speeds`: scratch of N² numbers each: |v_z| + c, |v_r| + c, energy added by the floor.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn update<const N: usize>(
+    old: Rows<'_>,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+    dt: f64,
+    metric: &Metric<'_>,
+    with_gas: bool,
+    mixture: &Mixture,
+    new: [&mut [f64]; 5],
+    speeds: [&mut [f64]; 3],
+) {
+    if with_gas {
+        update_rows::<N, true>(old, z_faces, r_faces, dt, metric, mixture, new, speeds);
+    } else {
+        update_rows::<N, false>(old, z_faces, r_faces, dt, metric, mixture, new, speeds);
+    }
+}
+
+#[inline(always)]
+fn update_rows<const N: usize, const WITH_GAS: bool>(
+    old: Rows<'_>,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+    dt: f64,
+    metric: &Metric<'_>,
+    mixture: &Mixture,
+    new: [&mut [f64]; 5],
+    speeds: [&mut [f64]; 3],
+) {
+    let [rho, mz, mr, energy, phi] = new;
+    let [speed_z, speed_r, floor] = speeds;
+    let (z_faces, r_faces) = (z_faces.fluxes(), r_faces.fluxes());
+    for j in 0..N {
+        let at = j * N;
+        let k = metric.origin + j * metric.stride;
+        update_row::<N, WITH_GAS>(
+            [row(old[0], at), row(old[1], at), row(old[2], at), row(old[3], at), row(old[4], at)],
+            FaceSlices::cut(z_faces, k - 1),
+            FaceSlices::cut(z_faces, k),
+            FaceSlices::cut(r_faces, k - metric.stride),
+            FaceSlices::cut(r_faces, k),
+            metric.row(j, dt),
+            *mixture,
+            row_mut(rho, at),
+            row_mut(mz, at),
+            row_mut(mr, at),
+            row_mut(energy, at),
+            row_mut(phi, at),
+            row_mut(speed_z, at),
+            row_mut(speed_r, at),
+            row_mut(floor, at),
+        );
+    }
+}
+
+/// N numbers from `at` on, so that the compiler knows how many.
+#[inline(always)]
+pub(crate) fn row<const N: usize>(numbers: &[f64], at: usize) -> &[f64; N] {
+    numbers[at..].first_chunk().expect("rows are whole")
+}
+
+#[inline(always)]
+fn row_mut<const N: usize>(numbers: &mut [f64], at: usize) -> &mut [f64; N] {
+    numbers[at..].first_chunk_mut().expect("rows are whole")
+}
+
+/// [`FaceRows::fluxes`] cut to the faces of one row of cells.
+#[derive(Clone, Copy)]
+pub(crate) struct FaceSlices<'a, const N: usize> {
+    mass: &'a [f64; N],
+    velocity: &'a [f64; N],
+    pressure: &'a [f64; N],
+    shear: &'a [f64; N],
+    energy: &'a [f64; N],
+    phi: &'a [f64; N],
+}
+
+impl<'a, const N: usize> FaceSlices<'a, N> {
+    #[inline(always)]
+    pub fn cut([mass, velocity, pressure, shear, energy, phi]: [&'a [f64]; 6], at: usize) -> Self {
+        Self {
+            mass: row(mass, at),
+            velocity: row(velocity, at),
+            pressure: row(pressure, at),
+            shear: row(shear, at),
+            energy: row(energy, at),
+            phi: row(phi, at),
+        }
+    }
+
+    #[inline(always)]
+    pub fn at(&self, k: usize) -> FaceValues {
+        FaceValues {
+            mass: self.mass[k],
+            velocity: self.velocity[k],
+            pressure: self.pressure[k],
+            shear: self.shear[k],
+            energy: self.energy[k],
+            phi: self.phi[k],
+        }
+    }
+}
+
+/// What the balance of one row of cells needs: time step over cell width, and face weights over the row's weight.
+#[derive(Clone, Copy)]
+pub(crate) struct RowMetric {
+    dt_z: f64,
+    dt_r: f64,
+    lower: f64,
+    upper: f64,
+}
+
+impl RowMetric {
+    /// Δt/h_z times the difference of a flux along z.
+    #[inline(always)]
+    pub fn axial(&self, high: f64, low: f64) -> f64 {
+        self.dt_z * (high - low)
+    }
+
+    /// Δt/h_r times the weighted difference of a flux along r.
+    #[inline(always)]
+    pub fn radial(&self, high: f64, low: f64) -> f64 {
+        self.dt_r * (self.upper * high - self.lower * low)
+    }
+}
+
+/// What one face passes on, see [`crate::Face`].
+#[derive(Clone, Copy)]
+pub(crate) struct FaceValues {
+    pub mass: f64,
+    pub velocity: f64,
+    pub pressure: f64,
+    pub shear: f64,
+    pub energy: f64,
+    pub phi: f64,
+}
+
+/// One cell's conserved variables after the step, paper eqs. (23), (27), before anything is corrected.
+///
+/// Both directions are added before they meet the old value, and alike for both components of the momentum: planar
+/// flow does not tell z from r, to the last bit.
+///
+/// - `faces`: west, east, south, north.
+#[inline(always)]
+pub(crate) fn balance(
+    old: [f64; 5],
+    [west, east, south, north]: [FaceValues; 4],
+    row: RowMetric,
+) -> [f64; 5] {
+    let normal = |f: &FaceValues| f.mass * f.velocity;
+    let force_z = row.axial(normal(&east), normal(&west)) + row.axial(east.pressure, west.pressure);
+    let force_r = row.radial(normal(&north), normal(&south)) + row.dt_r * (north.pressure - south.pressure);
+    let carried = |f: &FaceValues| f.velocity * (f.phi - old[4]);
+    [
+        old[0] - (row.axial(east.mass, west.mass) + row.radial(north.mass, south.mass)),
+        old[1] - (force_z + row.radial(north.shear, south.shear)),
+        old[2] - (force_r + row.axial(east.shear, west.shear)),
+        old[3] - (row.axial(east.energy, west.energy) + row.radial(north.energy, south.energy)),
+        old[4] - (row.axial(carried(&east), carried(&west)) + row.radial(carried(&north), carried(&south))),
+    ]
+}
+
+/// A cell that holds the pressure floor, and what the next time step needs to know of it.
+#[derive(Clone, Copy)]
+pub(crate) struct SettledCell {
+    pub conserved: [f64; 5],
+    /// |v_z| + c, |v_r| + c; infinite if the cell is not admissible.
+    pub speed_z: f64,
+    pub speed_r: f64,
+    /// Energy per volume that the floor added.
+    pub floor: f64,
+}
+
+/// Applies the pressure floor. As `state::primitive`, with one division for 1/ρ and one for 1/β₁, which the sound
+/// speed needs as well.
+#[inline(always)]
+pub(crate) fn settled([rho, mz, mr, energy, phi]: [f64; 5], mixture: &Mixture) -> SettledCell {
+    let inverse_rho = 1.0 / rho;
+    let (v_z, v_r) = (mz * inverse_rho, mr * inverse_rho);
+    let internal = energy - 0.5 * (mz * v_z + mr * v_r);
+    let (beta1, beta2) = (mixture.beta1(phi), mixture.beta2(phi));
+    let inverse_beta1 = 1.0 / beta1;
+    let p = (internal - beta2) * inverse_beta1;
+    let lowest = mixture.pressure_floor(phi);
+    let lifted = if p < lowest { lowest } else { p };
+    let added = beta1 * (lifted - p);
+    let sound = (((1.0 + beta1) * lifted + beta2) * (inverse_beta1 * inverse_rho)).sqrt();
+    let sane = (rho > 0.0) & (sound < f64::MAX);
+    let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
+    SettledCell {
+        conserved: [rho, mz, mr, energy + added, phi],
+        speed_z: speed(v_z),
+        speed_r: speed(v_r),
+        floor: added,
+    }
+}
+
+#[inline(always)]
+fn update_row<const N: usize, const WITH_GAS: bool>(
+    old: [&[f64; N]; 5],
+    west: FaceSlices<'_, N>,
+    east: FaceSlices<'_, N>,
+    south: FaceSlices<'_, N>,
+    north: FaceSlices<'_, N>,
+    metric: RowMetric,
+    mixture: Mixture,
+    rho: &mut [f64; N],
+    mz: &mut [f64; N],
+    mr: &mut [f64; N],
+    energy: &mut [f64; N],
+    phi: &mut [f64; N],
+    speed_z: &mut [f64; N],
+    speed_r: &mut [f64; N],
+    floor: &mut [f64; N],
+) {
+    for k in 0..N {
+        let faces = [west.at(k), east.at(k), south.at(k), north.at(k)];
+        let before = [old[0][k], old[1][k], old[2][k], old[3][k], old[4][k]];
+        let mut after = balance(before, faces, metric);
+        after[4] = fraction::<WITH_GAS>(after[4]);
+        let cell = settled(after, &mixture);
+        [rho[k], mz[k], mr[k], energy[k], _] = cell.conserved;
+        if WITH_GAS {
+            phi[k] = cell.conserved[4];
+        }
+        speed_z[k] = cell.speed_z;
+        speed_r[k] = cell.speed_r;
+        floor[k] = cell.floor;
+    }
+}

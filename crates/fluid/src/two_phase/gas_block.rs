@@ -1,0 +1,300 @@
+//! The part of a block's step that only the five-equation model has, where there is gas.
+
+use mesh::{Padded, Side};
+
+use super::cells::Cells;
+use super::mixed::Outer;
+use super::reconstruction::CellRule;
+use super::scratch::GasScratch;
+use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
+use crate::options::TwoPhaseOptions;
+use crate::physics::FluidStep;
+use crate::reconstruction::{Reconstruction, Rows};
+use crate::state::conserved::{GAS, PHI, RHO};
+use crate::step::clips::Clips;
+use crate::step::face_rows::FaceRows;
+use crate::step::report::BlockReport;
+use crate::step::update::Metric;
+use crate::step::{BlockScratch, split_block};
+use crate::{Boundary, RiemannSolver};
+
+/// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
+const NOT_THEIRS: f64 = -0.0;
+
+/// Whether there may be gas in a block's padded cells. Where there is gas the paper's mixture does not know: its traces
+/// are nearly everywhere.
+pub(crate) fn may_have_gas<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> bool {
+    let has_gas = |slot: &usize| ctx.model.has_gas[*slot];
+    ctx.model.scheme.two_phase.is_none()
+        || has_gas(&slot)
+        || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
+        || (ctx.mesh.tree().neighbours(slot).iter())
+            .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot)))
+}
+
+/// A block of the five-equation model with gas in its padded cells.
+pub(crate) struct GasBlock<'a, const N: usize> {
+    ctx: &'a FluidStep<'a, N>,
+    slot: usize,
+    options: TwoPhaseOptions,
+    inverse_h: [f64; 2],
+}
+
+impl<'a, const N: usize> GasBlock<'a, N> {
+    /// A block that [`may_have_gas`], if it has or if some may come in through a side: what a neighbour has may be farther
+    /// away. `None` for the paper's mixture.
+    ///
+    /// - `cells`: the padded cells, primitive.
+    pub fn of(ctx: &'a FluidStep<'a, N>, slot: usize, cells: &Padded<N>) -> Option<Self> {
+        let options = ctx.model.scheme.two_phase?;
+        let level = ctx.mesh.tree().leaves()[slot].level;
+        let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
+        let has_gas = !ctx.marks.is_empty()
+            || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
+            || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)));
+        has_gas.then_some(Self { ctx, slot, options, inverse_h })
+    }
+
+    fn rule<'b>(&self, inverse_r: &'b [f64]) -> CellRule<'b>
+    where
+        'a: 'b,
+    {
+        CellRule {
+            limiter: self.ctx.model.scheme.limiter,
+            inverse_h: self.inverse_h,
+            inverse_r,
+            dt: self.ctx.dt,
+            mixture: &self.ctx.model.mixture,
+            options: self.options,
+        }
+    }
+
+    /// Finds and reconstructs the mixed cells; `scratch` holds the assembled block and its predicted states.
+    pub fn collect(&self, scratch: &mut BlockScratch<N>) {
+        let BlockScratch { cells, gas, half, keep, inverse_r, .. } = scratch;
+        let rows = cells.split::<6>();
+        gas_shares(rows[GAS], rows[RHO], &mut gas.shares);
+        self.impose_outer_shares(&mut gas.shares);
+        gas.mixed.clear();
+        gas.mixed.collect::<N>(
+            &Cells { rows, stride: Padded::<N>::STRIDE },
+            &self.rule(inverse_r),
+            Side::ALL.map(|side| self.outer(side)),
+            (!self.ctx.marks.is_empty()).then_some(&gas.is_marked),
+        );
+        // What the kernels made of these cells counts for nothing. What the wall to the solid asks for is on the lower
+        // face along z; and the exact solver should not labour over what is no state.
+        let is_asked_for =
+            self.outer(Side::ZMin) == Outer::Given || self.ctx.model.scheme.riemann == RiemannSolver::Exact;
+        for (k, state) in gas.mixed.listed() {
+            keep[k] = NOT_THEIRS;
+            if is_asked_for {
+                for (component, value) in state.w.into_iter().enumerate() {
+                    half.component_mut(component)[k] = value;
+                }
+            }
+        }
+    }
+
+    fn outer(&self, side: Side) -> Outer {
+        if !self.ctx.mesh.touches(self.slot, side) {
+            return Outer::Block;
+        }
+        match self.ctx.model.boundaries.kind(side) {
+            Boundary::Axis | Boundary::Wall => Outer::Mirror,
+            Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow | Boundary::Interface => {
+                Outer::Given
+            }
+            Boundary::Periodic => Outer::Block,
+        }
+    }
+
+    /// What comes in through an open side is what was there in the beginning; a wall gives back what it got.
+    fn impose_outer_shares(&self, shares: &mut [f64]) {
+        for side in Side::ALL {
+            if self.outer(side) != Outer::Given {
+                continue;
+            }
+            for along in 0..N {
+                let [inner, ghost] =
+                    crate::boundary::beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+                let given =
+                    self.ctx.model.boundaries.initial_gas_share(self.ctx.mesh, self.slot, side, along);
+                shares[ghost] = given.unwrap_or(shares[inner]);
+            }
+        }
+    }
+
+    /// Solves the faces of mixed cells along one axis (0: z, 1: r).
+    pub fn solve_faces(
+        &self,
+        axis: usize,
+        cells: &Reconstruction<'_>,
+        inverse_r: &[f64],
+        gas: &mut GasScratch,
+        faces: &mut FaceRows,
+    ) {
+        gas.mixed.solve_faces::<N>(axis, cells, &self.rule(inverse_r), faces);
+    }
+
+    /// Makes the gas's mass fluxes from those of the mass, which must be final.
+    pub fn gas_fluxes(&self, gas: &mut GasScratch, faces: [&mut FaceRows; 2]) {
+        for (axis, faces) in faces.into_iter().enumerate() {
+            gas_fluxes(&gas.shares, if axis == 0 { 1 } else { Padded::<N>::STRIDE }, faces);
+            gas.mixed.put_gas_fluxes(axis, faces);
+        }
+    }
+
+    /// Advances the gas's mass and does the mixed cells' update again, with the closure.
+    pub fn update(
+        &self,
+        gas: &mut GasScratch,
+        old: Rows<'_>,
+        pressure: &[f64],
+        faces: [&FaceRows; 2],
+        metric: &Metric<'_>,
+        inverse_r: &[f64],
+        new: &mut [f64],
+        speeds: &mut [&mut [f64]; 3],
+        report: &mut BlockReport<N>,
+    ) {
+        let old_gas = self.ctx.old.component(self.slot, GAS);
+        let (first, new_gas) = new.split_at_mut(GAS * N * N);
+        update_gas::<N>(old_gas, faces[0], faces[1], self.ctx.dt, metric, new_gas);
+        let mut rows = split_block::<N>(first);
+        let mut clipped = update_mixed::<N>(
+            &gas.mixed,
+            old,
+            pressure,
+            [old_gas, new_gas],
+            faces,
+            metric,
+            &self.rule(inverse_r),
+            &mut rows,
+            speeds,
+            &mut gas.marked,
+        );
+        gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
+        let [density, _, _, _, phi] = rows;
+        let settled = settle_gas(phi, density, new_gas);
+        clipped += settled.clipped;
+        let (clips, dropped) = gas.mixed.clips();
+        report.clips += Clips { clipped_fractions: clipped, removed_traces: settled.removed, ..clips };
+        report.fallbacks += dropped;
+        report.has_gas = settled.is_left;
+        if settled.has_missing {
+            self.lift_phases(density, new_gas, report);
+        }
+    }
+
+    /// Gives phases that have less than no mass what they lack, from the other phase: ρ stays.
+    fn lift_phases(&self, density: &[f64], gas: &mut [f64], report: &mut BlockReport<N>) {
+        let id = self.ctx.mesh.tree().leaves()[self.slot];
+        for (cell, (gas, density)) in gas.iter_mut().zip(density).enumerate() {
+            report.lift_phase(*density, gas, self.ctx.mesh.volume(id, cell / N));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mesh::{Adaptation, Domain, Geometry, Limiter};
+
+    use crate::state::conserved::{GAS, PHI};
+    use crate::{
+        Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState,
+        Region, RiemannSolver, Scales, Shape, Sharpening, StiffenedGas,
+    };
+
+    fn collapsing_bubble() -> FluidSolver<8> {
+        let setup = FluidSetup {
+            domain: Domain { geometry: Geometry::Axisymmetric, z: [0.0, 4.0], r: [0.0, 2.0] },
+            coarsest: [16, 8],
+            levels: 3,
+            liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
+            gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
+            model: Model::FiveEquation,
+            sharpening: Sharpening::Thinc,
+            riemann: RiemannSolver::Hllc,
+            limiter: Limiter::Minmod,
+            boundaries: [Boundary::Wall, Boundary::NonReflecting, Boundary::Axis, Boundary::NonReflecting],
+            inflow: None,
+            far_field: None,
+            adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![] }),
+            scales: Scales { pressure: 5e7, density: 1e3 },
+        };
+        let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0, 0.0] };
+        let initial = InitialCondition {
+            ambient: state(Phase::Liquid, 1000.0, 5e7),
+            pressure: InitialPressure::Uniform,
+            regions: vec![Region {
+                shape: Shape::Sphere { centre: [1.0, 0.0], radius: 0.4 },
+                state: state(Phase::Gas, 0.0266, 2118.0),
+            }],
+            pulses: vec![],
+        };
+        FluidSolver::new(&setup, &initial).expect("a fluid")
+    }
+
+    /// Neither phase's mass is left below zero; what it lacked comes from the other one, and is told.
+    #[test]
+    fn a_phase_with_less_than_no_mass_is_lifted_and_counted() {
+        let mut fluid = collapsing_bubble();
+        let dt = fluid.time_step_limit(0.45);
+        let (mut added, before) = ([0.0; 2], fluid.totals());
+        let mut changed = [0_u64; 2];
+        for slot in 0..fluid.mesh().blocks() {
+            let id = fluid.mesh().tree().leaves()[slot];
+            let block = fluid.state_mut().block_mut(slot);
+            // In the middle of blocks all around holds the same phase, and nothing moves.
+            let (cell, cells) = (8 * 4 + 4, 64);
+            let near = [cell - 17, cell - 2, cell + 2, cell + 17].map(|k| block[PHI * cells + k]);
+            if near == [0.0; 4] {
+                block[GAS * cells + cell] = -1e-4;
+                added[0] += 1e-4 * fluid.mesh().volume(id, 4);
+                changed[0] += 1;
+            } else if near == [1.0; 4] {
+                let more = 0.3 * block[cell];
+                block[GAS * cells + cell] = block[cell] + more;
+                added[1] += more * fluid.mesh().volume(id, 4);
+                changed[1] += 1;
+            }
+        }
+        assert!(changed.iter().all(|blocks| *blocks > 0), "there are blocks of both phases: {changed:?}");
+        fluid.model_mut().has_gas.fill(true);
+        fluid.step(dt).expect("a step");
+        let fixups = fluid.fixups();
+        assert!(fixups.clips.lifted_phases >= changed[0] + changed[1], "{fixups:?}");
+        approx::assert_relative_eq!(fixups.gas_mass_added, added[0], max_relative = 1e-2);
+        approx::assert_relative_eq!(fixups.liquid_mass_added, added[1], max_relative = 1e-2);
+        for slot in 0..fluid.mesh().blocks() {
+            for (rho, gas) in fluid.state().component(slot, 0).iter().zip(fluid.state().component(slot, GAS))
+            {
+                assert!(*gas >= -1e-9 * rho && *gas <= 1.1 * rho, "{gas} of {rho}");
+            }
+        }
+        let into: f64 = fluid.ledger().mass.iter().sum();
+        assert!((fluid.totals().mass - before.mass - into).abs() < 1e-13 * before.mass);
+    }
+
+    #[test]
+    fn blocks_without_gas_step_as_if_gas_were_looked_for() {
+        let [mut plain, mut searched] = [collapsing_bubble(), collapsing_bubble()];
+        for step in 0..120 {
+            let dt = plain.time_step_limit(0.45);
+            assert_eq!(dt, searched.time_step_limit(0.45), "step {step}");
+            searched.model_mut().has_gas.fill(true);
+            for fluid in [&mut plain, &mut searched] {
+                fluid.step(dt).expect("a step");
+                fluid.adapt_if_due(dt, 1);
+            }
+            assert_eq!(plain.state(), searched.state(), "step {step}");
+        }
+        let with_gas = plain.model().has_gas.iter().filter(|has_gas| **has_gas).count();
+        assert!(
+            with_gas > 4 && 2 * with_gas < plain.model().has_gas.len(),
+            "{with_gas} of {}",
+            plain.model().has_gas.len()
+        );
+    }
+}

@@ -1,0 +1,134 @@
+//! Filling the ghost cells of one component: from blocks of the same level, from finer ones, beyond the domain.
+//!
+//! Rows are those of [`crate::Padded`] and [`crate::Patch`]: n × n cells with two layers of ghosts around.
+
+pub(crate) mod padded;
+pub(crate) mod side_faces;
+pub(crate) mod side_states;
+
+use std::ops::Range;
+
+use crate::{GHOSTS, Offset, Padded, Side};
+
+/// The flat index of cell (i, j) among n × n cells with ghosts.
+#[inline(always)]
+pub(crate) fn index(n: usize, i: isize, j: isize) -> usize {
+    let ghosts = GHOSTS as isize;
+    ((j + ghosts) * (n as isize + 2 * ghosts) + i + ghosts) as usize
+}
+
+/// The cells along a side, ghosts at its ends included.
+#[inline(always)]
+pub(crate) fn ghost_range(n: usize) -> Range<isize> {
+    -(GHOSTS as isize)..(n + GHOSTS) as isize
+}
+
+/// The range of cells that the ghosts in one direction cover.
+#[inline(always)]
+pub(crate) fn ghost_span(n: usize, step: i8) -> Range<isize> {
+    let (n, g) = (n as isize, GHOSTS as isize);
+    match step {
+        -1 => -g..0,
+        0 => 0..n,
+        _ => n..n + g,
+    }
+}
+
+/// Copies the ghosts in one direction from the block of the same level that owns them.
+pub(crate) fn copy<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset) {
+    let (span_i, span_j) = (ghost_span(N, offset.i), ghost_span(N, offset.j));
+    let width = span_i.len();
+    let n = N as isize;
+    for j in span_j {
+        let to = Padded::<N>::index(span_i.start, j);
+        let local = (j - isize::from(offset.j) * n) * n + span_i.start - isize::from(offset.i) * n;
+        // Of known length: a call that copies two numbers costs more than they do.
+        if width == N {
+            copy_row::<N>(row, to, owner, local as usize);
+        } else {
+            copy_row::<GHOSTS>(row, to, owner, local as usize);
+        }
+    }
+}
+
+/// Copies L numbers.
+#[inline(always)]
+pub(crate) fn copy_row<const L: usize>(row: &mut [f64], to: usize, owner: &[f64], from: usize) {
+    let ends = "both are within their blocks";
+    *row[to..].first_chunk_mut::<L>().expect(ends) = *owner[from..].first_chunk().expect(ends);
+}
+
+/// Sets the ghosts in one direction to the nearest cell of the block.
+pub(crate) fn hold<const N: usize>(row: &mut [f64], offset: Offset) {
+    let last = N as isize - 1;
+    for j in ghost_span(N, offset.j) {
+        for i in ghost_span(N, offset.i) {
+            row[Padded::<N>::index(i, j)] = row[Padded::<N>::index(i.clamp(0, last), j.clamp(0, last))];
+        }
+    }
+}
+
+/// The mean of four children: along z the plain mean, along r with the lower row's share of the volume. Children
+/// that are equal are their own mean exactly.
+#[inline(always)]
+pub(crate) fn mean([lower, upper]: [[f64; 2]; 2], lower_share: f64) -> f64 {
+    let (low, high) = (0.5 * (lower[0] + lower[1]), 0.5 * (upper[0] + upper[1]));
+    high + lower_share * (low - high)
+}
+
+/// The mean of the 2 × 2 cells of a block whose lower left one is (i, j).
+#[inline(always)]
+pub(crate) fn mean_of_cells<const N: usize>(block: &[f64], i: usize, j: usize, lower_share: f64) -> f64 {
+    let k = j * N + i;
+    mean([[block[k], block[k + 1]], [block[k + N], block[k + N + 1]]], lower_share)
+}
+
+/// The ghost cells beyond a side, `layer` layers from it, and the inner cells at a depth.
+fn across(n: usize, side: Side, depth: isize, along: isize) -> usize {
+    let last = n as isize - 1;
+    match side {
+        Side::ZMin => index(n, depth, along),
+        Side::ZMax => index(n, last - depth, along),
+        Side::RMin => index(n, along, depth),
+        Side::RMax => index(n, along, last - depth),
+    }
+}
+
+/// Fills the ghosts beyond some cells along a side by reflection, times `parity` (±1).
+pub(crate) fn mirror(row: &mut [f64], n: usize, side: Side, along: Range<isize>, parity: f64) {
+    for layer in 0..GHOSTS as isize {
+        for along in along.clone() {
+            row[across(n, side, -1 - layer, along)] = parity * row[across(n, side, layer, along)];
+        }
+    }
+}
+
+/// Fills the ghosts beyond some cells along a side in the way that prediction needs: by reflection where the component has
+/// a parity, else by continuing it.
+pub(crate) fn continue_within(
+    row: &mut [f64],
+    n: usize,
+    side: Side,
+    along: Range<isize>,
+    parity: Option<f64>,
+) {
+    match parity {
+        Some(parity) => mirror(row, n, side, along, parity),
+        None => continue_parabola(row, n, side, along),
+    }
+}
+
+/// Fills the ghosts beyond some cells along a side by the parabola through the three cells next to it. A linear map, unlike
+/// [`Padded::extrapolate`]: prediction must be the same one for all fields; and of prediction's own order, so that
+/// the details of smooth fields are no larger here than elsewhere.
+fn continue_parabola(row: &mut [f64], n: usize, side: Side, along: Range<isize>) {
+    for along in along {
+        let [first, second, third] = [0, 1, 2].map(|depth| row[across(n, side, depth, along)]);
+        // u(−k) = u₀ + k (u₀ − u₁) + ½k(k + 1) (u₀ − 2u₁ + u₂), exactly u₀ for a constant.
+        let (slope, bend) = (first - second, (first - second) - (second - third));
+        for layer in 1..=GHOSTS as isize {
+            let k = layer as f64;
+            row[across(n, side, -layer, along)] = first + k * slope + 0.5 * k * (k + 1.0) * bend;
+        }
+    }
+}

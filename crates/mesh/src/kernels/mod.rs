@@ -1,0 +1,8 @@
+//! What kernels over rows of cells are made of, and how blocks are shared among threads.
+
+pub(crate) mod ahead;
+pub(crate) mod aligned;
+pub(crate) mod dispersion;
+pub(crate) mod limiter;
+pub(crate) mod parallel;
+pub(crate) mod reduce;

@@ -1,0 +1,205 @@
+//! The solid as one side of the interface: the only place where it meets the coupler.
+
+use coupler::{CommonRefinement, InterfaceStar, RegisterRow, TraceRow};
+use mesh::{Geometry, GroupStep, Padded};
+
+use crate::SolidSolver;
+use crate::boundary::Boundaries;
+use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
+use crate::step::rows::rates;
+use crate::step::{BlockScratch, reconstruct};
+
+/// What the solid knows of its interface with the fluid in the weak scheme: faces, sub-faces, and the last step's states.
+#[derive(Clone, Debug, Default)]
+pub struct WeakExchange {
+    edges: Vec<f64>,
+    /// The mesh whose faces the edges are of.
+    generation: Option<u64>,
+    refinement: CommonRefinement,
+    stars: Vec<InterfaceStar>,
+    traces: Vec<SurfaceTrace>,
+    /// Velocities of the cells under the surface, for the weak scheme.
+    cells: Vec<f64>,
+}
+
+/// The solid's own state on one face of its surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceTrace {
+    /// −σ_zz, Pa.
+    pub pressure: f64,
+    /// v_z, m/s.
+    pub velocity: f64,
+    /// v_r, m/s.
+    pub tangential_velocity: f64,
+    /// σ_zr, Pa.
+    pub shear: f64,
+}
+
+impl<const N: usize> SolidSolver<N> {
+    /// Writes the traces on the surface at the present time and their rates of change.
+    ///
+    /// The trace at time t is the reconstructed state on the face plus (t − tⁿ) times the rate that the predictor uses; at
+    /// mid-step it is what the face's Riemann problem would see.
+    ///
+    /// - `dt`: the step about to be made, s: what the trace gets besides depends on it, see [`mesh::dispersion_share`].
+    /// - `put`: gets the place and one [`TraceRow`] of a face.
+    pub fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(dt, |_| true, put);
+    }
+
+    /// [`SolidSolver::write_trace`] for the faces of the levels that are about to make a step.
+    pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
+    }
+
+    fn write_trace_of(
+        &self,
+        dt: f64,
+        is_due: impl Fn(usize) -> bool,
+        mut put: impl FnMut(TraceRow, usize, f64),
+    ) {
+        let context = self.context(dt);
+        for slot in self.interface().blocks().iter().copied().filter(|slot| is_due(*slot)) {
+            let Some(first) = self.interface().first_face(slot) else { continue };
+            let id = self.mesh().tree().leaves()[slot];
+            let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
+            self.with_scratch(|scratch| {
+                let [share, _] = context.model.dispersion(context.mesh, dt, id.level, 0);
+                reconstruct(&context, slot, scratch);
+                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
+                Boundaries::complete_shear_differences(self.setup().limiter, cells, s_z);
+                for j in 0..N {
+                    let k = Padded::<N>::index(N as isize - 1, j as isize);
+                    let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);
+                    // The hoop stress has no difference: no derivative of it enters.
+                    let of =
+                        |rows: &Padded<N>, c: usize| if c == S_PHIPHI { 0.0 } else { rows.component(c)[k] };
+                    let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
+                    let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
+                    let rate = rates(w, d_z, d_r, inverse_r[k], &self.model().elasticity);
+                    let trace = |c: usize| w[c] + 0.5 * of(s_z, c);
+                    // What face states within get besides, with the differences continued in a line beyond the surface.
+                    let more = |c: usize| share * (of(s_z, c) - s_z.component(c)[k - 1]);
+                    let face = first + j;
+                    put(TraceRow::Pressure, face, -(trace(S_NORMAL[0]) + more(S_NORMAL[0])));
+                    put(TraceRow::NormalVelocity, face, trace(V_Z) + more(V_Z));
+                    put(TraceRow::TangentialVelocity, face, trace(V_R));
+                    put(TraceRow::Shear, face, trace(S_ZR));
+                    put(TraceRow::Density, face, self.setup().speeds.density);
+                    put(TraceRow::PressureRate, face, -rate[S_NORMAL[0]]);
+                    put(TraceRow::NormalVelocityRate, face, rate[V_Z]);
+                    put(TraceRow::TangentialVelocityRate, face, rate[V_R]);
+                    put(TraceRow::PressureSlope, face, -of(s_r, S_NORMAL[0]) * inverse_h[1]);
+                    put(TraceRow::NormalVelocitySlope, face, d_r[V_Z]);
+                    put(TraceRow::Impedance, face, self.model().elasticity.z1);
+                    for row in [TraceRow::DensityRate, TraceRow::DensitySlope, TraceRow::Gamma, TraceRow::Pi]
+                    {
+                        put(row, face, 0.0);
+                    }
+                }
+            });
+        }
+    }
+
+    /// The weak scheme's half of a step, paper eq. (37): the fluid's new pressure is the normal traction, while
+    /// the surface moves as the solid's own trace says.
+    ///
+    /// - `payload`, `count`: a trace frame whose pressures are the fluid's cell means at the *new* time.
+    /// - `pressure_of`: the traction's pressure from (received, own) pressures: κ̂ p as printed, or p_s + κ̂ (p − p_s).
+    pub fn load_weakly(
+        &mut self,
+        exchange: &mut WeakExchange,
+        payload: &[f64],
+        count: usize,
+        dt: f64,
+        pressure_of: impl Fn(f64, f64) -> f64,
+    ) {
+        self.traces_at_mid_step(dt, &mut exchange.traces);
+        self.refine(exchange, TraceRow::Edge.of(payload, count));
+        let received = TraceRow::Pressure.of(payload, count);
+        exchange.stars.clear();
+        for sub in exchange.refinement.sub_faces() {
+            let own = &exchange.traces[sub.second];
+            exchange.stars.push(InterfaceStar {
+                pressure: pressure_of(received[sub.first], own.pressure),
+                velocity: own.velocity,
+                iterations: 0,
+                floored: false,
+            });
+        }
+        self.set_surface_from(exchange);
+    }
+
+    /// Cell means of the velocity under the surface on the fluid's faces, for the paper's schemes.
+    ///
+    /// - `edges`: the fluid's outer radii, m.
+    /// - `trial`: of the new state of a step that has been run and not finished, in which all levels step alike.
+    pub fn write_cell_velocities(
+        &self,
+        exchange: &mut WeakExchange,
+        edges: &[f64],
+        trial: bool,
+        mut put: impl FnMut(RegisterRow, usize, f64),
+    ) {
+        self.refine(exchange, edges);
+        let WeakExchange { refinement, cells, .. } = exchange;
+        cells.clear();
+        for &slot in self.interface().blocks() {
+            let state = if trial { self.trial_state() } else { self.state() };
+            cells.extend((0..N).map(|j| state.component(slot, V_Z)[j * N + N - 1]));
+        }
+        let velocity = |k: usize| cells[refinement.sub_faces()[k].second];
+        refinement.means(false, velocity, |f, v| put(RegisterRow::NormalVelocity, f, v));
+    }
+
+    /// The own traces on the surface at the middle of a step of length `dt`, face by face.
+    pub fn traces_at_mid_step(&self, dt: f64, traces: &mut Vec<SurfaceTrace>) {
+        self.mid_step_of(dt, |_| true, traces);
+    }
+
+    /// [`SolidSolver::traces_at_mid_step`] for the faces of the levels that are about to make a step; of others, nothing.
+    pub fn group_traces_at_mid_step(&self, step: GroupStep, traces: &mut Vec<SurfaceTrace>) {
+        self.mid_step_of(step.dt, |slot| self.makes(step, slot), traces);
+    }
+
+    fn mid_step_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, traces: &mut Vec<SurfaceTrace>) {
+        traces.clear();
+        traces.resize(self.interface().faces(), SurfaceTrace::default());
+        if traces.is_empty() {
+            return;
+        }
+        let half = 0.5 * dt;
+        self.write_trace_of(dt, is_due, |row, face, value| {
+            let trace = &mut traces[face];
+            match row {
+                TraceRow::Pressure => trace.pressure += value,
+                TraceRow::PressureRate => trace.pressure += half * value,
+                TraceRow::NormalVelocity => trace.velocity += value,
+                TraceRow::NormalVelocityRate => trace.velocity += half * value,
+                TraceRow::TangentialVelocity => trace.tangential_velocity += value,
+                TraceRow::TangentialVelocityRate => trace.tangential_velocity += half * value,
+                TraceRow::Shear => trace.shear = value,
+                _ => {}
+            }
+        });
+    }
+
+    fn refine(&self, exchange: &mut WeakExchange, fluid_edges: &[f64]) {
+        if exchange.generation != Some(self.mesh().generation()) {
+            exchange.edges = self.interface_edges();
+            exchange.generation = Some(self.mesh().generation());
+        }
+        let domain = self.mesh().domain();
+        let axisymmetric = domain.geometry == Geometry::Axisymmetric;
+        exchange.refinement.update(domain.r[0], fluid_edges, &exchange.edges, axisymmetric);
+    }
+
+    fn set_surface_from(&mut self, exchange: &WeakExchange) {
+        let WeakExchange { refinement, stars, .. } = exchange;
+        let surface = self.interface_mut().states_mut();
+        refinement.means(true, |k| stars[k].pressure, |face, mean| surface[face].pressure = mean);
+        refinement.means(true, |k| stars[k].velocity, |face, mean| surface[face].velocity = mean);
+        let power = |k: usize| stars[k].pressure * stars[k].velocity;
+        refinement.means(true, power, |face, mean| surface[face].power = mean);
+    }
+}

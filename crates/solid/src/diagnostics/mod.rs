@@ -1,0 +1,167 @@
+//! Numbers that are read off the solid's state.
+
+pub(crate) mod ledger;
+
+use mesh::{Geometry, Padded};
+
+use crate::state::component::{COUNT, S_PHIPHI};
+use crate::step::{BlockScratch, reconstruct};
+use crate::{ElasticState, SolidSolver, von_mises, yield_function};
+
+/// The largest von Mises stress and where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MisesPeak {
+    /// Stress, Pa.
+    pub stress: f64,
+    /// Centre of the cell (z, r), m.
+    pub position: [f64; 2],
+}
+
+/// Integrals over the domain, per radian in axial symmetry, per metre of depth in planar geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// Mass (constant), kg.
+    pub mass: f64,
+    /// Axial momentum, N s.
+    pub momentum_z: f64,
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Elastic energy, J.
+    pub elastic: f64,
+}
+
+mesh::cell_fields! {
+    /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
+    Snapshot, CELL_FIELDS {
+        velocity: 3, "m/s", "velocity (z, r, 0)";
+        stress_zz: 1, "Pa", "axial stress, positive in tension";
+        stress_zr: 1, "Pa", "shear stress";
+        stress_rr: 1, "Pa", "radial stress";
+        stress_phiphi: 1, "Pa", "hoop stress";
+        von_mises: 1, "Pa", "von Mises stress";
+        yield_function: 1, "Pa", "von Mises stress minus yield strength";
+        level: 1, "1", "refinement level";
+    }
+}
+
+impl<const N: usize> SolidSolver<N> {
+    /// The state of one cell.
+    pub fn cell(&self, slot: usize, i: usize, j: usize) -> ElasticState {
+        ElasticState::from_array(std::array::from_fn(|c| self.state().component(slot, c)[j * N + i]))
+    }
+
+    /// The largest von Mises stress and where it is.
+    pub fn mises_peak(&self) -> MisesPeak {
+        let (slot, _) = (self.mises_by_block().enumerate())
+            .fold((0, -1.0), |best, (slot, stress)| if stress > best.1 { (slot, stress) } else { best });
+        let id = self.mesh().tree().leaves()[slot];
+        let mut peak = MisesPeak { stress: -1.0, position: [f64::NAN; 2] };
+        for j in 0..N {
+            for i in 0..N {
+                let w = self.cell(slot, i, j);
+                let stress = von_mises(w.stress_zz, w.stress_zr, w.stress_rr, w.stress_phiphi);
+                if stress > peak.stress {
+                    peak = MisesPeak { stress, position: self.mesh().centre(id, i, j) };
+                }
+            }
+        }
+        peak
+    }
+
+    /// The largest von Mises stress in each block, Pa.
+    fn mises_by_block(&self) -> impl Iterator<Item = f64> + '_ {
+        self.reports().finished.iter().map(|report| report.mises_squared.sqrt())
+    }
+
+    /// The volume in which the von Mises stress exceeds the yield strength, m³ (planar: m² per metre of depth).
+    pub fn yielded_volume(&self) -> f64 {
+        let turn = match self.mesh().domain().geometry {
+            Geometry::Axisymmetric => std::f64::consts::TAU,
+            Geometry::Planar => 1.0,
+        };
+        turn * self.reports().finished.iter().map(|report| report.yielded).sum::<f64>()
+    }
+
+    /// Mass, axial momentum, kinetic and elastic energy in the domain.
+    ///
+    /// The elastic energy per volume is tr(σ)²/(18K) + s:s/(4μ) with the deviator s and the bulk modulus K.
+    pub fn totals(&self) -> Totals {
+        let (density, mu) = (self.setup().speeds.density, self.model().elasticity.mu);
+        let bulk = self.model().elasticity.lambda + 2.0 / 3.0 * mu;
+        let mut totals = Totals::default();
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
+            let mut block = [0.0; 4];
+            for j in 0..N {
+                let volume = self.mesh().volume(*id, j);
+                let [v_z, v_r, zz, zr, rr, pp]: [&[f64]; COUNT] =
+                    std::array::from_fn(|c| &self.state().component(slot, c)[j * N..(j + 1) * N]);
+                let (mut velocity, mut speed_squared, mut strain) = (0.0, 0.0, 0.0);
+                for i in 0..N {
+                    let mean = (zz[i] + rr[i] + pp[i]) / 3.0;
+                    let (a, b, c) = (zz[i] - mean, rr[i] - mean, pp[i] - mean);
+                    let deviator = a * a + b * b + c * c + 2.0 * zr[i] * zr[i];
+                    velocity += v_z[i];
+                    speed_squared += v_z[i] * v_z[i] + v_r[i] * v_r[i];
+                    strain += mean * mean / (2.0 * bulk) + deviator / (4.0 * mu);
+                }
+                block[0] += volume * density * N as f64;
+                block[1] += volume * density * velocity;
+                block[2] += volume * 0.5 * density * speed_squared;
+                block[3] += volume * strain;
+            }
+            totals.mass += block[0];
+            totals.momentum_z += block[1];
+            totals.kinetic += block[2];
+            totals.elastic += block[3];
+        }
+        totals
+    }
+
+    /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
+    pub fn sample(&self, point: [f64; 2]) -> Option<ElasticState> {
+        let (slot, i, j) = self.mesh().locate(point)?;
+        let id = self.mesh().tree().leaves()[slot];
+        let (centre, widths) = (self.mesh().centre(id, i, j), self.mesh().widths(id.level));
+        let (a, b) = ((point[0] - centre[0]) / widths[0], (point[1] - centre[1]) / widths[1]);
+        Some(self.with_scratch(|scratch| {
+            reconstruct(&self.context(0.0), slot, scratch);
+            let k = Padded::<N>::index(i as isize, j as isize);
+            let BlockScratch { cells, s_z, s_r, .. } = scratch;
+            let hoop = cells.component(S_PHIPHI);
+            let stride = Padded::<N>::STRIDE;
+            let limiter = self.setup().limiter;
+            let hoop_slope =
+                |step: usize| limiter.difference(hoop[k] - hoop[k - step], hoop[k + step] - hoop[k]);
+            ElasticState::from_array(std::array::from_fn(|c| {
+                let (d_z, d_r) = if c == S_PHIPHI {
+                    (hoop_slope(1), hoop_slope(stride))
+                } else {
+                    (s_z.component(c)[k], s_r.component(c)[k])
+                };
+                cells.component(c)[k] + a * d_z + b * d_r
+            }))
+        }))
+    }
+
+    /// All fields, cell by cell.
+    pub fn snapshot(&self) -> Snapshot {
+        let mut snapshot = Snapshot::default();
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
+            for j in 0..N {
+                for i in 0..N {
+                    let w = self.cell(slot, i, j);
+                    let mises = von_mises(w.stress_zz, w.stress_zr, w.stress_rr, w.stress_phiphi);
+                    snapshot.velocity.extend([w.v_z, w.v_r, 0.0]);
+                    snapshot.stress_zz.push(w.stress_zz);
+                    snapshot.stress_zr.push(w.stress_zr);
+                    snapshot.stress_rr.push(w.stress_rr);
+                    snapshot.stress_phiphi.push(w.stress_phiphi);
+                    snapshot.von_mises.push(mises);
+                    snapshot.yield_function.push(yield_function(mises, self.setup().yield_strength));
+                    snapshot.level.push(f64::from(id.level));
+                }
+            }
+        }
+        snapshot
+    }
+}

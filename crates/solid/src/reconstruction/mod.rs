@@ -1,0 +1,3 @@
+//! Slopes of the cells, and their states half a step later.
+
+pub(crate) mod predictor;

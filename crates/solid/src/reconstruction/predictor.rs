@@ -1,0 +1,194 @@
+//! Slopes and predictor in one pass over the cells of a padded block; written as the kernels of `step/rows.rs`.
+
+use mesh::Limiter;
+
+use crate::step::rows::{Elasticity, Rows, rates};
+
+/// Components whose derivative along z enters the equations: v_z, v_r, σ_zz, σ_zr.
+pub(crate) const ALONG_Z: [usize; 4] = [0, 1, 2, 3];
+/// Components whose derivative along r enters the equations: v_z, v_r, σ_zr, σ_rr.
+pub(crate) const ALONG_R: [usize; 4] = [0, 1, 3, 4];
+
+/// What the predictor needs to know of a block's geometry and of the step.
+#[derive(Clone, Copy)]
+pub(crate) struct Predictor<'a> {
+    pub limiter: Limiter,
+    /// Distance between cells that neighbour each other along r.
+    pub stride: usize,
+    /// 1/h_z, 1/h_r.
+    pub inverse_h: [f64; 2],
+    /// 1/r per padded cell, or 0 in planar geometry.
+    pub inverse_r: &'a [f64],
+    /// Half the time step, s.
+    pub half_dt: f64,
+}
+
+/// Limited differences and the state at mid-step, in all cells but the outermost layer.
+///
+/// MUSCL-Hancock: [`mesh::limited_differences`] of the components that need it, then the predictor, paper eqs. (24),
+/// (25). The differences are made and used in registers.
+///
+/// - `w`: the cells. `s_z`, `s_r`: differences of the components [`ALONG_Z`] and [`ALONG_R`]; `half`: the state at
+///   mid-step; all padded rows, written.
+/// - tested by: equality with the limiter and the rates, cell by cell.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn predict(
+    w: Rows<'_>,
+    p: Predictor<'_>,
+    elasticity: &Elasticity,
+    s_z: [&mut [f64]; 4],
+    s_r: [&mut [f64]; 4],
+    half: [&mut [f64]; 6],
+) {
+    let e = *elasticity;
+    match p.limiter {
+        Limiter::Mc => body(|a, b| Limiter::Mc.difference(a, b), w, p, e, s_z, s_r, half),
+        Limiter::Minmod => body(|a, b| Limiter::Minmod.difference(a, b), w, p, e, s_z, s_r, half),
+        Limiter::Eno => body(|a, b| Limiter::Eno.difference(a, b), w, p, e, s_z, s_r, half),
+        Limiter::None => body(|a, b| Limiter::None.difference(a, b), w, p, e, s_z, s_r, half),
+    }
+}
+
+#[inline(always)]
+fn body(
+    limit: impl Fn(f64, f64) -> f64,
+    w: Rows<'_>,
+    p: Predictor<'_>,
+    e: Elasticity,
+    s_z: [&mut [f64]; 4],
+    s_r: [&mut [f64]; 4],
+    half: [&mut [f64]; 6],
+) {
+    // The first and the last cell of these rows have neighbours, if not their own; all lines are whole.
+    let first = p.stride;
+    let n = p.inverse_r.len() - 2 * first;
+    let [z0, z1, z2, z3] = s_z;
+    let [r0, r1, r2, r3] = s_r;
+    let [h0, h1, h2, h3, h4, h5] = half;
+    cells(
+        n,
+        limit,
+        cut(w, first, n),
+        [
+            cut(w, first - 1, n),
+            cut(w, first + 1, n),
+            cut(w, first - p.stride, n),
+            cut(w, first + p.stride, n),
+        ],
+        &p.inverse_r[first..][..n],
+        p.inverse_h,
+        p.half_dt,
+        e,
+        &mut z0[first..][..n],
+        &mut z1[first..][..n],
+        &mut z2[first..][..n],
+        &mut z3[first..][..n],
+        &mut r0[first..][..n],
+        &mut r1[first..][..n],
+        &mut r2[first..][..n],
+        &mut r3[first..][..n],
+        &mut h0[first..][..n],
+        &mut h1[first..][..n],
+        &mut h2[first..][..n],
+        &mut h3[first..][..n],
+        &mut h4[first..][..n],
+        &mut h5[first..][..n],
+    );
+}
+
+/// `n` numbers of each row from `at` on.
+#[inline(always)]
+fn cut<'a>([a, b, c, d, e, f]: Rows<'a>, at: usize, n: usize) -> Rows<'a> {
+    [&a[at..][..n], &b[at..][..n], &c[at..][..n], &d[at..][..n], &e[at..][..n], &f[at..][..n]]
+}
+
+#[inline(always)]
+fn cells(
+    n: usize,
+    limit: impl Fn(f64, f64) -> f64,
+    w: Rows<'_>,
+    [west, east, south, north]: [Rows<'_>; 4],
+    inverse_r: &[f64],
+    [inverse_hz, inverse_hr]: [f64; 2],
+    half_dt: f64,
+    e: Elasticity,
+    z0: &mut [f64],
+    z1: &mut [f64],
+    z2: &mut [f64],
+    z3: &mut [f64],
+    r0: &mut [f64],
+    r1: &mut [f64],
+    r2: &mut [f64],
+    r3: &mut [f64],
+    h0: &mut [f64],
+    h1: &mut [f64],
+    h2: &mut [f64],
+    h3: &mut [f64],
+    h4: &mut [f64],
+    h5: &mut [f64],
+) {
+    for k in 0..n {
+        let here = [w[0][k], w[1][k], w[2][k], w[3][k], w[4][k], w[5][k]];
+        let along_z = |c: usize| limit(here[c] - west[c][k], east[c][k] - here[c]);
+        let along_r = |c: usize| limit(here[c] - south[c][k], north[c][k] - here[c]);
+        let z = [along_z(ALONG_Z[0]), along_z(ALONG_Z[1]), along_z(ALONG_Z[2]), along_z(ALONG_Z[3])];
+        let r = [along_r(ALONG_R[0]), along_r(ALONG_R[1]), along_r(ALONG_R[2]), along_r(ALONG_R[3])];
+        let d_z = [z[0] * inverse_hz, z[1] * inverse_hz, z[2] * inverse_hz, z[3] * inverse_hz, 0.0, 0.0];
+        let d_r = [r[0] * inverse_hr, r[1] * inverse_hr, 0.0, r[2] * inverse_hr, r[3] * inverse_hr, 0.0];
+        let rate = rates(here, d_z, d_r, inverse_r[k], &e);
+        (z0[k], z1[k], z2[k], z3[k]) = (z[0], z[1], z[2], z[3]);
+        (r0[k], r1[k], r2[k], r3[k]) = (r[0], r[1], r[2], r[3]);
+        h0[k] = here[0] + half_dt * rate[0];
+        h1[k] = here[1] + half_dt * rate[1];
+        h2[k] = here[2] + half_dt * rate[2];
+        h3[k] = here[3] + half_dt * rate[3];
+        h4[k] = here[4] + half_dt * rate[4];
+        h5[k] = here[5] + half_dt * rate[5];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::WaveSpeeds;
+
+    #[test]
+    fn one_pass_equals_limiter_and_rates_cell_by_cell() {
+        let stride = 12;
+        let len = stride * stride;
+        let row = |rate: f64| -> Vec<f64> { (0..len).map(|k| ((k * k) as f64 * rate).sin()).collect() };
+        let w: [Vec<f64>; 6] = [0.37, 0.21, 0.53, 0.71, 0.11, 0.93].map(row);
+        let inverse_r = row(0.07);
+        let e = Elasticity::new(WaveSpeeds { density: 7.8, c1: 5.9, c2: 3.4 });
+        for (name, limiter) in Limiter::NAMES {
+            let zeros = || vec![0.0; len];
+            let (mut s_z, mut s_r) = (ALONG_Z.map(|_| zeros()), ALONG_R.map(|_| zeros()));
+            let mut half: [Vec<f64>; 6] = std::array::from_fn(|_| zeros());
+            predict(
+                w.each_ref().map(|row| &row[..]),
+                Predictor { limiter, stride, inverse_h: [3.0, 5.0], inverse_r: &inverse_r, half_dt: 0.1 },
+                &e,
+                s_z.each_mut().map(|row| &mut row[..]),
+                s_r.each_mut().map(|row| &mut row[..]),
+                half.each_mut().map(|row| &mut row[..]),
+            );
+            for k in stride + 1..len - stride - 1 {
+                let here: [f64; 6] = std::array::from_fn(|c| w[c][k]);
+                let slope =
+                    |c: usize, by: usize| limiter.difference(w[c][k] - w[c][k - by], w[c][k + by] - w[c][k]);
+                assert_eq!(s_z.each_ref().map(|row| row[k]), ALONG_Z.map(|c| slope(c, 1)), "{name}");
+                assert_eq!(s_r.each_ref().map(|row| row[k]), ALONG_R.map(|c| slope(c, stride)), "{name}");
+                let rate = rates(
+                    here,
+                    std::array::from_fn(|c| slope(c, 1) * 3.0),
+                    std::array::from_fn(|c| slope(c, stride) * 5.0),
+                    inverse_r[k],
+                    &e,
+                );
+                for c in 0..6 {
+                    assert_eq!(half[c][k], here[c] + 0.1 * rate[c], "{name}, component {c}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! What one block tells of its step.
+
+use mesh::{Mesh, Padded, Side, maximum};
+use serde::{Deserialize, Serialize};
+
+use crate::physics::SolidStep;
+use crate::step::rows::FaceRows;
+
+/// What one block tells of its step.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct BlockReport {
+    /// Largest squared von Mises stress, Pa²; infinite if a number is not finite.
+    pub(crate) mises_squared: f64,
+    /// Volume in which the yield strength is exceeded (per radian).
+    pub(crate) yielded: f64,
+    /// What came in through each side of the domain: axial momentum, energy (per radian).
+    pub(crate) inflow: [[f64; 2]; 4],
+}
+
+/// Reports the von Mises stresses of a block anew.
+///
+/// - `yield_squared`: squared yield strength, Pa².
+pub(crate) fn report_stresses<const N: usize>(
+    mesh: &Mesh<N>,
+    slot: usize,
+    block: &[f64],
+    yield_squared: f64,
+    report: &mut BlockReport,
+) {
+    report.mises_squared = largest_mises::<N>(block);
+    report.yielded = yielded_volume(mesh, slot, block, report.mises_squared, yield_squared);
+}
+
+/// The largest squared von Mises stress of a block, infinite if one is not a number.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+fn largest_mises<const N: usize>(block: &[f64]) -> f64 {
+    let mut largest = [0.0_f64; N];
+    for j in 0..N {
+        for (largest, squared) in largest.iter_mut().zip(mises_of_row::<N>(block, j)) {
+            let squared = if squared <= f64::MAX { squared } else { f64::INFINITY };
+            *largest = largest.max(squared);
+        }
+    }
+    maximum(&largest)
+}
+
+/// The squared von Mises stresses of the cells in a row of a block.
+#[inline(always)]
+fn mises_of_row<const N: usize>(block: &[f64], j: usize) -> [f64; N] {
+    let [zz, zr, rr, pp] = [2, 3, 4, 5].map(|c| row::<N>(&block[(c * N + j) * N..]));
+    std::array::from_fn(|i| crate::material::yield_criterion::von_mises_squared(zz[i], zr[i], rr[i], pp[i]))
+}
+
+/// The first N numbers of a row.
+fn row<const N: usize>(numbers: &[f64]) -> &[f64; N] {
+    numbers.first_chunk().expect("rows are whole")
+}
+
+/// The volume in which the yield strength is exceeded (per radian).
+///
+/// - `largest`: squared von Mises stress of the block, Pa².
+pub(crate) fn yielded_volume<const N: usize>(
+    mesh: &Mesh<N>,
+    slot: usize,
+    block: &[f64],
+    largest: f64,
+    yield_squared: f64,
+) -> f64 {
+    if largest <= yield_squared {
+        return 0.0;
+    }
+    let id = mesh.tree().leaves()[slot];
+    let cells_of_row =
+        |j| mises_of_row::<N>(block, j).into_iter().filter(|mises| *mises > yield_squared).count();
+    (0..N).map(|j| cells_of_row(j) as f64 * mesh.volume(id, j)).sum()
+}
+
+/// Axial momentum and energy that a block took in through the sides of the domain.
+pub(crate) fn boundary_inflow<const N: usize>(
+    ctx: &SolidStep<'_, N>,
+    slot: usize,
+    z_faces: &FaceRows,
+    r_faces: &FaceRows,
+) -> [[f64; 2]; 4] {
+    let mut inflow = [[0.0; 2]; 4];
+    let id = ctx.mesh.tree().leaves()[slot];
+    let [h_z, h_r] = ctx.mesh.widths(id.level);
+    let r_low = ctx.mesh.origin(id)[1];
+    for side in Side::ALL {
+        if !ctx.mesh.touches(slot, side) {
+            continue;
+        }
+        let outward = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
+        let total = &mut inflow[side as usize];
+        for along in 0..N {
+            let [traction_z, power, area] = match side {
+                Side::ZMin | Side::ZMax => {
+                    let i = if side == Side::ZMin { -1 } else { N as isize - 1 };
+                    let k = Padded::<N>::index(i, along as isize);
+                    let area = ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r;
+                    [z_faces.s_nn[k], power(z_faces, k), area]
+                }
+                Side::RMin | Side::RMax => {
+                    let j = if side == Side::RMin { -1 } else { N as isize - 1 };
+                    let k = Padded::<N>::index(along as isize, j);
+                    let area = ctx.mesh.weight(r_low + (j + 1) as f64 * h_r) * h_z;
+                    [r_faces.s_nt[k], power(r_faces, k), area]
+                }
+            };
+            total[0] += outward * ctx.dt * area * traction_z;
+            total[1] += outward * ctx.dt * area * power;
+        }
+        if side == Side::ZMax
+            && let Some(surface) = ctx.interface.states_of::<N>(slot)
+        {
+            // The mean of the product, not the product of the means, is what the fluid gave.
+            total[1] = -(surface.iter().enumerate())
+                .map(|(j, s)| ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]) * h_r * s.power)
+                .sum::<f64>()
+                * ctx.dt;
+        }
+    }
+    inflow
+}
+
+/// Power of the traction on a face with outward normal along the axis, W/m².
+fn power(faces: &FaceRows, k: usize) -> f64 {
+    faces.s_nn[k] * faces.v_n[k] + faces.s_nt[k] * faces.v_t[k]
+}

@@ -1,0 +1,161 @@
+//! What is made of both sides' parts when a run has ended: one history, one summary.
+
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+
+use crate::output::run_directory::{FLUID_HISTORY, FLUID_SUMMARY, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY};
+use crate::output::{Join, RunDirectory, join_histories, summary};
+use crate::run::RunError;
+
+/// Joins the histories and the parts of the summary.
+pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError> {
+    let differing = join_histories(directory.path(), &[FLUID_HISTORY, SOLID_HISTORY], Join::Copy)?;
+    if !differing.is_empty() {
+        tracing::warn!(?differing, "both sides wrote these, and not the same");
+    }
+    let mut parts = Vec::new();
+    for name in [SOLID_SUMMARY, FLUID_SUMMARY] {
+        if directory.file(name).exists() {
+            parts.push(summary::read(&directory.file(name))?);
+        }
+    }
+    let completed = !parts.is_empty() && parts.iter().all(|part| part["completed"] == json!(true));
+    let mut whole = summary::merge(&parts);
+    whole.insert("completed".to_owned(), json!(completed));
+    if let Some(seconds) = compute_seconds(&whole) {
+        whole.insert("compute_seconds".to_owned(), seconds);
+    }
+    for (key, share) in
+        [("exchange_share", exchange_share(&whole)), ("exchange_wait_share", exchange_wait_share(&whole))]
+    {
+        if let Some(share) = share {
+            whole["coupling"][key] = json!(share);
+        }
+    }
+    let warnings = warnings(&whole);
+    for warning in &warnings {
+        tracing::warn!("{warning}");
+    }
+    whole.insert("warnings".to_owned(), json!(warnings));
+    summary::write(directory, SUMMARY, &whole)?;
+    if completed {
+        directory.remove_checkpoints()?;
+    }
+    Ok(whole)
+}
+
+/// What each side spent computing, as `coupling` has it.
+fn compute_seconds(whole: &Map<String, Value>) -> Option<Value> {
+    let sides = ["fluid", "solid"].into_iter().filter_map(|side| {
+        let seconds = whole.get("coupling")?.get(side)?.get("seconds_computing")?;
+        Some((side.to_owned(), seconds.clone()))
+    });
+    let seconds = Map::from_iter(sides);
+    (!seconds.is_empty()).then_some(Value::Object(seconds))
+}
+
+/// (wall time − both sides' compute − output) / wall time: what the exchange cost.
+///
+/// Negative where the sides compute at the same time, see [`exchange_wait_share`].
+fn exchange_share(whole: &Map<String, Value>) -> Option<f64> {
+    let wall = whole.get("wall_seconds")?.as_f64()?;
+    let mut rest = wall;
+    for side in ["fluid", "solid"] {
+        for key in ["seconds_computing", "seconds_recording", "seconds_checkpointing"] {
+            rest -= whole.get("coupling")?.get(side)?.get(key)?.as_f64()?;
+        }
+    }
+    Some(rest / wall)
+}
+
+/// What both sides waited for frames that were ready, over the wall time: what the exchange cost, whether the sides take turns or
+/// compute at the same time. Never negative.
+///
+/// From the moment when a frame was complete and its reader asked for it to the moment when the reader had it, added up over the
+/// frames both ways. Waits for a processor that the other side is using are in it.
+fn exchange_wait_share(whole: &Map<String, Value>) -> Option<f64> {
+    let wall = whole.get("wall_seconds")?.as_f64()?;
+    let waited = |side: &str| whole.get("coupling")?.get(side)?.get("seconds_exchanging")?.as_f64();
+    Some((waited("fluid")? + waited("solid")?) / wall)
+}
+
+/// Share of the collapse's energy above which what the pressure floor added is worth a warning.
+const FLOOR_BUDGET: f64 = 0.01;
+
+/// Share of the fluid's cell updates above which those done again at first order are worth a warning.
+const REDONE_BUDGET: f64 = 1e-3;
+
+/// What of a run's corrections is too much to be passed over.
+fn warnings(whole: &Map<String, Value>) -> Vec<String> {
+    let share = whole.get("fixups").and_then(|fixups| fixups.get("floor_energy_share")?.as_f64());
+    let floor = share.filter(|share| *share > FLOOR_BUDGET).map(|share| {
+        format!(
+            "the pressure floor added {:.2} % of the energy of the collapse (p V of the gas at the start); more than \
+             {:.0} % is too much to trust what follows the collapse: refine, or use model = \"five-equation\"",
+            100.0 * share,
+            100.0 * FLOOR_BUDGET
+        )
+    });
+    let number = |path: [&str; 2]| whole.get(path[0])?.get(path[1])?.as_f64();
+    let redone = number(["fixups", "redone"]).zip(number(["cell_updates", "fluid"]));
+    let redone = redone.map(|(redone, updates)| redone / updates).filter(|share| *share > REDONE_BUDGET).map(|share| {
+        format!(
+            "{:.2} % of the fluid's cell updates had to be done again at first order; more than {:.1} % says that the \
+             solution is not resolved: refine, or take a smaller time.cfl",
+            100.0 * share,
+            100.0 * REDONE_BUDGET
+        )
+    });
+    let unsettled =
+        number(["coupling_iterations", "unsettled_steps"]).filter(|steps| *steps > 0.0).map(|steps| {
+            format!(
+                "in {steps:.0} steps the iteration of scheme = \"strong\" ended before coupling.tolerance: \
+             allow more coupling.max_iterations, or take a smaller time.cfl"
+            )
+        });
+    floor.into_iter().chain(redone).chain(unsettled).collect()
+}
+
+/// The numbers one asks for first, in words.
+pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
+    let number = |key: &str| whole.get(key).and_then(Value::as_f64);
+    let mut words = vec![format!(
+        "done: {} steps in {:.1} s",
+        whole.get("steps").and_then(Value::as_u64).unwrap_or(0),
+        number("wall_seconds").unwrap_or(f64::NAN)
+    )];
+    if let (Some(peak), Some(time)) = (number("wall_pressure_peak"), number("wall_pressure_peak_time")) {
+        words.push(format!("wall pressure {:.4e} Pa at {:.4e} s", peak, time));
+    }
+    if let (Some(peak), Some(time)) = (number("von_mises_peak"), number("von_mises_peak_time")) {
+        words.push(format!("von Mises {:.4e} Pa at {:.4e} s", peak, time));
+    }
+    if let (Some(radius), Some(time)) = (number("min_equivalent_radius"), number("collapse_time")) {
+        words.push(format!("smallest equivalent radius {:.4e} m at {:.4e} s", radius, time));
+    }
+    let warnings = whole.get("warnings").and_then(Value::as_array).into_iter().flatten();
+    words.extend(warnings.filter_map(Value::as_str).map(|warning| format!("warning: {warning}")));
+    words.push(format!("see {}", directory.display()));
+    words.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_sides_wait_for_frames_that_are_ready_is_no_less_than_nothing_also_where_they_compute_at_the_same_time()
+     {
+        let side = json!({
+            "seconds_computing": 9.0,
+            "seconds_recording": 0.5,
+            "seconds_checkpointing": 0.0,
+            "seconds_exchanging": 0.1,
+        });
+        let whole = json!({ "wall_seconds": 10.0, "coupling": { "fluid": side, "solid": side } });
+        let whole = whole.as_object().expect("an object");
+        assert!(exchange_share(whole).is_some_and(|share| share < -0.8));
+        assert!(exchange_wait_share(whole).is_some_and(|share| (share - 0.02).abs() < 1e-15));
+    }
+}

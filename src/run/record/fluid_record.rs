@@ -1,0 +1,398 @@
+//! What the fluid's side writes: snapshots, histories, its part of the summary.
+
+use fluid::{Bubble, BubbleCuts, FluidSolver};
+use mesh::{BLOCK, Geometry, Side};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use crate::case::{Case, Medium};
+use crate::output::run_directory::{FLUID_FIELDS as FIELDS_FILE, FLUID_HISTORY};
+use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
+use crate::run::record::collapse::CollapseFinder;
+use crate::run::record::interface_history::InterfaceHistory;
+use crate::run::record::side_files::{SideFiles, SideNames};
+use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
+use crate::run::schedule::Plan;
+use crate::run::side::wall_faces::WallFaces;
+
+mod fixups;
+pub mod saved;
+
+/// Everything that the fluid's side writes.
+pub struct FluidRecord {
+    files: SideFiles<fluid::Snapshot>,
+    steps: SeriesId,
+    /// How often bounds acted, every step.
+    clips: SeriesId,
+    /// One row for each bubble side by side; absent with less than two.
+    bubbles: Option<SeriesId>,
+    interface: Option<InterfaceHistory>,
+    conservation: SeriesId,
+    ticker: Ticker,
+    probes: Vec<ProbeSeries>,
+    faces: WallFaces,
+    wall_pressures: Vec<f64>,
+    cells: CellCount,
+    collapse: CollapseFinder,
+    peaks: Peaks,
+    last_bubble: Bubble,
+    largest_thin_volume: f64,
+    /// Ambient pressure times the gas's initial volume, J/rad (planar: J/m): what a collapse sets free.
+    collapse_energy: f64,
+    cuts: BubbleCuts,
+}
+
+/// Largest values so far, with their times.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+struct Peaks {
+    wall: [f64; 2],
+    wall_anywhere: [f64; 2],
+    wall_interface: [f64; 2],
+    jet: [f64; 2],
+}
+
+impl FluidRecord {
+    /// Makes the files of the fluid's side and writes the state at t = 0. Without a directory histories stay in memory
+    /// and there are no snapshots.
+    pub fn create(
+        case: &Case,
+        directory: Option<&RunDirectory>,
+        solver: &FluidSolver<BLOCK>,
+    ) -> Result<Self, OutputError> {
+        let mut record = Self::on(case, SideFiles::create(case, directory, names())?, solver)?;
+        record.cells.see(solver.mesh().cells());
+        record.write(solver, 0.0)?;
+        record.snapshot(solver)?;
+        record.files.history.flush()?;
+        Ok(record)
+    }
+
+    /// Brings everything so far to the disk.
+    pub fn settle(&mut self) -> Result<(), OutputError> {
+        self.files.settle()
+    }
+
+    /// A record in these files of a fluid as it is, with nothing written.
+    fn on(
+        case: &Case,
+        mut files: SideFiles<fluid::Snapshot>,
+        solver: &FluidSolver<BLOCK>,
+    ) -> Result<Self, OutputError> {
+        let mesh = solver.mesh();
+        let history = &mut files.history;
+        let cuts = case.fluid.as_ref().map(|fluid| BubbleCuts::of(&fluid.initial)).unwrap_or_default();
+        let steps = history.add_series("", &STEP_COLUMNS)?;
+        let clips = history.add_series("", &fixups::CLIP_COLUMNS)?;
+        let bubbles = bubble_series(&cuts, history)?;
+        let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
+        let mut wall_pressures = Vec::new();
+        solver.wall_cells(false, |_, pressure, _| wall_pressures.push(pressure));
+        // With a boundary of its own at z_min there is no wall to record.
+        let wall = case.fluid.as_ref().filter(|fluid| {
+            matches!(fluid.boundary[Side::ZMin as usize], fluid::Boundary::Interface | fluid::Boundary::Wall)
+        });
+        let interface = match wall {
+            Some(fluid) => {
+                let cells = case.output.interface_cells.unwrap_or(fluid.grid.finest()[1]);
+                let axisymmetric = case.geometry == Geometry::Axisymmetric;
+                Some(InterfaceHistory::create(&faces, cells, axisymmetric, &wall_pressures, history)?)
+            }
+            None => None,
+        };
+        let conservation = history.add_series("/conservation/fluid", &CONSERVATION_COLUMNS)?;
+        let interface_z = case.solid.as_ref().map(|_| mesh.domain().z[0]);
+        let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, history)?;
+        Ok(Self {
+            files,
+            steps,
+            clips,
+            interface,
+            conservation,
+            ticker: Ticker::of(case),
+            probes,
+            faces,
+            wall_pressures,
+            cells: CellCount::default(),
+            collapse: CollapseFinder::default(),
+            peaks: Peaks::default(),
+            last_bubble: Bubble::default(),
+            largest_thin_volume: 0.0,
+            collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
+                let turn = if case.geometry == Geometry::Axisymmetric { std::f64::consts::TAU } else { 1.0 };
+                fluid.initial.ambient.pressure * solver.bubble().volume / turn
+            }),
+            cuts,
+            bubbles,
+        })
+    }
+
+    /// The histories.
+    pub fn history(&self) -> &HistoryFile {
+        &self.files.history
+    }
+
+    /// Writes a batch of the histories.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.files.history.flush()
+    }
+
+    /// Takes notice of a finished step.
+    pub fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
+        let mesh = solver.mesh();
+        self.cells.see(mesh.cells());
+        if self.faces.update(mesh.generation(), || solver.interface_edges())
+            && let Some(interface) = &mut self.interface
+        {
+            interface.follow(&self.faces);
+        }
+        if solver.interface().states().is_empty() {
+            solver.wall_face_pressures(&mut self.wall_pressures);
+        } else {
+            self.wall_pressures.clear();
+            self.wall_pressures.extend(solver.interface().states().iter().map(|wall| wall.pressure));
+        }
+        self.write(solver, plan.dt)?;
+        if plan.snapshot {
+            self.snapshot(solver)?;
+        }
+        self.files.after_step()
+    }
+
+    /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
+    pub fn close(&mut self, solver: &FluidSolver<BLOCK>, failed: bool) -> Result<(), OutputError> {
+        if failed {
+            self.snapshot(solver)?;
+        }
+        self.files.close()
+    }
+
+    fn write(&mut self, solver: &FluidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
+        let time = solver.time();
+        let bubble = solver.bubble();
+        let axis = solver.axis();
+        let wall = solver.wall_pressures();
+        let fixups = solver.fixups();
+        let limit = |value: f64| if value.is_nan() { 0.0 } else { value };
+        let history = &mut self.files.history;
+        history.push(
+            self.steps,
+            &[
+                time,
+                dt,
+                bubble.volume,
+                bubble.equivalent_radius,
+                bubble.centroid_z,
+                axis.jet_tip_z,
+                axis.jet_velocity,
+                bubble.trace_volume,
+                bubble.thin_volume,
+                bubble.gas_mass,
+                wall.axis,
+                wall.anywhere,
+                fixups.first_order as f64,
+                fixups.redone as f64,
+                fixups.redone_volume,
+                fixups.floored as f64,
+                fixups.floored_volume,
+                fixups.floor_energy,
+                fixups.gas_mass_added,
+                fixups.liquid_mass_added,
+            ],
+        )?;
+        history.push(self.clips, &fixups.clips.counts().map(|count| count as f64))?;
+        if let Some(series) = self.bubbles {
+            self.cuts.follow(solver);
+            let numbers = |b: Bubble| [b.volume, b.equivalent_radius, b.centroid_z, b.gas_mass];
+            let row: Vec<f64> = solver.bubbles(&self.cuts).into_iter().flat_map(numbers).collect();
+            history.push(series, &row)?;
+        }
+        self.collapse.push(time, bubble.volume);
+        self.last_bubble = bubble;
+        self.largest_thin_volume = self.largest_thin_volume.max(bubble.thin_volume);
+        let peaks = &mut self.peaks;
+        for (peak, value) in [
+            (&mut peaks.wall, wall.axis),
+            (&mut peaks.wall_anywhere, wall.anywhere),
+            (&mut peaks.wall_interface, self.wall_pressures.first().copied().unwrap_or(f64::NAN)),
+            (&mut peaks.jet, limit(axis.jet_velocity)),
+        ] {
+            if value > peak[0] {
+                *peak = [value, time];
+            }
+        }
+
+        // Between the ends of whole steps levels are at different times, and nothing adds up.
+        let due = solver.clock().is_over() && self.ticker.is_due(time);
+        if let Some(interface) = &mut self.interface {
+            interface.add(&self.wall_pressures, dt);
+            if due {
+                let velocity =
+                    |face: usize| solver.interface().states().get(face).map_or(0.0, |wall| wall.velocity);
+                interface.write(time, velocity, history)?;
+            }
+        }
+        if due {
+            let totals = solver.totals();
+            let ledger = solver.ledger();
+            let mut row = vec![time, totals.mass, totals.momentum_z, totals.energy];
+            for side in 0..4 {
+                row.extend([ledger.mass[side], ledger.momentum[side], ledger.energy[side]]);
+            }
+            row.extend([fixups.floor_energy, ledger.wall_impulse, ledger.wall_work]);
+            history.push(self.conservation, &row)?;
+        }
+        for probe in &mut self.probes {
+            let Some(state) = solver.sample(probe.probe.position) else { continue };
+            let [mut pressure, mut v_z] = [state.pressure, state.v_z];
+            if probe.on_interface && dt > 0.0 {
+                let r = probe.probe.position[1];
+                let mean = self.faces.at(r, |k| self.wall_pressures[k]);
+                let velocity = self.faces.at(r, |k| solver.interface().states()[k].velocity);
+                let clock = solver.clock();
+                let middle = clock.middle(solver.group_of_face(self.faces.nearest(r)));
+                [pressure, v_z] = probe.star.at([mean, velocity], middle, time);
+            }
+            let row = [time, pressure, state.density, v_z, state.v_r, state.phi];
+            history.push(probe.series, &row)?;
+        }
+        Ok(())
+    }
+
+    fn snapshot(&mut self, solver: &FluidSolver<BLOCK>) -> Result<(), OutputError> {
+        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
+    }
+
+    /// The fluid's part of the summary.
+    pub fn summary(&self, solver: &FluidSolver<BLOCK>) -> Map<String, Value> {
+        let radius = |volume: f64| match solver.mesh().domain().geometry {
+            Geometry::Axisymmetric => (0.75 * volume / std::f64::consts::PI).cbrt(),
+            Geometry::Planar => (volume / std::f64::consts::PI).sqrt(),
+        };
+        let collapse = self.collapse.found();
+        let with_wall = self.interface.is_some();
+        let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
+        let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
+        let value = json!({
+            "collapse_time": collapse.map(|c| c.time),
+            "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
+            "final_equivalent_radius": self.last_bubble.equivalent_radius,
+            "trace_gas_volume": self.last_bubble.trace_volume,
+            "thin_gas_volume": self.last_bubble.thin_volume,
+            "thin_gas_volume_largest": self.largest_thin_volume,
+            "wall_pressure_peak": peak(self.peaks.wall),
+            "wall_pressure_peak_time": peak_time(self.peaks.wall),
+            "wall_pressure_peak_interface": peak(self.peaks.wall_interface),
+            "wall_pressure_peak_interface_time": peak_time(self.peaks.wall_interface),
+            "wall_pressure_peak_anywhere": peak(self.peaks.wall_anywhere),
+            "wall_pressure_peak_anywhere_time": peak_time(self.peaks.wall_anywhere),
+            "jet_velocity_peak": self.peaks.jet[0],
+            "jet_velocity_peak_time": self.peaks.jet[1],
+            "fixups": fixups::summary(solver.fixups(), self.collapse_energy),
+        });
+        match value {
+            Value::Object(mut map) => {
+                map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
+                map
+            }
+            _ => unreachable!("an object was written"),
+        }
+    }
+}
+
+/// Makes the series of the single bubbles, `bubbles/1` the one nearest to the wall, where there are several.
+fn bubble_series(cuts: &BubbleCuts, history: &mut HistoryFile) -> Result<Option<SeriesId>, OutputError> {
+    if cuts.bubbles() < 2 {
+        return Ok(None);
+    }
+    let names: Vec<[String; 4]> = (1..=cuts.bubbles())
+        .map(|number| BUBBLE_COLUMNS.map(|(name, ..)| format!("bubbles/{number}/{name}")))
+        .collect();
+    let columns: Vec<Column<'_>> = names
+        .iter()
+        .flat_map(|names| names.iter().zip(BUBBLE_COLUMNS))
+        .map(|(name, (_, unit, description))| column(name, unit, description))
+        .collect();
+    history.add_series("", &columns).map(Some)
+}
+
+/// Name, unit and description of what is recorded of each of several bubbles.
+const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
+    ("volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6, between this bubble's cuts"),
+    ("equivalent_radius", "m", "radius of the ball of that volume"),
+    ("centroid_z", "m", "mean z weighted with the gas fraction"),
+    ("gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
+];
+
+const STEP_COLUMNS: [Column<'static>; 20] = [
+    column("time", "s", "time after the step"),
+    column("time_step", "s", "length of the step"),
+    column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
+    column("bubble/equivalent_radius", "m", "radius of the ball of that volume"),
+    column("bubble/centroid_z", "m", "mean z weighted with the gas fraction"),
+    column("bubble/jet_tip_z", "m", "distal crossing of gas fraction 1/2 on the axis"),
+    column("bubble/jet_velocity", "m/s", "fastest liquid on the axis, positive towards the wall"),
+    column("bubble/trace_gas_volume", "m3", "volume integral of the gas fraction where it is at most 1e-6"),
+    column(
+        "bubble/thin_gas_volume",
+        "m3",
+        "volume integral of the gas fraction where it is between 1e-6 and 1e-2",
+    ),
+    column("bubble/gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
+    column("wall/pressure_axis", "Pa", "cell mean at z_min on the axis"),
+    column("wall/pressure_max", "Pa", "largest cell mean along z_min"),
+    column("fixups/first_order", "1", "cell-steps at first order so far"),
+    column("fixups/redone", "1", "cell-steps done again at first order so far"),
+    column("fixups/redone_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
+    column("fixups/floored", "1", "cell-steps lifted to the pressure floor so far"),
+    column("fixups/floored_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
+    column("fixups/floor_energy", "J/rad", "energy that the floor added so far (planar: J/m)"),
+    column(
+        "fixups/gas_mass_added",
+        "kg/rad",
+        "mass that the gas got from the liquid where it had less than none",
+    ),
+    column("fixups/liquid_mass_added", "kg/rad", "mass that the liquid got from the gas, likewise"),
+];
+
+const CONSERVATION_COLUMNS: [Column<'static>; 19] = [
+    column("time", "s", "time"),
+    column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
+    column("momentum_z", "N s/rad", "axial momentum in the domain"),
+    column("energy", "J/rad", "energy in the domain"),
+    column(
+        "mass_in_z_min",
+        "kg/rad",
+        "mass that came in through z_min; under a solid the wall's motion carries it",
+    ),
+    column("momentum_in_z_min", "N s/rad", "axial momentum and impulse of the pressure through z_min"),
+    column("energy_in_z_min", "J/rad", "energy and work of the pressure through z_min"),
+    column("mass_in_z_max", "kg/rad", "the same through z_max"),
+    column("momentum_in_z_max", "N s/rad", "the same through z_max"),
+    column("energy_in_z_max", "J/rad", "the same through z_max"),
+    column("mass_in_r_min", "kg/rad", "the same through r_min"),
+    column("momentum_in_r_min", "N s/rad", "the same through r_min"),
+    column("energy_in_r_min", "J/rad", "the same through r_min"),
+    column("mass_in_r_max", "kg/rad", "the same through r_max"),
+    column("momentum_in_r_max", "N s/rad", "the same through r_max"),
+    column("energy_in_r_max", "J/rad", "the same through r_max"),
+    column("energy_from_floor", "J/rad", "energy that the pressure floor added"),
+    column(
+        "interface_impulse",
+        "N s/rad",
+        "impulse of p* on the interface: minus the solid's momentum_in_z_max",
+    ),
+    column("interface_work", "J/rad", "work of p* on the fluid: minus the solid's energy_in_z_max"),
+];
+
+const PROBE_COLUMNS: [Column<'static>; 6] = [
+    column("time", "s", "time after the step"),
+    column("pressure", "Pa", "pressure; on the interface that of the star state"),
+    column("density", "kg/m3", "density"),
+    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
+    column("velocity_r", "m/s", "radial velocity"),
+    column("gas_fraction", "1", "gas fraction"),
+];
+
+fn names() -> SideNames<fluid::Snapshot> {
+    SideNames { history: FLUID_HISTORY, snapshots: FIELDS_FILE, fields: fluid::CELL_FIELDS.iter().collect() }
+}

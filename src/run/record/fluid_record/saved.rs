@@ -1,0 +1,113 @@
+//! What a checkpoint holds of the fluid's record.
+
+use fluid::{Bubble, BubbleCuts, FluidSolver};
+use mesh::{BLOCK, Misfit};
+use serde::{Deserialize, Serialize};
+
+use super::{FluidRecord, Peaks, names};
+use crate::case::Case;
+use crate::output::RunDirectory;
+use crate::run::RunError;
+use crate::run::record::collapse::CollapseFinder;
+use crate::run::record::interface_history::{InterfaceHistory, InterfaceState};
+use crate::run::record::side_files::{FilesState, SideFiles};
+use crate::run::record::{CellCount, StepEnds, Ticker, restore_probes, saved_probes};
+
+/// What of a record changes in time, and what hangs on the state at t = 0.
+#[derive(Serialize, Deserialize)]
+pub struct FluidRecordState {
+    files: FilesState,
+    interface: Option<InterfaceState>,
+    ticker: Ticker,
+    probes: Vec<StepEnds>,
+    wall_pressures: Vec<f64>,
+    cells: CellCount,
+    collapse: CollapseFinder,
+    peaks: Peaks,
+    last_bubble: Bubble,
+    largest_thin_volume: f64,
+    collapse_energy: f64,
+    cuts: BubbleCuts,
+}
+
+impl FluidRecord {
+    /// Takes up the files of a run, and what was kept of its record; what was written since is forgotten.
+    pub fn resume(
+        case: &Case,
+        directory: &RunDirectory,
+        solver: &FluidSolver<BLOCK>,
+        saved: FluidRecordState,
+    ) -> Result<Self, RunError> {
+        let files = SideFiles::resume(case, directory, names(), &saved.files)?;
+        let mut record = Self::on(case, files, solver)?;
+        let FluidRecordState {
+            files,
+            interface,
+            ticker,
+            probes,
+            wall_pressures,
+            cells,
+            collapse,
+            peaks,
+            last_bubble,
+            largest_thin_volume,
+            collapse_energy,
+            cuts,
+        } = saved;
+        match (&mut record.interface, interface) {
+            (Some(own), Some(saved)) => own.restore(saved, &record.faces, &mut record.files.history)?,
+            (None, None) => {}
+            _ => return Err(Misfit("only one of both has a history of the interface".to_owned()).into()),
+        }
+        record.ticker = ticker;
+        restore_probes(&mut record.probes, probes)?;
+        record.wall_pressures = wall_pressures;
+        record.cells = cells;
+        record.collapse = collapse;
+        record.peaks = peaks;
+        record.last_bubble = last_bubble;
+        record.largest_thin_volume = largest_thin_volume;
+        record.collapse_energy = collapse_energy;
+        record.cuts = cuts;
+        record.files.forget_rows(&files)?;
+        Ok(record)
+    }
+
+    /// What has to be kept of it.
+    pub fn saved(&self) -> FluidRecordState {
+        // Field by field, so that a new one cannot be forgotten here.
+        let Self {
+            files,
+            steps: _,
+            clips: _,
+            bubbles: _,
+            interface,
+            conservation: _,
+            ticker,
+            probes,
+            faces: _,
+            wall_pressures,
+            cells,
+            collapse,
+            peaks,
+            last_bubble,
+            largest_thin_volume,
+            collapse_energy,
+            cuts,
+        } = self;
+        FluidRecordState {
+            files: files.saved(),
+            interface: interface.as_ref().map(InterfaceHistory::saved),
+            ticker: *ticker,
+            probes: saved_probes(probes),
+            wall_pressures: wall_pressures.clone(),
+            cells: *cells,
+            collapse: collapse.clone(),
+            peaks: *peaks,
+            last_bubble: *last_bubble,
+            largest_thin_volume: *largest_thin_volume,
+            collapse_energy: *collapse_energy,
+            cuts: cuts.clone(),
+        }
+    }
+}

@@ -1,0 +1,309 @@
+//! What the solid's side writes: snapshots, histories, its part of the summary.
+
+use mesh::BLOCK;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+use solid::SolidSolver;
+
+use crate::case::{Case, Medium};
+use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
+use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
+use crate::run::RunError;
+use crate::run::record::side_files::{FilesState, SideFiles, SideNames};
+use crate::run::record::{
+    CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
+};
+use crate::run::schedule::Plan;
+use crate::run::side::wall_faces::WallFaces;
+
+/// Everything that the solid's side writes.
+pub struct SolidRecord {
+    files: SideFiles<solid::Snapshot>,
+    steps: SeriesId,
+    /// `/time`, which the fluid writes where there is one.
+    time: Option<SeriesId>,
+    conservation: SeriesId,
+    ticker: Ticker,
+    probes: Vec<ProbeSeries>,
+    faces: WallFaces,
+    cells: CellCount,
+    peak: Peak,
+    initial_energy: f64,
+}
+
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Peak {
+    stress: f64,
+    time: f64,
+    position: [f64; 2],
+    yielded: f64,
+}
+
+/// What of a record changes in time, and what hangs on the state at t = 0.
+#[derive(Serialize, Deserialize)]
+pub struct SolidRecordState {
+    files: FilesState,
+    ticker: Ticker,
+    probes: Vec<StepEnds>,
+    cells: CellCount,
+    peak: Peak,
+    initial_energy: f64,
+}
+
+impl SolidRecord {
+    /// Makes the files of the solid's side and writes the state at t = 0. Without a directory histories stay in memory
+    /// and there are no snapshots.
+    pub fn create(
+        case: &Case,
+        directory: Option<&RunDirectory>,
+        solver: &SolidSolver<BLOCK>,
+    ) -> Result<Self, OutputError> {
+        let mut record = Self::on(case, SideFiles::create(case, directory, names(solver))?, solver)?;
+        record.cells.see(solver.mesh().cells());
+        record.write(solver, 0.0)?;
+        record.snapshot(solver)?;
+        record.files.history.flush()?;
+        Ok(record)
+    }
+
+    /// Takes up the files of a run, and what was kept of its record; what was written since is forgotten.
+    pub fn resume(
+        case: &Case,
+        directory: &RunDirectory,
+        solver: &SolidSolver<BLOCK>,
+        saved: SolidRecordState,
+    ) -> Result<Self, RunError> {
+        let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
+        let mut record = Self::on(case, files, solver)?;
+        let SolidRecordState { files, ticker, probes, cells, peak, initial_energy } = saved;
+        record.ticker = ticker;
+        restore_probes(&mut record.probes, probes)?;
+        record.cells = cells;
+        record.peak = peak;
+        record.initial_energy = initial_energy;
+        record.files.forget_rows(&files)?;
+        Ok(record)
+    }
+
+    /// What has to be kept of it.
+    pub fn saved(&self) -> SolidRecordState {
+        // Field by field, so that a new one cannot be forgotten here.
+        let Self {
+            files,
+            steps: _,
+            time: _,
+            conservation: _,
+            ticker,
+            probes,
+            faces: _,
+            cells,
+            peak,
+            initial_energy,
+        } = self;
+        SolidRecordState {
+            files: files.saved(),
+            ticker: *ticker,
+            probes: saved_probes(probes),
+            cells: *cells,
+            peak: *peak,
+            initial_energy: *initial_energy,
+        }
+    }
+
+    /// Brings everything so far to the disk.
+    pub fn settle(&mut self) -> Result<(), OutputError> {
+        self.files.settle()
+    }
+
+    /// A record in these files of a solid as it is, with nothing written.
+    fn on(
+        case: &Case,
+        mut files: SideFiles<solid::Snapshot>,
+        solver: &SolidSolver<BLOCK>,
+    ) -> Result<Self, OutputError> {
+        let mesh = solver.mesh();
+        let history = &mut files.history;
+        let steps = history.add_series("/solid", &STEP_COLUMNS)?;
+        let time = match &case.fluid {
+            Some(_) => None,
+            None => Some(history.add_series("", &[column("time", "s", "time after the step")])?),
+        };
+        let conservation = history.add_series("/conservation/solid", &CONSERVATION_COLUMNS)?;
+        // A load has a star state, too; a boundary has not.
+        let covered = case.coupling.scheme != coupler::Scheme::None;
+        let interface_z = covered.then(|| mesh.domain().z[1]);
+        let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, history)?;
+        let totals = solver.totals();
+        Ok(Self {
+            files,
+            steps,
+            time,
+            conservation,
+            ticker: Ticker::of(case),
+            probes,
+            faces: WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges()),
+            cells: CellCount::default(),
+            peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
+            initial_energy: totals.kinetic + totals.elastic,
+        })
+    }
+
+    /// The histories.
+    pub fn history(&self) -> &HistoryFile {
+        &self.files.history
+    }
+
+    /// Writes a batch of the histories.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.files.history.flush()
+    }
+
+    /// Takes notice of a finished step.
+    pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
+        let mesh = solver.mesh();
+        self.cells.see(mesh.cells());
+        self.faces.update(mesh.generation(), || solver.interface_edges());
+        self.write(solver, plan.dt)?;
+        if plan.snapshot {
+            self.snapshot(solver)?;
+        }
+        self.files.after_step()
+    }
+
+    /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
+    pub fn close(&mut self, solver: &SolidSolver<BLOCK>, failed: bool) -> Result<(), OutputError> {
+        if failed {
+            self.snapshot(solver)?;
+        }
+        self.files.close()
+    }
+
+    fn write(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
+        let time = solver.time();
+        let mises = solver.mises_peak();
+        let yielded = solver.yielded_volume();
+        let history = &mut self.files.history;
+        history.push(self.steps, &[time, mises.stress, mises.position[0], mises.position[1], yielded])?;
+        if let Some(series) = self.time {
+            history.push(series, &[time])?;
+        }
+        if mises.stress > self.peak.stress {
+            self.peak = Peak { stress: mises.stress, time, position: mises.position, ..self.peak };
+        }
+        self.peak.yielded = self.peak.yielded.max(yielded);
+        // Between the ends of whole steps levels are at different times, and nothing adds up.
+        if solver.clock().is_over() && self.ticker.is_due(time) {
+            let totals = solver.totals();
+            let ledger = solver.ledger();
+            let energy = totals.kinetic + totals.elastic;
+            let dissipated = self.initial_energy + ledger.energy.iter().sum::<f64>() - energy;
+            let mut row = vec![
+                time,
+                totals.mass,
+                totals.momentum_z,
+                energy,
+                totals.kinetic,
+                totals.elastic,
+                dissipated,
+            ];
+            for side in 0..4 {
+                row.extend([ledger.momentum[side], ledger.energy[side]]);
+            }
+            history.push(self.conservation, &row)?;
+        }
+        for probe in &mut self.probes {
+            let Some(state) = solver.sample(probe.probe.position) else { continue };
+            let mut row = [
+                time,
+                state.v_z,
+                state.v_r,
+                state.stress_zz,
+                state.stress_zr,
+                state.stress_rr,
+                state.stress_phiphi,
+            ];
+            if probe.on_interface && dt > 0.0 {
+                let r = probe.probe.position[1];
+                let velocity = self.faces.at(r, |k| solver.interface().states()[k].velocity);
+                let stress = self.faces.at(r, |k| -solver.interface().states()[k].pressure);
+                let clock = solver.clock();
+                let middle = clock.middle(solver.group_of_face(self.faces.nearest(r)));
+                [row[1], row[3]] = probe.star.at([velocity, stress], middle, time);
+                // No shear is passed to the fluid.
+                row[4] = 0.0;
+            }
+            history.push(probe.series, &row)?;
+        }
+        Ok(())
+    }
+
+    fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
+        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
+    }
+
+    /// The solid's part of the summary.
+    pub fn summary(&self, solver: &SolidSolver<BLOCK>) -> Map<String, Value> {
+        let strength = solver.setup().yield_strength;
+        let value = json!({
+            "von_mises_peak": self.peak.stress,
+            "von_mises_peak_time": self.peak.time,
+            "von_mises_peak_position": self.peak.position,
+            "yield_strength": strength.is_finite().then_some(strength),
+            "yielded_volume_peak": self.peak.yielded,
+        });
+        match value {
+            Value::Object(mut map) => {
+                map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
+                map
+            }
+            _ => unreachable!("an object was written"),
+        }
+    }
+}
+
+const STEP_COLUMNS: [Column<'static>; 4] = [
+    column("time", "s", "time after the step"),
+    column("von_mises_max", "Pa", "largest von Mises stress in a cell"),
+    Column { name: "von_mises_max_position", unit: "m", description: "centre (z, r) of that cell", width: 2 },
+    column("yielded_volume", "m3", "volume in which the von Mises stress exceeds the yield strength"),
+];
+
+const CONSERVATION_COLUMNS: [Column<'static>; 15] = [
+    column("time", "s", "time"),
+    column("mass", "kg/rad", "mass in the domain, constant (planar: kg/m)"),
+    column("momentum_z", "N s/rad", "axial momentum in the domain"),
+    column("energy", "J/rad", "kinetic and elastic energy in the domain"),
+    column("kinetic_energy", "J/rad", "kinetic energy in the domain"),
+    column("elastic_energy", "J/rad", "elastic energy in the domain"),
+    column(
+        "energy_dissipated",
+        "J/rad",
+        "work done on the solid minus the growth of its energy: the scheme's loss",
+    ),
+    column("momentum_in_z_min", "N s/rad", "axial impulse of the traction on z_min"),
+    column("energy_in_z_min", "J/rad", "work of the traction on z_min"),
+    column("momentum_in_z_max", "N s/rad", "the same on z_max; under a fluid the interface"),
+    column("energy_in_z_max", "J/rad", "the same on z_max; under a fluid the interface"),
+    column("momentum_in_r_min", "N s/rad", "the same on r_min"),
+    column("energy_in_r_min", "J/rad", "the same on r_min"),
+    column("momentum_in_r_max", "N s/rad", "the same on r_max"),
+    column("energy_in_r_max", "J/rad", "the same on r_max"),
+];
+
+const PROBE_COLUMNS: [Column<'static>; 7] = [
+    column("time", "s", "time after the step"),
+    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
+    column("velocity_r", "m/s", "radial velocity"),
+    column("stress_zz", "Pa", "axial stress; on the interface that of the star state"),
+    column("stress_zr", "Pa", "shear stress"),
+    column("stress_rr", "Pa", "radial stress"),
+    column("stress_phiphi", "Pa", "hoop stress"),
+];
+
+fn names(solver: &SolidSolver<BLOCK>) -> SideNames<solid::Snapshot> {
+    // A material without a yield strength has no yield function.
+    let has_yield_strength = solver.setup().yield_strength.is_finite();
+    let fields =
+        solid::CELL_FIELDS.iter().filter(|field| has_yield_strength || field.name != "yield_function");
+    SideNames { history: SOLID_HISTORY, snapshots: FIELDS_FILE, fields: fields.collect() }
+}

@@ -1,0 +1,299 @@
+//! The solid's part of the step loop: it answers the fluid's trace with what the wall did, or shows its own.
+
+mod agreed;
+mod cells;
+mod side;
+
+use std::time::{Duration, Instant};
+
+use coupler::{
+    CouplerError, Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme,
+    StarSolver, StepLength, TraceRow,
+};
+use mesh::{BLOCK, GroupStep};
+use solid::{SolidSolver, WeakExchange};
+
+use crate::case::{Case, SolidCase};
+use crate::output::RunDirectory;
+use crate::run::RunError;
+use crate::run::checkpoints::Keeper;
+use crate::run::memory::MemoryWatch;
+use crate::run::process::stop::Stop;
+use crate::run::record::solid_record::SolidRecord;
+use crate::run::record::timed::{Clock, Timed};
+use crate::run::schedule::{Plan, Schedule};
+use crate::run::setup::solid_solver;
+use crate::run::side::coupled_solver::{self, StepRule};
+use crate::run::side::load::Load;
+use crate::run::side::past::{Done, Past};
+
+pub mod saved;
+
+/// The solid with its place in a run.
+pub struct SolidSide {
+    solver: SolidSolver<BLOCK>,
+    record: Option<SolidRecord>,
+    exchange: WeakExchange,
+    meeting: Meeting,
+    /// What presses on the surface where there is no fluid.
+    load: Option<Load>,
+    schedule: Schedule,
+    rule: StepRule,
+    scheme: Scheme,
+    star: StarSolver,
+    kappa: Kappa,
+    factor: KappaFactor,
+    /// Outer radii of the own faces on the interface, and of the fluid's; none before the first trace.
+    edges: Vec<f64>,
+    fluid_edges: Vec<f64>,
+    /// The long step that waits for what the fluid made of it.
+    pending: Option<(Plan, GroupStep)>,
+    /// The step that is tried in the strong scheme.
+    trial: Option<GroupStep>,
+    /// The fluid's steps within the last long one; infinite after short ones.
+    fluids_step: f64,
+    /// How long a step this side has said last that it can follow, s.
+    promised: f64,
+    /// When the run ends: nothing adapts for what does not come.
+    end: f64,
+    last_dt: f64,
+    clock: Clock,
+    memory: MemoryWatch,
+    keeper: Option<Keeper>,
+    past: Past,
+}
+
+impl SolidSide {
+    /// The solid of a case; with a directory it writes what happens.
+    pub fn new(case: &Case, solid: &SolidCase, directory: Option<&RunDirectory>) -> Result<Self, RunError> {
+        let solver = solid_solver(case, solid)?;
+        let record = directory.map(|d| SolidRecord::create(case, Some(d), &solver)).transpose()?;
+        Ok(Self::with(case, solver, record))
+    }
+
+    /// A solid that has been made already, in its initial state.
+    pub fn with(case: &Case, mut solver: SolidSolver<BLOCK>, record: Option<SolidRecord>) -> Self {
+        for probe in case.probes.iter().filter(|probe| probe.medium == crate::case::Medium::Solid) {
+            solver.watch(probe.position);
+        }
+        Self {
+            edges: solver.interface_edges(),
+            load: case.coupling.load.as_ref().and_then(|load| Load::new(load, &solver)),
+            solver,
+            record,
+            exchange: WeakExchange::default(),
+            meeting: Meeting::default(),
+            schedule: Schedule::new(&case.time.snapshots),
+            rule: StepRule::of(case),
+            scheme: case.coupling.scheme,
+            star: case.coupling.star,
+            kappa: case.coupling.kappa,
+            factor: KappaFactor::default(),
+            fluid_edges: Vec::new(),
+            pending: None,
+            trial: None,
+            fluids_step: f64::INFINITY,
+            promised: 0.0,
+            end: case.time.end * (1.0 - 1e-12),
+            last_dt: 0.0,
+            clock: Clock::default(),
+            memory: MemoryWatch::of(case.solid_memory()),
+            keeper: None,
+            past: Past::after(Done::default()),
+        }
+    }
+
+    /// Keeps checkpoints from now on.
+    pub fn keep_with(&mut self, keeper: Keeper) {
+        self.keeper = Some(keeper);
+    }
+
+    /// The solver.
+    pub fn solver(&self) -> &SolidSolver<BLOCK> {
+        &self.solver
+    }
+
+    /// What is recorded.
+    pub fn record(&self) -> Option<&SolidRecord> {
+        self.record.as_ref()
+    }
+
+    /// Writes the rows of the histories that are still in memory.
+    pub fn flush(&mut self) -> Result<(), RunError> {
+        self.record.as_mut().map_or(Ok(()), |record| record.flush()).map_err(RunError::Output)
+    }
+
+    /// When the next steps have to land, besides the times of snapshots; in a coupled run the fluid's counts.
+    pub fn schedule_mut(&mut self) -> &mut Schedule {
+        &mut self.schedule
+    }
+
+    /// The length of the last step, s.
+    pub fn last_step(&self) -> f64 {
+        self.last_dt
+    }
+
+    /// The first word: how long a step the solid allows. It is at rest; or it says at what time it goes on.
+    pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
+        let promised = self.promised;
+        link.send(self.header(FrameKind::Register, 0, stop), |_| {})?;
+        if self.solver.steps() > 0 {
+            // The fluid goes on from what it was told before.
+            self.promised = promised;
+            self.past.leave_out(link.counters());
+        }
+        Ok(())
+    }
+
+    /// What a frame says besides its payload: the admissible step, and what this side was asked to do.
+    fn header(&mut self, kind: FrameKind, fields: usize, stop: &Stop) -> FrameHeader {
+        let header = FrameHeader {
+            step: self.solver.steps(),
+            time: self.solver.time(),
+            dt: self.last_dt,
+            dt_max: self.rule.counted(&self.solver),
+            fields: fields as u64,
+            cells: self.solver.mesh().cells() as u64,
+            flags: stop.flags(),
+            ..FrameHeader::new(kind)
+        };
+        self.promised = header.dt_max;
+        header
+    }
+
+    /// Ends the long step under way with what the fluid made of it; does nothing if there is none.
+    pub fn settle(&mut self, link: &mut impl Link) -> Result<(), RunError> {
+        let Some((plan, step)) = self.pending.take() else { return Ok(()) };
+        let solver = &mut self.solver;
+        link.receive(|frame| {
+            frame.require(FrameKind::Register)?;
+            frame.require_step(solver.time(), StepLength::Is(plan.dt))?;
+            let register = frame.register(solver.interface().faces())?;
+            solver.interface_mut().set_rows(register.rows());
+            Ok::<_, CouplerError>(())
+        })??;
+        let adapts = self.adapts(plan.dt);
+        let timed = Timed::new(&mut self.clock);
+        coupled_solver::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))?;
+        self.adapt_if(adapts, plan.dt)
+    }
+
+    /// Begins a long step: shows the trace and does what does not depend on the fluid.
+    fn begin_long(&mut self, link: &mut impl Link, asked: Plan, stop: &Stop) -> Result<(), RunError> {
+        let limit = self.rule.unless_collapsed(self.rule.long(&self.solver).limit, &self.solver)?;
+        let plan =
+            if asked.dt <= limit * (1.0 + 1e-10) { asked } else { Plan { dt: limit, snapshot: false } };
+        self.last_dt = plan.dt;
+        let faces = self.solver.interface().faces();
+        let header =
+            FrameHeader { count: faces as u64, ..self.header(FrameKind::Trace, TraceRow::COUNT, stop) };
+        let (solver, edges, start) = (&self.solver, &self.edges, Instant::now());
+        let mut filled = Duration::ZERO;
+        link.send(header, |payload| {
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
+            solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
+            filled = start.elapsed();
+        })?;
+        let start = Instant::now();
+        let step = coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?;
+        self.clock.computing += filled + start.elapsed();
+        self.pending = Some((plan, step));
+        Ok(())
+    }
+
+    /// Makes short steps within the fluid's, of which the trace has been read.
+    fn step_shortly(&mut self, link: &mut impl Link, plan: Plan, stop: &Stop) -> Result<(), RunError> {
+        let adapts = self.adapts(plan.dt);
+        // How long the next step may be is known only once the grid has adapted. Where steps have to be the same on both
+        // sides, the answer waits for that; else both sides go on at the same time.
+        let early = !adapts || self.rule.ratio > 1;
+        let faces = self.fluid_edges.len();
+        let header = FrameHeader {
+            count: faces as u64,
+            dt: plan.dt,
+            ..self.header(FrameKind::Register, RegisterRow::COUNT, stop)
+        };
+        let mut send = |meeting: &Meeting, header: FrameHeader| -> Result<(), RunError> {
+            link.send(header, |payload| meeting.write_register(payload))?;
+            Ok(())
+        };
+        let timed = Timed::new(&mut self.clock);
+        coupled_solver::short_steps(
+            &mut self.solver,
+            &mut self.meeting,
+            (plan.dt, self.star),
+            &self.rule,
+            |_, meeting| if early { send(meeting, header) } else { Ok(()) },
+            timed.recorded(&mut self.record, plan),
+        )?;
+        self.adapt_if(adapts, plan.dt)?;
+        if !early {
+            let dt_max = self.rule.counted(&self.solver);
+            self.promised = dt_max;
+            let cells = self.solver.mesh().cells() as u64;
+            send(&self.meeting, FrameHeader { dt_max, cells, ..header })?;
+        }
+        Ok(())
+    }
+
+    /// Takes over what a trace frame says.
+    fn read_trace(&mut self, frame: &Frame<'_>) -> Result<(), CouplerError> {
+        let start = Instant::now();
+        let (rows, faces) = frame.trace(self.solver.mesh().domain().r)?;
+        if self.fluid_edges.as_slice() != TraceRow::Edge.of(rows, faces) {
+            self.fluid_edges = TraceRow::Edge.of(rows, faces).to_vec();
+        }
+        if self.scheme.exchanges_cells() {
+            let (kappa, dt) = (self.kappa, frame.header.dt);
+            let courant = self.rule.cfl * dt / self.solver.time_step_limit(self.rule.cfl);
+            let factor = if kappa == Kappa::Off { 1.0 } else { self.factor.next(courant) };
+            let pressure_of = |received: f64, own: f64| match kappa {
+                Kappa::Off => received,
+                Kappa::Printed => factor * received,
+                Kappa::Jump => own + factor * (received - own),
+            };
+            self.solver.load_weakly(&mut self.exchange, rows, faces, dt, pressure_of);
+        } else {
+            coupled_solver::begin_meeting(&self.solver, &mut self.meeting, (rows, faces));
+        }
+        self.clock.computing += start.elapsed();
+        Ok(())
+    }
+
+    /// Whether the grid adapts after a step of length `dt`; to be asked once for each.
+    fn adapts(&mut self, dt: f64) -> bool {
+        let steps = self.steps_in(dt);
+        self.solver.time() + dt < self.end && self.solver.adaptation_follows(dt, steps)
+    }
+
+    /// About how many steps, the own or the fluid's, a step of length `dt` holds. What comes through the interface comes in
+    /// the fluid's: while the solid's cells are still too wide for it, adaptation must not wait for its long steps.
+    fn steps_in(&self, dt: f64) -> u32 {
+        let fluids = (dt / self.fluids_step).ceil() as u32;
+        self.rule.steps_in(dt, &self.solver).max(fluids)
+    }
+
+    fn adapt_if(&mut self, adapts: bool, dt: f64) -> Result<(), RunError> {
+        if !adapts {
+            return Ok(());
+        }
+        let start = Instant::now();
+        let steps = self.steps_in(dt);
+        if self.solver.adapt(dt, steps) {
+            self.edges = self.solver.interface_edges();
+        }
+        let elapsed = start.elapsed();
+        self.clock.computing += elapsed;
+        self.clock.adapting += elapsed;
+        self.memory.look(self.solver.mesh().cells(), self.solver.time(), "solid")
+    }
+
+    fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
+        let start = Instant::now();
+        if let Some(record) = &mut self.record {
+            record.after_step(&self.solver, plan)?;
+        }
+        self.clock.recording += start.elapsed();
+        Ok(())
+    }
+}

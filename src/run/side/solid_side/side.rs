@@ -1,0 +1,127 @@
+//! What the step loop asks of the solid's side.
+
+use coupler::{FrameHeader, FrameKind, Link, LinkCounters};
+use mesh::BLOCK;
+use serde_json::{Map, Value, json};
+use solid::SolidSolver;
+
+use super::SolidSide;
+use crate::output::ProgressLine;
+use crate::output::run_directory::SOLID_SUMMARY;
+use crate::run::RunError;
+use crate::run::checkpoints::Keeper;
+use crate::run::process::stop::Stop;
+use crate::run::record::timed::{Clock, Timed};
+use crate::run::schedule::Plan;
+use crate::run::side::RunSide;
+use crate::run::side::coupled_solver;
+use crate::run::side::fluid_side::Turn;
+use crate::run::side::past::Past;
+
+impl RunSide for SolidSide {
+    type Solver = SolidSolver<BLOCK>;
+    const NAME: &'static str = "solid";
+    const SUMMARY: &'static str = SOLID_SUMMARY;
+
+    fn step_alone(&mut self) -> Result<bool, RunError> {
+        let limit = self.rule.unless_collapsed(self.rule.alone(&self.solver).limit, &self.solver)?;
+        let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(false) };
+        self.last_dt = plan.dt;
+        let adapts = self.adapts(plan.dt);
+        let timed = Timed::new(&mut self.clock);
+        let load = &mut self.load;
+        let press = |solver: &mut SolidSolver<BLOCK>, step| {
+            if let Some(load) = load {
+                load.press(solver, step);
+            }
+        };
+        let after = timed.recorded(&mut self.record, plan);
+        coupled_solver::step_alone(&mut self.solver, plan.dt, &self.rule, press, after)?;
+        self.adapt_if(adapts, plan.dt)?;
+        Ok(true)
+    }
+
+    fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
+        self.settle(link)?;
+        // As they stand before this frame, which comes again if the run is taken up here.
+        let counters = self.keeper.is_some().then(|| link.counters());
+        let header = link.receive(|frame| {
+            self.require_turn(frame)?;
+            if frame.header.has(FrameHeader::CHECKPOINT)
+                && let Some(counters) = counters
+            {
+                self.keep(frame.header.step, counters)?;
+            }
+            let has_rows = frame.require(FrameKind::Trace).is_ok()
+                && !frame.header.has(FrameHeader::LAST | FrameHeader::SETTLED);
+            if has_rows {
+                self.read_trace(frame)?;
+            }
+            Ok::<_, RunError>(*frame.header)
+        })??;
+        if header.has(FrameHeader::LAST) {
+            return Ok(Turn::Over(
+                header.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE),
+            ));
+        }
+        let plan = Plan { dt: header.dt, snapshot: header.has(FrameHeader::SNAPSHOT) };
+        if header.kind == FrameKind::Yours as u32 {
+            self.fluids_step = header.dt_max;
+            self.begin_long(link, plan, stop)?;
+            return Ok(Turn::Continues);
+        }
+        self.last_dt = plan.dt;
+        self.fluids_step = f64::INFINITY;
+        if header.has(FrameHeader::TRIAL) {
+            self.try_step(link, plan, stop)?;
+        } else if self.scheme.exchanges_cells() {
+            self.step_beside(link, plan, stop)?;
+        } else {
+            self.step_shortly(link, plan, stop)?;
+        }
+        Ok(Turn::Continues)
+    }
+
+    fn close(&mut self, failed: bool) -> Result<(), RunError> {
+        if let Some(record) = &mut self.record {
+            record.close(&self.solver, failed)?;
+        }
+        Ok(())
+    }
+
+    fn summary(&self) -> Map<String, Value> {
+        let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
+        part.insert("fixups".to_owned(), json!({ "floored_stars": self.meeting.floored() }));
+        part
+    }
+
+    fn solver(&self) -> &Self::Solver {
+        &self.solver
+    }
+
+    fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    fn past(&self) -> &Past {
+        &self.past
+    }
+
+    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError> {
+        if is_stopped || self.keeper.as_ref().is_some_and(Keeper::is_due) {
+            self.keep(self.solver.steps(), LinkCounters::default())?;
+        }
+        Ok(())
+    }
+
+    fn line(&self) -> ProgressLine {
+        ProgressLine {
+            time: self.solver.time(),
+            step: self.solver.steps(),
+            dt: self.last_dt,
+            limited_by: "solid".to_owned(),
+            cells: self.solver.mesh().cells() as u64,
+            wall: 0.0,
+        }
+    }
+}
