@@ -292,6 +292,8 @@ fn fluid_setup(cells: usize, scheme: Scheme, boundaries: [fluid::Boundary; 4]) -
         far_field: None,
         adaptation: None,
         scales: fluid::Scales { pressure: 1e6, density: 1e3 },
+        gravity: None,
+        tracer: None,
     }
 }
 

@@ -102,6 +102,9 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     text.name("initial_pressure", &fluid::InitialPressure::NAMES, fluid.initial.pressure);
     text.number("scale_pressure", fluid.scale_pressure);
     text.number("scale_density", fluid.scale_density);
+    if let Some(gravity) = fluid.gravity {
+        text.number("gravity", gravity.acceleration);
+    }
     write_refine(text, "[[fluid.refine]]", &fluid.grid);
     for (head, eos) in [("[fluid.liquid]", fluid.liquid), ("[fluid.gas]", fluid.gas)] {
         text.head(head);
@@ -112,19 +115,12 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     write_state(text, &fluid.initial.ambient);
     for region in &fluid.initial.regions {
         text.head("[[fluid.region]]");
-        match region.shape {
-            Shape::Sphere { centre, radius } => {
-                text.key("shape", "\"sphere\"");
-                text.list("centre", &centre);
-                text.number("radius", radius);
-            }
-            Shape::Box { z, r } => {
-                text.key("shape", "\"box\"");
-                text.list("z", &z);
-                text.list("r", &r);
-            }
-        }
+        write_shape(text, &region.shape);
         write_state(text, &region.state);
+    }
+    if let Some(shape) = &fluid.tracer {
+        text.head("[fluid.tracer]");
+        write_shape(text, shape);
     }
     for pulse in &fluid.initial.pulses {
         text.head("[[fluid.pulse]]");
@@ -148,6 +144,21 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     if let Some(inflow) = &fluid.inflow {
         text.head("[fluid.inflow]");
         text.rows("pressure", &inflow.pressure);
+    }
+}
+
+fn write_shape(text: &mut Lines, shape: &Shape) {
+    match shape {
+        Shape::Sphere { centre, radius } => {
+            text.key("shape", "\"sphere\"");
+            text.list("centre", centre);
+            text.number("radius", *radius);
+        }
+        Shape::Box { z, r } => {
+            text.key("shape", "\"box\"");
+            text.list("z", z);
+            text.list("r", r);
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! `"far-field"` sides: which they are where the case does not say, and whether it has what it asks for.
 
-use fluid::{Boundary, FarField, FarFieldError, InitialCondition, Mixture, PressureHistory, StiffenedGas};
+use fluid::{
+    Boundary, FarField, FarFieldError, Gravity, InitialCondition, Mixture, PressureHistory, StiffenedGas,
+};
 use mesh::{Domain, Side};
 
 use super::reader::{Faults, Given};
@@ -17,7 +19,7 @@ pub(super) fn decide(
     initial: &InitialCondition,
     grid: &GridCase,
     media: [Option<StiffenedGas>; 2],
-    inflow: Option<&Inflow>,
+    (inflow, gravity): (Option<&Inflow>, Option<Gravity>),
     context: Context,
     faults: &mut Faults,
 ) {
@@ -27,7 +29,10 @@ pub(super) fn decide(
     let inflow = inflow.and_then(|inflow| PressureHistory::new(inflow.pressure.clone()));
     let mixture = Mixture::new(liquid, gas);
     // How much a wall reflects does not matter here.
-    let found = FarField::of(initial, &mixture, &domain, *boundary, inflow.as_ref(), 1.0);
+    let found = match gravity {
+        Some(_) => Err(FarFieldError::Gravity),
+        None => FarField::of(initial, &mixture, &domain, *boundary, inflow.as_ref(), 1.0).map(|_| ()),
+    };
     let Err(error) = found else { return };
     for side in Side::ALL.map(|side| side as usize) {
         if boundary[side] == Boundary::FarField {
@@ -49,5 +54,6 @@ fn remedy(error: FarFieldError) -> String {
         FarFieldError::OffAxis { region } => otherwise(&format!("let fluid.region.{region} begin at r = 0")),
         FarFieldError::Tube => otherwise("make r_max \"far-field\" or \"non-reflecting\""),
         FarFieldError::Layer => otherwise("open z_min or z_max"),
+        FarFieldError::Gravity => otherwise("remove gravity"),
     }
 }

@@ -4,11 +4,10 @@
 //! written: fields and registers of the solver, the values of both snapshots and the meshes that they are on. Against
 //! measured peaks see docs/cases.md.
 
-use fluid::Model;
 use mesh::{BLOCK, Domain};
 
 use super::format::mebibytes;
-use super::{Case, CaseError, CaseErrors, GridCase};
+use super::{Case, CaseError, CaseErrors, FluidCase, GridCase};
 
 /// A process without any cells, bytes: program, libraries, threads and their scratch, histories.
 const PROCESS: f64 = 28.0 * MEBI;
@@ -40,8 +39,10 @@ struct Numbers {
 
 const SOLID: Numbers = Numbers { components: 6, registered: 4, values: SOLID_VALUES };
 
-fn of_fluid(model: Model) -> Numbers {
-    Numbers { components: model.components(), registered: 8, values: FLUID_VALUES }
+fn of_fluid(fluid: &FluidCase) -> Numbers {
+    let carried = usize::from(fluid.tracer.is_some());
+    let values = FLUID_VALUES + carried as f64;
+    Numbers { components: fluid.model.components() + carried, registered: 8 + carried, values }
 }
 
 impl Numbers {
@@ -96,7 +97,7 @@ impl Case {
             fluid.initial.asks_for_finer(low, high, widths)
         });
         let row = NUMBER * (1 + 3 * cells) as f64;
-        Some(Memory::of(of_fluid(fluid.model), &fluid.grid, self.time.local_steps, least, row))
+        Some(Memory::of(of_fluid(fluid), &fluid.grid, self.time.local_steps, least, row))
     }
 
     /// The solid's memory.

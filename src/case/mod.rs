@@ -13,6 +13,7 @@ mod read_adaptation;
 mod read_coupling;
 mod read_fluid;
 mod read_grid;
+mod read_shape;
 mod read_solid;
 mod reader;
 mod scales;
@@ -26,7 +27,7 @@ mod warnings;
 use std::path::{Path, PathBuf};
 
 use coupler::{Kappa, Participant, Scheme, StarSolver};
-use fluid::{InitialCondition, Model, PhaseState, RiemannSolver, Sharpening, StiffenedGas};
+use fluid::{Gravity, InitialCondition, Model, PhaseState, RiemannSolver, Shape, Sharpening, StiffenedGas};
 use mesh::{Adaptation, Geometry, Limiter, Side};
 use solid::{InitialStress, Material, PotentialPulse};
 
@@ -169,6 +170,10 @@ pub struct FluidCase {
     pub scale_density: f64,
     /// Threshold of pressure and velocity on an adaptive grid; that of density and gas fraction is the grid's own.
     pub wave_epsilon: f64,
+    /// Gravity along z, if any.
+    pub gravity: Option<Gravity>,
+    /// Where the passive tracer is at t = 0, if there is one.
+    pub tracer: Option<Shape>,
 }
 
 impl FluidCase {

@@ -2,23 +2,16 @@
 
 use coupler::Scheme;
 use fluid::{
-    Boundary, InitialCondition, InitialPressure, Model, Phase, PhaseState, Pulse, PulseShape, Region,
-    RiemannSolver, Shape, Sharpening, StiffenedGas,
+    Boundary, Gravity, InitialCondition, InitialPressure, Model, Phase, PhaseState, Pulse, PulseShape,
+    Region, RiemannSolver, Shape, Sharpening, StiffenedGas,
 };
 use mesh::{Geometry, Limiter, Side};
 
 use super::read_grid::{GridPlace, grid};
+use super::read_shape::{Kind, body, on_axis, shape};
 use super::reader::{Faults, Given, Table, number, pair};
 use super::shared::{Context, boundaries, history};
 use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, scales};
-
-/// The shapes of regions and pulses by name.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Sphere,
-    Box,
-    Plane,
-}
 
 /// Equations of state as far as they could be read, and the grid likewise.
 struct Setting {
@@ -63,6 +56,8 @@ pub(super) fn fluid(
     };
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
     let initial = initial(&mut table, pressure.as_ref(), &setting, faults);
+    let gravity = initial.as_ref().and_then(|initial| gravity(&mut table, initial, &setting, faults));
+    let tracer = table.table("tracer", faults).and_then(|table| tracer(table, &setting, faults));
     let (mut boundary, named) = sides(&mut table, context, faults);
     if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
         initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
@@ -70,7 +65,8 @@ pub(super) fn fluid(
     let inflow = inflow(&mut table, boundary, liquid, faults);
     if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
         let media = [liquid, gas];
-        far_field::decide(&mut boundary, &named, initial, grid, media, inflow.as_ref(), context, faults);
+        let others = (inflow.as_ref(), gravity);
+        far_field::decide(&mut boundary, &named, initial, grid, media, others, context, faults);
     }
     let riemann = table.choice("riemann", &RiemannSolver::NAMES, faults);
     let model = table.choice("model", &Model::NAMES, faults);
@@ -110,6 +106,8 @@ pub(super) fn fluid(
         scale_pressure,
         scale_density,
         wave_epsilon: super::read_adaptation::DEFAULT_ERROR,
+        gravity,
+        tracer,
     };
     Some((case, place))
 }
@@ -142,6 +140,44 @@ fn stiffened_gas(
         sound = false;
     }
     sound.then_some(StiffenedGas { gamma: gamma.value, pi: pi.value })
+}
+
+/// Gravity along z, under which the pressure of the ambient liquid is that of the case on z_min.
+fn gravity(
+    table: &mut Table<'_>,
+    initial: &InitialCondition,
+    setting: &Setting,
+    faults: &mut Faults,
+) -> Option<Gravity> {
+    let given = table.number("gravity", "m/s2", faults).filter(|given| given.value != 0.0)?;
+    let (ambient, grid) = (&initial.ambient, setting.grid.as_ref()?);
+    let gravity = Gravity { acceleration: given.value, level: grid.z[0] };
+    if ambient.phase == Phase::Gas {
+        let message = "fills the ambient liquid with a hydrostatic pressure, and the ambient phase is gas";
+        faults.of(&given, message, "remove it, or make the ambient phase \"liquid\"");
+        return None;
+    }
+    let highest = ambient.pressure + gravity.head(ambient.density, grid.z[1]);
+    let lowest = setting.liquid.map_or(0.0, |eos| -eos.pi);
+    if !(highest > lowest && highest.is_finite()) {
+        let message =
+            format!("{:?} m/s2 means a pressure of {highest:?} Pa at z = {:?} m", given.value, grid.z[1]);
+        let most = (ambient.pressure - lowest) / (ambient.density * (grid.z[1] - grid.z[0]));
+        faults.of(
+            &given,
+            message,
+            format!("the liquid bears more than {lowest:?} Pa: above {:?} m/s2", -most),
+        );
+        return None;
+    }
+    Some(gravity)
+}
+
+/// Where the passive tracer is at t = 0.
+fn tracer(mut table: Table<'_>, setting: &Setting, faults: &mut Faults) -> Option<Shape> {
+    let shape = body(&mut table, setting.grid.as_ref(), setting.geometry, faults);
+    table.finish(faults);
+    shape
 }
 
 fn initial(
@@ -210,58 +246,11 @@ fn state(
     Some(PhaseState { phase: phase?, density: density?, pressure: pressure.value, velocity })
 }
 
-fn shape(table: &mut Table<'_>, names: &[(&'static str, Kind)], faults: &mut Faults) -> Option<Kind> {
-    if !table.has("shape") {
-        let all: Vec<String> = names.iter().map(|(name, _)| format!("\"{name}\"")).collect();
-        table.missing("shape", format!("give `shape = ` one of {}", all.join(", ")), faults);
-    }
-    table.choice("shape", names, faults).map(|given| given.value)
-}
-
-/// A sphere has its centre on the axis of axisymmetric geometry.
-fn on_axis(centre: &Given<[f64; 2]>, geometry: Geometry, faults: &mut Faults) {
-    if geometry == Geometry::Axisymmetric && centre.value[1] != 0.0 {
-        let message =
-            format!("a sphere in axisymmetric geometry must be on the axis, got r = {:?} m", centre.value[1]);
-        faults.of(centre, message, format!("write [{:?}, 0.0]", centre.value[0]));
-    }
-}
-
 fn region(mut table: Table<'_>, setting: &Setting, faults: &mut Faults) -> Option<Region> {
     let state = state(&mut table, None, setting, faults);
-    let kind = shape(&mut table, &[("sphere", Kind::Sphere), ("box", Kind::Box)], faults)?;
-    let shape = if kind == Kind::Sphere {
-        let centre = table.required_pair("centre", "m, as [z, r]", faults);
-        let radius = table.required_positive("radius", "m", faults);
-        if let Some(centre) = &centre {
-            on_axis(centre, setting.geometry, faults);
-            if let Some(grid) = setting.grid.as_ref().filter(|grid| !grid.contains(centre.value)) {
-                let [z, r] = centre.value;
-                let message = format!("the centre ({z:?}, {r:?}) m is outside the fluid");
-                faults.of(centre, message, extent(grid));
-            }
-        }
-        centre.zip(radius).map(|(centre, radius)| Shape::Sphere { centre: centre.value, radius })
-    } else {
-        let (z, r) = (table.range("z", faults), table.range("r", faults));
-        if let (Some(z), Some(r), Some(grid)) = (&z, &r, &setting.grid) {
-            for (range, domain) in [(z, grid.z), (r, grid.r)] {
-                let [low, high] = range.value;
-                if high <= domain[0] || low >= domain[1] {
-                    let message = format!("the box [{low:?}, {high:?}] m lies outside the fluid");
-                    faults.of(range, message, extent(grid));
-                }
-            }
-        }
-        z.zip(r).map(|(z, r)| Shape::Box { z: z.value, r: r.value })
-    };
+    let shape = body(&mut table, setting.grid.as_ref(), setting.geometry, faults);
     table.finish(faults);
     Some(Region { shape: shape?, state: state? })
-}
-
-fn extent(grid: &GridCase) -> String {
-    let ([z0, z1], [r0, r1]) = (grid.z, grid.r);
-    format!("the fluid is z = {z0:?} to {z1:?} m, r = {r0:?} to {r1:?} m")
 }
 
 fn pulse(

@@ -47,6 +47,8 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         inflow,
         adaptation: fluid.grid.adaptation.clone(),
         scales: scales(fluid),
+        gravity: fluid.gravity,
+        tracer: fluid.tracer,
     }
 }
 

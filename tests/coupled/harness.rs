@@ -214,6 +214,8 @@ pub fn water(
         far_field: None,
         adaptation: None,
         scales: fluid::Scales { pressure: 1e6, density: 1e3 },
+        gravity: None,
+        tracer: None,
     };
     Fluid::from_fn(&setup, state).expect("water")
 }

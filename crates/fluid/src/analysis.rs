@@ -1,5 +1,7 @@
 //! What multiresolution analysis must know of a fluid: which details matter, which predictions are admissible.
 
+use std::ops::Range;
+
 use mesh::{MOST_COMPONENTS, Multiresolution, Side};
 
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
@@ -24,11 +26,16 @@ pub struct Analysis {
     pub(crate) scales: Scales,
     /// Whether the gas has a mass of its own, [`GAS`].
     pub(crate) has_phases: bool,
+    /// The components that the mass carries besides: ρY with mass fractions Y.
+    pub(crate) carried: Range<usize>,
 }
 
 /// A gas fraction may leave [0, 1] by this much in prediction; more is limited. Traces of gas that advection left
 /// behind would else switch prediction off.
 const PHI_SLACK: f64 = 1e-7;
+
+/// A mass fraction may leave [0, 1] by this much in prediction.
+const FRACTION_SLACK: f64 = 1e-12;
 
 /// Relative deviations of ρ and ρE below which no child can be inadmissible.
 const HARMLESS: f64 = 1e-2;
@@ -54,6 +61,10 @@ impl Multiresolution for Analysis {
             d[PHI] == 0.0
                 && d[RHO].abs() < HARMLESS * rho
                 && d[ENERGY].abs() < HARMLESS * energy
+                && self
+                    .carried
+                    .clone()
+                    .all(|c| is_small(d[c], mean[c]) && is_small(d[RHO] - d[c], rho - mean[c]))
                 && (!self.has_phases
                     || (is_small(d[GAS], mean[GAS]) && is_small(d[RHO] - d[GAS], rho - mean[GAS])))
         };
@@ -78,6 +89,16 @@ impl Multiresolution for Analysis {
                 }
             }
         }
+        // Mass fractions stay in [0, 1].
+        for d in deviations {
+            for c in self.carried.clone() {
+                for (own, change) in [(mean[c], d[c]), (rho - mean[c], d[RHO] - d[c])] {
+                    if change < -own.max(0.0) - FRACTION_SLACK * rho {
+                        share = share.min(own.max(0.0) / -change);
+                    }
+                }
+            }
+        }
         let above_floor = |d: &[f64; MOST_COMPONENTS]| {
             let at = |c: usize| mean[c] + share * d[c];
             let [_, _, _, p, phi] = primitive([at(0), at(1), at(2), at(3), at(4)], &self.mixture);
@@ -88,7 +109,7 @@ impl Multiresolution for Analysis {
         if deviations.iter().all(above_floor) { share } else { 0.0 }
     }
 
-    /// The largest of |δp|/p_ref, ρc|δv|/p_ref, |δρ|/ρ_ref and |δφ|, with the linearised
+    /// The largest of |δp|/p_ref, ρc|δv|/p_ref, |δρ|/ρ_ref, |δφ| and the |δY| of what is carried, with the linearised
     /// β₁ δp = δ(ρE) − v·δ(ρv) + ½v² δρ − (β₁'p + β₂') δφ and ρ δv = δ(ρv) − v δρ.
     #[inline(always)]
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
@@ -105,7 +126,10 @@ impl Multiresolution for Analysis {
         let d_v = (d_vz * d_vz + d_vr * d_vr).sqrt() / rho;
         let impedance = (rho * self.mixture.bulk_modulus(p, phi)).max(0.0).sqrt();
         let by_pressure = d_p.abs().max(impedance * d_v) / self.scales.pressure;
-        by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs())
+        let by_flow = by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs());
+        self.carried
+            .clone()
+            .fold(by_flow, |largest, c| largest.max((detail[c] - cell[c] / rho * d_rho).abs() / rho))
     }
 
     /// That of the gas fraction: the interface between gas and liquid is on the finest level wherever it goes.
@@ -135,6 +159,7 @@ mod tests {
             boundaries: [Boundary::Wall; 4],
             scales: Scales { pressure: 1e7, density: 1000.0 },
             has_phases: false,
+            carried: 5..5,
         }
     }
 

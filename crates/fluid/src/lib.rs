@@ -6,6 +6,7 @@
 
 mod analysis;
 mod boundary;
+mod components;
 mod diagnostics;
 mod error;
 mod initial;
@@ -18,6 +19,7 @@ mod setup;
 mod solver;
 mod state;
 mod step;
+mod terms;
 mod thermodynamics;
 mod two_phase;
 
@@ -38,5 +40,6 @@ pub use setup::FluidSetup;
 pub use solver::{FluidSolver, FluidState};
 pub use state::Primitive;
 pub use step::clips::Clips;
+pub use terms::gravity::Gravity;
 pub use thermodynamics::eos::StiffenedGas;
 pub use thermodynamics::mixture::Mixture;

@@ -46,7 +46,6 @@ fn is_sane<const N: usize>(report: &BlockReport<N>) -> bool {
 impl<const N: usize> Model<N> for Fluid {
     const NAME: &'static str = "fluid";
     const INTERFACE: Side = Side::ZMin;
-    const REGISTERED: usize = QUANTITIES;
     type Analysis = Analysis;
     type Report = BlockReport<N>;
     type Scratch = BlockScratch<N>;
@@ -57,6 +56,10 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn analysis(&self) -> &Analysis {
         &self.analysis
+    }
+
+    fn registered(&self) -> usize {
+        QUANTITIES + self.carried.len()
     }
 
     fn has_interface(&self) -> bool {
@@ -110,6 +113,10 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn signal_speeds(&self, report: &BlockReport<N>) -> [f64; 2] {
         [report.extremes.speed_z, report.extremes.speed_r]
+    }
+
+    fn step_limit(&self, _: &BlockReport<N>, widths: [f64; 2]) -> f64 {
+        self.terms.step_limit(widths)
     }
 
     fn inadmissible_cell(&self, report: &BlockReport<N>, block: &[f64]) -> Option<usize> {

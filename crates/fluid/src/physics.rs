@@ -5,9 +5,11 @@ use mesh::{Limiter, Mesh, Step};
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::far_field::{Moment, SideImpulses, SourceHistory};
+use crate::components::Component;
 use crate::options::TwoPhaseOptions;
 use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
+use crate::terms::Terms;
 use crate::{BoundaryLedger, Fixups, Mixture, RiemannSolver};
 
 /// A fluid of two phases: what its cells obey, and what bounds them.
@@ -15,6 +17,9 @@ pub struct Fluid {
     pub(crate) mixture: Mixture,
     pub(crate) scheme: Scheme,
     pub(crate) boundaries: Boundaries,
+    pub(crate) terms: Terms,
+    /// What the mass carries besides, in the order of the field's components after the model's own.
+    pub(crate) carried: Vec<Component>,
     /// What the far field remembers along the open sides.
     pub(crate) impulses: SideImpulses,
     /// What the bubbles have done lately.

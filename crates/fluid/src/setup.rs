@@ -5,7 +5,7 @@ use mesh::{Adaptation, Domain, Limiter};
 use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
-use crate::{Boundary, FarField, Model, RiemannSolver, Sharpening, StiffenedGas};
+use crate::{Boundary, FarField, Gravity, Model, RiemannSolver, Shape, Sharpening, StiffenedGas};
 
 /// Everything that defines a fluid.
 #[derive(Clone, Debug)]
@@ -38,6 +38,17 @@ pub struct FluidSetup {
     pub adaptation: Option<Adaptation>,
     /// What adaptation measures details by.
     pub scales: Scales,
+    /// Gravity along z, if any.
+    pub gravity: Option<Gravity>,
+    /// Where there is a passive tracer at t = 0, if any: its mass fraction is 1 within and 0 beyond.
+    pub tracer: Option<Shape>,
+}
+
+impl FluidSetup {
+    /// Components of the field: the model's, and those that the mass carries besides.
+    pub(crate) fn field_components(&self) -> usize {
+        self.model.components() + crate::components::of(self).len()
+    }
 }
 
 /// What fills a cell (centre, widths) at t = 0.

@@ -7,6 +7,7 @@ use mesh::{BlockSolver, Domain, SavedBlocks, Side, SideStates};
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::diagnostics::bubbles::follow_sources;
+use crate::initial::fill;
 use crate::model::FluidMemory;
 use crate::options::TwoPhaseOptions;
 use crate::physics::{Fluid, Scheme, Tally};
@@ -15,9 +16,10 @@ use crate::state::Contents;
 use crate::state::conserved::COUNT;
 use crate::step::BlockScratch;
 use crate::step::report::BlockReport;
+use crate::terms::Terms;
 use crate::{
     Boundary, BoundaryLedger, Fixups, FluidError, FluidSetup, InitialCondition, Mixture, Primitive,
-    RayleighField,
+    RayleighField, components,
 };
 
 /// The fluid: a [`BlockSolver`] of compressible two-phase flow, which says how it is advanced, adapted, kept and taken up again.
@@ -35,14 +37,15 @@ impl<const N: usize> FluidSolver<N> {
     ///   [`FluidError::NonPhysical`].
     pub fn new(setup: &FluidSetup, initial: &InitialCondition) -> Result<Self, FluidError> {
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let Domain { geometry, z: [z_min, _], .. } = setup.domain;
+        let (Domain { geometry, z: [z_min, _], .. }, gravity) = (setup.domain, setup.gravity);
         let field = RayleighField::of(initial, geometry, z_min, setup.boundaries[Side::ZMin as usize])?;
         Self::with(
             setup,
             &|centre, widths| {
-                crate::initial::fill::average(initial, field.as_ref(), geometry, &mixture, centre, widths)
+                let contents = fill::average(initial, field.as_ref(), geometry, &mixture, centre, widths);
+                fill::under_gravity(contents, gravity, centre)
             },
-            &|low, high, widths| crate::initial::fill::asks_for_finer(initial, low, high, widths),
+            &|low, high, widths| fill::asks_for_finer(initial, low, high, widths),
         )
     }
 
@@ -71,9 +74,11 @@ impl<const N: usize> FluidSolver<N> {
         }
         let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let components = setup.model.components();
-        let has_phases = components > COUNT;
-        let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales, has_phases };
+        let components = setup.field_components();
+        let has_phases = setup.model.components() > COUNT;
+        let carried = setup.model.components()..components;
+        let carried_count = carried.len();
+        let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales, has_phases, carried };
         let (mesh, state) =
             crate::initial::mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
@@ -93,11 +98,13 @@ impl<const N: usize> FluidSolver<N> {
                 two_phase: TwoPhaseOptions::of(setup.model, setup.sharpening),
             },
             boundaries,
+            terms: Terms::of(setup),
+            carried: components::of(setup),
             analysis,
             tally: Tally::default(),
             mixture,
         };
-        let scratch = || BlockScratch::new(components);
+        let scratch = || BlockScratch::new(components, carried_count);
         let mut blocks = BlockSolver::new(fluid, mesh, state, setup.adaptation.clone(), scratch)?;
         follow_sources(&mut blocks);
         Ok(Self(blocks))

@@ -21,7 +21,6 @@ pub struct SolidMemory {
 impl<const N: usize> Model<N> for Solid {
     const NAME: &'static str = "solid";
     const INTERFACE: Side = Side::ZMax;
-    const REGISTERED: usize = QUANTITIES;
     type Analysis = Analysis;
     type Report = BlockReport;
     type Scratch = BlockScratch<N>;
@@ -31,6 +30,10 @@ impl<const N: usize> Model<N> for Solid {
 
     fn analysis(&self) -> &Analysis {
         &self.analysis
+    }
+
+    fn registered(&self) -> usize {
+        QUANTITIES
     }
 
     fn has_interface(&self) -> bool {

@@ -59,7 +59,7 @@ impl FluidRecord {
         directory: Option<&RunDirectory>,
         solver: &FluidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
-        let mut record = Self::on(case, SideFiles::create(case, directory, names())?, solver)?;
+        let mut record = Self::on(case, SideFiles::create(case, directory, names(solver))?, solver)?;
         record.cells.see(solver.mesh().cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
@@ -393,6 +393,7 @@ const PROBE_COLUMNS: [Column<'static>; 6] = [
     column("gas_fraction", "1", "gas fraction"),
 ];
 
-fn names() -> SideNames<fluid::Snapshot> {
-    SideNames { history: FLUID_HISTORY, snapshots: FIELDS_FILE, fields: fluid::CELL_FIELDS.iter().collect() }
+fn names(solver: &FluidSolver<BLOCK>) -> SideNames<fluid::Snapshot> {
+    let fields = fluid::CELL_FIELDS.iter().filter(|field| solver.has_field(field.name));
+    SideNames { history: FLUID_HISTORY, snapshots: FIELDS_FILE, fields: fields.collect() }
 }

@@ -102,7 +102,15 @@ impl Boundaries {
     }
 
     /// Fills the ghosts of one block beyond the domain, in primitive variables.
-    pub fn fill_ghosts<const N: usize>(&self, mesh: &Mesh<N>, slot: usize, cells: &mut Padded<N>) {
+    ///
+    /// - `own_components`: how many the two-phase model has; what follows are mass fractions.
+    pub fn fill_ghosts<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        slot: usize,
+        own_components: usize,
+        cells: &mut Padded<N>,
+    ) {
         // r first: the z sides then find the ghosts beyond r filled and complete the corners.
         for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
             if !mesh.touches(slot, side) {
@@ -111,6 +119,8 @@ impl Boundaries {
             for component in 0..cells.components() {
                 let row = cells.component_mut(component);
                 match self.kind(side) {
+                    // What comes in through an open side has the mass fractions that are inside.
+                    _ if component >= own_components => Padded::<N>::reflect(row, side, 1.0),
                     Boundary::Axis | Boundary::Wall => {
                         Padded::<N>::reflect(row, side, if component == normal(side) { -1.0 } else { 1.0 });
                     }

@@ -27,6 +27,9 @@ impl Boundaries {
             let inflow = match self.kind(side) {
                 Boundary::Wall | Boundary::Axis if mesh.touches(slot, side) => {
                     mirror::<N>(side, half, keep);
+                    if ctx.model.terms.acceleration()[normal(side) - 1] != 0.0 {
+                        meet_on_face::<N>(side, slopes[normal(side) - 1], half, keep);
+                    }
                     continue;
                 }
                 Boundary::NonReflecting | Boundary::FarField => None,
@@ -40,6 +43,13 @@ impl Boundaries {
             let far_field = self.far_field.as_ref().filter(|_| self.kind(side) == Boundary::FarField);
             for along in 0..N {
                 let (mut state, _) = *self.initial.at(side, id.level, first + along);
+                // What is kept is the state of the cell: half a width on, the pressure is that of liquid at rest there.
+                let outwards = if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 };
+                let axis = normal(side) - 1;
+                let acceleration = ctx.model.terms.acceleration()[axis];
+                if acceleration != 0.0 {
+                    state.pressure += outwards * state.density * acceleration * mesh.widths(id.level)[axis];
+                }
                 let [inner, k] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
                 if let Some(history) = inflow {
                     state = entering(state, side, history.at(ctx.middle()), mixture);
@@ -124,6 +134,22 @@ fn mirror<const N: usize>(side: Side, half: &mut Padded<N>, keep: &mut [f64]) {
         keep[to] = keep[from];
     }
 }
+
+/// Gives the images of cells next to a side the pressure with which both meet on the face, where their slopes are no images: under an
+/// acceleration the pressure has an odd part, too.
+///
+/// - `slopes`: differences across the cells, normal to the side.
+fn meet_on_face<const N: usize>(side: Side, slopes: &Padded<N>, half: &mut Padded<N>, keep: &[f64]) {
+    let (slopes, pressure) = (slopes.component(PRESSURE), half.component_mut(PRESSURE));
+    let towards_face = if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 };
+    for along in 0..N {
+        let [from, to] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+        pressure[to] = pressure[from] + towards_face * keep[from] * (slopes[from] + slopes[to]);
+    }
+}
+
+/// Place of the pressure among the primitive variables.
+const PRESSURE: usize = 3;
 
 #[cfg(test)]
 mod tests {

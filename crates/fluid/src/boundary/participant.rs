@@ -55,7 +55,7 @@ impl<const N: usize> FluidSolver<N> {
                     let d_r: [f64; 5] = std::array::from_fn(|c| s_r.component(c)[k]);
                     let (_, keep) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, self.mixture());
                     let slope = d_r.map(|d| keep * d * inverse_h[1]);
-                    let rate = rates(
+                    let mut rate = rates(
                         w,
                         d_z.map(|d| d * inverse_h[0]),
                         d_r.map(|d| d * inverse_h[1]),
@@ -63,6 +63,10 @@ impl<const N: usize> FluidSolver<N> {
                         self.mixture(),
                     )
                     .map(|rate| keep * rate);
+                    if let Some([gain_z, gain_r]) = self.model().terms.velocity_gain(1.0) {
+                        rate[1] += gain_z;
+                        rate[2] += gain_r;
+                    }
                     let mut state: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
                     let dispersion = context.model.dispersion(context.mesh, dt, id.level, 0);
                     let more = |c: usize, component: usize| {
@@ -132,7 +136,8 @@ impl<const N: usize> FluidSolver<N> {
         let options = two_phase?;
         let cells = Cells { rows: cells.split::<6>(), stride: Padded::<N>::STRIDE };
         let mixture = self.mixture();
-        let rule = CellRule { limiter, inverse_h, inverse_r, dt, mixture, options };
+        let velocity_gain = self.model().terms.velocity_gain(0.5 * dt);
+        let rule = CellRule { limiter, inverse_h, inverse_r, dt, mixture, options, velocity_gain };
         cells.is_at_interface(k, mixture).then(|| {
             let mut states = FaceStates::default();
             face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &rule, &mut states);

@@ -183,6 +183,8 @@ mod tests {
             far_field: None,
             adaptation: None,
             scales: Scales { pressure: 1e5, density: 1e3 },
+            gravity: None,
+            tracer: None,
         };
         FluidSolver::new(&setup, &of_spheres(spheres, velocity)).expect("a fluid")
     }

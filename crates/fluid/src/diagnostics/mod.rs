@@ -65,6 +65,7 @@ mesh::cell_fields! {
         pressure: 1, "Pa", "pressure";
         velocity: 3, "m/s", "velocity (z, r, 0)";
         gas_fraction: 1, "1", "volume fraction of gas";
+        tracer: 1, "1", "mass fraction of the tracer";
         schlieren: 1, "kg/m4", "magnitude of the density gradient";
         level: 1, "1", "refinement level";
     }
@@ -151,6 +152,22 @@ impl<const N: usize> FluidSolver<N> {
         totals
     }
 
+    /// Whether its snapshots have a field.
+    pub fn has_field(&self, name: &str) -> bool {
+        name != "tracer" || !self.model().carried.is_empty()
+    }
+
+    /// The mass of the tracer, in the units of [`Totals::mass`]; 0 without one.
+    pub fn tracer_mass(&self) -> f64 {
+        let first = self.state().components() - self.model().carried.len();
+        let Some(_) = self.model().carried.first() else { return 0.0 };
+        let leaves = self.mesh().tree().leaves().iter().enumerate();
+        leaves.fold(0.0, |sum, (slot, id)| {
+            let rows = self.state().component(slot, first).chunks_exact(N).enumerate();
+            sum + rows.map(|(j, row)| self.mesh().volume(*id, j) * row.iter().sum::<f64>()).sum::<f64>()
+        })
+    }
+
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
     pub fn sample(&self, point: [f64; 2]) -> Option<Primitive> {
         let (slot, i, j) = self.mesh().locate(point)?;
@@ -170,6 +187,7 @@ impl<const N: usize> FluidSolver<N> {
     /// All fields, cell by cell.
     pub fn snapshot(&self) -> Snapshot {
         let mut snapshot = Snapshot::default();
+        let first_carried = self.state().components() - self.model().carried.len();
         for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
             let [h_z, h_r] = self.mesh().widths(id.level);
             self.with_scratch(|scratch| {
@@ -192,6 +210,9 @@ impl<const N: usize> FluidSolver<N> {
                         let gradient = [s_z.component(0)[k] / h_z, s_r.component(0)[k] / h_r];
                         snapshot.schlieren.push(gradient[0].hypot(gradient[1]));
                         snapshot.level.push(f64::from(id.level));
+                        for (number, carried) in self.model().carried.iter().enumerate() {
+                            (carried.field)(&mut snapshot).push(at(first_carried + number));
+                        }
                     }
                 }
             });

@@ -2,9 +2,11 @@
 
 use mesh::{Field, Geometry, Mesh, for_some_blocks};
 
+use crate::components::Component;
 use crate::state::Contents;
+use crate::state::conserved::RHO;
 use crate::{
-    InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, RayleighField, Region, Shape,
+    Gravity, InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, RayleighField, Shape,
     TRACE_GAS,
 };
 
@@ -55,7 +57,7 @@ pub(crate) fn asks_for_finer(
 ) -> bool {
     let centre = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
     let extent = [0, 1].map(|axis| high[axis] - low[axis]);
-    if initial.regions.iter().any(|region| may_cut(region, centre, extent)) {
+    if initial.regions.iter().any(|region| may_cut(&region.shape, centre, extent)) {
         return true;
     }
     initial.pulses.iter().any(|pulse| {
@@ -73,6 +75,65 @@ impl InitialCondition {
     pub fn asks_for_finer(&self, low: [f64; 2], high: [f64; 2], widths: [f64; 2]) -> bool {
         asks_for_finer(self, low, high, widths)
     }
+}
+
+/// What a cell holds where liquid at rest carries its own weight; gas stays as it is.
+pub(crate) fn under_gravity(mut contents: Contents, gravity: Option<Gravity>, centre: [f64; 2]) -> Contents {
+    if let Some(gravity) = gravity {
+        let Primitive { density, phi, .. } = contents.state;
+        if phi <= TRACE_GAS {
+            contents.state.pressure += gravity.head(density, centre[0]);
+        }
+    }
+    contents
+}
+
+/// Fills what the mass carries besides: ρY with the mass fraction Y of each component; the other components hold what they do.
+///
+/// - `first`: the number of the first of them in the field.
+pub(crate) fn fill_carried<const N: usize>(
+    mesh: &Mesh<N>,
+    carried: &[Component],
+    first: usize,
+    field: &mut Field,
+) {
+    if carried.is_empty() {
+        return;
+    }
+    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
+        let widths = mesh.widths(id.level);
+        let block = field.block_mut(slot);
+        for (component, carried) in carried.iter().enumerate() {
+            for cell in 0..N * N {
+                let centre = mesh.centre(*id, cell % N, cell / N);
+                let share = carried.initial(mesh.domain().geometry, centre, widths);
+                block[(first + component) * N * N + cell] = share * block[RHO * N * N + cell];
+            }
+        }
+    }
+}
+
+/// The share of a cell's volume that a shape holds, by sampling where its edge may cut the cell.
+pub(crate) fn share_within(shape: &Shape, geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> f64 {
+    if !may_cut(shape, centre, widths) {
+        return if contains(shape, centre) { 1.0 } else { 0.0 };
+    }
+    let (mut within, mut all) = (0.0, 0.0);
+    for (weight, point) in samples(geometry, centre, widths) {
+        all += weight;
+        within += if contains(shape, point) { weight } else { 0.0 };
+    }
+    within / all
+}
+
+/// The points of a cell at which it is sampled, with their weights.
+fn samples(geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> impl Iterator<Item = (f64, [f64; 2])> {
+    (0..SAMPLES * SAMPLES).map(move |sample| {
+        let offset = |k: usize, h: f64| h * ((k as f64 + 0.5) / SAMPLES as f64 - 0.5);
+        let (a, b) = (sample % SAMPLES, sample / SAMPLES);
+        let point = [centre[0] + offset(a, widths[0]), centre[1] + offset(b, widths[1])];
+        (if geometry == Geometry::Axisymmetric { point[1] } else { 1.0 }, point)
+    })
 }
 
 /// Fills a field of conserved variables with what `state` says of each cell (centre, widths).
@@ -117,7 +178,7 @@ fn cell_in_field(
         .regions
         .iter()
         .rev()
-        .find(|region| region.state.phase == Phase::Gas && may_cut(region, centre, widths));
+        .find(|region| region.state.phase == Phase::Gas && may_cut(&region.shape, centre, widths));
     if let Some(region) = cut {
         let contents = cell(initial, &ambient(region.state.pressure), geometry, centre, widths);
         if contents.state.phi > 0.0 {
@@ -142,17 +203,12 @@ fn cell(
     centre: [f64; 2],
     widths: [f64; 2],
 ) -> Contents {
-    if !initial.regions.iter().any(|region| may_cut(region, centre, widths)) {
+    if !initial.regions.iter().any(|region| may_cut(&region.shape, centre, widths)) {
         return pure(*at_point(initial, ambient, centre)).into();
     }
     let mut sums = Sums::default();
-    for b in 0..SAMPLES {
-        for a in 0..SAMPLES {
-            let offset = |k: usize, h: f64| h * ((k as f64 + 0.5) / SAMPLES as f64 - 0.5);
-            let point = [centre[0] + offset(a, widths[0]), centre[1] + offset(b, widths[1])];
-            let weight = if geometry == Geometry::Axisymmetric { point[1] } else { 1.0 };
-            sums.add(weight, at_point(initial, ambient, point));
-        }
+    for (weight, point) in samples(geometry, centre, widths) {
+        sums.add(weight, at_point(initial, ambient, point));
     }
     sums.average()
 }
@@ -223,9 +279,9 @@ fn contains(shape: &Shape, [z, r]: [f64; 2]) -> bool {
     }
 }
 
-/// Whether a region's edge may pass through the cell.
-fn may_cut(region: &Region, [z, r]: [f64; 2], [hz, hr]: [f64; 2]) -> bool {
-    match region.shape {
+/// Whether a shape's edge may pass through the cell.
+fn may_cut(shape: &Shape, [z, r]: [f64; 2], [hz, hr]: [f64; 2]) -> bool {
+    match *shape {
         Shape::Sphere { centre, radius } => {
             ((z - centre[0]).hypot(r - centre[1]) - radius).abs() <= 0.5 * hz.hypot(hr)
         }
@@ -265,7 +321,7 @@ fn distance(pulse: &crate::Pulse, [z, r]: [f64; 2]) -> (f64, Option<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{InitialPressure, StiffenedGas};
+    use crate::{InitialPressure, Region, StiffenedGas};
     use mesh::Domain;
 
     fn bubble(centre: f64) -> InitialCondition {

@@ -14,9 +14,11 @@ pub(crate) fn initial_mesh<const N: usize>(
     initial: &InitialState<'_>,
     asks_for_finer: &AsksForFiner<'_>,
 ) -> Result<(Mesh<N>, Field), FluidError> {
+    let carried = crate::components::of(setup);
     let fill = |mesh: &Mesh<N>| {
-        let mut state = Field::zeros(mesh.blocks(), N * N, setup.model.components());
+        let mut state = Field::zeros(mesh.blocks(), N * N, setup.field_components());
         crate::initial::fill::fill(mesh, &analysis.mixture, &mut state, initial);
+        crate::initial::fill::fill_carried(mesh, &carried, setup.model.components(), &mut state);
         state
     };
     let at_least = |mesh: &Mesh<N>, slot: usize| {

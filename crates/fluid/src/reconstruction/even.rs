@@ -20,7 +20,8 @@ const ONE_PHASE: f64 = 1e-6;
 /// Density, pressure and the velocity along a mirror are even about it. To a limiter the mirror image makes an extremum of
 /// the cell beside it, which it clips: a wave that a wall throws back, or that runs along the axis, would lose of its
 /// height in every step. Half of the difference to the next cell is the central slope, that of the parabola with its vertex on
-/// the mirror, and no face state within goes beyond the next cell.
+/// the mirror, and no face state within goes beyond the next cell. Under a uniform acceleration a the pressure has the slope ρa on
+/// the mirror, and what is even is the rest: half of ρah comes to its difference, and the image has the difference of that.
 ///
 /// - `scratch`: its slopes have been made with mirror images for ghosts; where the next cell holds another phase they stay.
 /// - tested by: the height of a spherical pulse that a wall throws back.
@@ -32,7 +33,10 @@ pub(crate) fn even_slopes<const N: usize>(
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     let phi = cells.component(PHI);
     for side in mirrors(ctx, slot) {
-        let slopes = if normal(side) == 1 { &mut *s_z } else { &mut *s_r };
+        let axis = normal(side) - 1;
+        let slopes = if axis == 0 { &mut *s_z } else { &mut *s_r };
+        let acceleration = ctx.model.terms.acceleration()[axis];
+        let width = ctx.mesh.widths(ctx.mesh.tree().leaves()[slot].level)[axis];
         for [inner, ghost] in along_mirror::<N>(side) {
             let next = 2 * inner - ghost;
             if (phi[next] - phi[inner]).abs() > ONE_PHASE {
@@ -44,6 +48,10 @@ pub(crate) fn even_slopes<const N: usize>(
                 let slope = if next > inner { towards_next } else { -towards_next };
                 let slopes = slopes.component_mut(component);
                 (slopes[inner], slopes[ghost]) = (slope, -slope);
+                if component == PRESSURE && acceleration != 0.0 {
+                    let odd = cells.component(RHO)[inner] * acceleration * width;
+                    (slopes[inner], slopes[ghost]) = (slope + 0.5 * odd, 1.5 * odd - slope);
+                }
             }
         }
     }

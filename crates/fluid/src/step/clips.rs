@@ -144,7 +144,8 @@ mod tests {
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let scales = Scales { pressure: 1e7, density: 1000.0 };
-        let analysis = Analysis { mixture, boundaries: [Boundary::Wall; 4], scales, has_phases: false };
+        let analysis =
+            Analysis { mixture, boundaries: [Boundary::Wall; 4], scales, has_phases: false, carried: 5..5 };
         let counted = CountedAnalysis::new(&analysis);
         let liquid = Primitive { density: 1000.0, v_z: 0.0, v_r: 0.0, pressure: 5e7, phi: 0.0 };
         let mean = liquid.to_conserved(&mixture);

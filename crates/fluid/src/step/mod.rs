@@ -29,6 +29,7 @@ enum Stage {
     Boundary,
     MixedCells,
     Faces,
+    Terms,
     Register,
     Update,
     Report,
@@ -36,7 +37,7 @@ enum Stage {
 
 /// Their names.
 pub(crate) const STAGES: &[&str] =
-    &["assemble", "predict", "boundary", "mixed_cells", "faces", "register", "update", "report"];
+    &["assemble", "predict", "boundary", "mixed_cells", "faces", "terms", "register", "update", "report"];
 
 /// A block in a step.
 struct BlockStep<'a, const N: usize> {
@@ -74,6 +75,8 @@ pub(crate) fn step_block<const N: usize>(
     done(Stage::MixedCells);
     block.solve_faces(scratch);
     done(Stage::Faces);
+    block.add_terms(scratch);
+    done(Stage::Terms);
     block.register_fluxes(scratch, fluxes);
     done(Stage::Register);
     block.update(scratch, new, &mut report);

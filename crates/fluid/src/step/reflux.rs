@@ -3,6 +3,7 @@
 use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
 
 use crate::Mixture;
+use crate::components::carried::CarriedScratch;
 use crate::physics::FluidStep;
 use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
 use crate::state::primitive;
@@ -24,9 +25,10 @@ pub(crate) fn register_fluxes<const N: usize>(
     slot: usize,
     z_faces: &FaceRows,
     r_faces: &FaceRows,
+    carried: &[CarriedScratch],
     values: &mut [f64],
 ) {
-    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, |side, k| {
+    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, 0, |side, k| {
         let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
         let velocity = faces.velocity[k];
         [
@@ -40,6 +42,11 @@ pub(crate) fn register_fluxes<const N: usize>(
             faces.gas()[k],
         ]
     });
+    for (number, carried) in carried.iter().enumerate() {
+        FluxRegister::<N>::record::<1>(mesh, slot, values, QUANTITIES + number, |side, k| {
+            [carried.fluxes[usize::from(!matches!(side, Side::ZMin | Side::ZMax))][k]]
+        });
+    }
 }
 
 /// Corrects the cells of a block along its finer neighbours, after all blocks have made their step.
@@ -59,7 +66,12 @@ pub(crate) fn correct<const N: usize>(
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let (dt_z, dt_r) = (ctx.dt / h_z, ctx.dt / h_r);
     let r_low = ctx.mesh.origin(id)[1];
-    finer.for_corrected_faces(ctx.mesh, slot, |face: CorrectedFace<QUANTITIES>| {
+    // Of a flux along r: the weight of its face over that of the cell's row.
+    let weight = |side: Side, j: usize| {
+        let face = r_low + if side == Side::RMin { 0.0 } else { N as f64 * h_r };
+        ctx.mesh.weight(face) / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1])
+    };
+    finer.for_corrected_faces(ctx.mesh, slot, 0, |face: CorrectedFace<QUANTITIES>| {
         let CorrectedFace { side, outward, cell: [i, j], difference } = face;
         let [mass, carried, pressure, shear, energy, velocity, velocity_phi, gas] = difference;
         let cell = |c: usize| (c * N + j) * N + i;
@@ -67,8 +79,7 @@ pub(crate) fn correct<const N: usize>(
         let changes = if matches!(side, Side::ZMin | Side::ZMax) {
             [mass, carried + pressure, shear, energy, phi, gas].map(|change| outward * dt_z * change)
         } else {
-            let face = r_low + if side == Side::RMin { 0.0 } else { N as f64 * h_r };
-            let weight = ctx.mesh.weight(face) / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
+            let weight = weight(side, j);
             // The pressure's share of the radial momentum has no weight, see `update.rs`.
             let radial = weight * carried + pressure;
             [weight * mass, weight * shear, radial, weight * energy, weight * phi, weight * gas]
@@ -88,6 +99,15 @@ pub(crate) fn correct<const N: usize>(
             report.has_gas |= new[cell(GAS)] != 0.0 || new[cell(PHI)] != 0.0;
         }
     });
+    let first = ctx.old.components() - ctx.model.carried.len();
+    for number in 0..ctx.model.carried.len() {
+        finer.for_corrected_faces(ctx.mesh, slot, QUANTITIES + number, |face: CorrectedFace<1>| {
+            let CorrectedFace { side, outward, cell: [i, j], difference: [flux] } = face;
+            let is_along_z = matches!(side, Side::ZMin | Side::ZMax);
+            let change = if is_along_z { dt_z * flux } else { dt_r * weight(side, j) * flux };
+            new[((first + number) * N + j) * N + i] -= outward * change;
+        });
+    }
 }
 
 /// What the closure adds to the gas fraction of a mixed cell per change of its volume, see

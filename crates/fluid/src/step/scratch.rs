@@ -2,6 +2,7 @@
 
 use mesh::{AlignedRow, Padded, Patch};
 
+use crate::components::carried::CarriedScratch;
 use crate::state::conserved::{COUNT, GAS, PHI};
 use crate::step::face_rows::FaceRows;
 use crate::two_phase::GasScratch;
@@ -22,14 +23,18 @@ pub struct BlockScratch<const N: usize> {
     pub(super) speeds: Padded<N>,
     pub(super) face_weight: Vec<f64>,
     pub(super) inverse_weight: Vec<f64>,
+    /// The block at the beginning of the step with what comes into its cells besides; used where there are terms.
+    pub(super) with_sources: Vec<f64>,
+    /// A part for each component that the mass carries.
+    pub(super) carried: Vec<CarriedScratch>,
     pub(crate) gas: GasScratch,
     /// Whether the rows of the gas fraction may hold anything but zeros.
     pub(super) has_gas: bool,
 }
 
 impl<const N: usize> BlockScratch<N> {
-    /// For fields of so many components.
-    pub(crate) fn new(components: usize) -> Self {
+    /// For fields of so many components, the last `carried` of which the mass carries.
+    pub(crate) fn new(components: usize, carried: usize) -> Self {
         let len = Padded::<N>::LEN;
         Self {
             cells: Padded::zeros(components),
@@ -45,6 +50,8 @@ impl<const N: usize> BlockScratch<N> {
             speeds: Padded::zeros(3),
             face_weight: vec![0.0; N + 1],
             inverse_weight: vec![0.0; N],
+            with_sources: Vec::new(),
+            carried: (0..carried).map(|_| CarriedScratch::new::<N>()).collect(),
             gas: GasScratch::new::<N>(),
             has_gas: false,
         }

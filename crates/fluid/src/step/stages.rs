@@ -7,12 +7,13 @@ use super::scratch::{BlockScratch, split_block};
 use crate::physics::FluidStep;
 use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
 use crate::reconstruction::predictor::{Predictor, predict};
-use crate::state::conserved::{COUNT, PHI};
+use crate::state::conserved::{COUNT, PHI, RHO};
 use crate::step::clips::{Clips, CountedAnalysis};
 use crate::step::reflux::register_fluxes;
 use crate::step::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};
 use crate::step::rows;
 use crate::step::update::{Extremes, Metric, update};
+use crate::terms::TermBlock;
 use crate::two_phase::{GasBlock, may_have_gas};
 
 /// Assembles a block with its ghosts: primitive variables in `cells`.
@@ -30,12 +31,16 @@ fn assemble<const N: usize>(
     }
     scratch.has_gas = with_gas;
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    let components = if with_gas { ctx.old.components() } else { PHI };
+    let carried = ctx.old.components() - ctx.model.carried.len()..ctx.old.components();
+    let components = if with_gas || !carried.is_empty() { ctx.old.components() } else { PHI };
     let analysis = CountedAnalysis::new(&ctx.model.analysis);
     cells.assemble_first(components, ctx.mesh, ctx.old, slot, &analysis, patch);
     debug_assert!(with_gas || cells.component(PHI).iter().all(|phi| *phi == 0.0), "neighbours have no gas");
+    for component in carried.clone() {
+        cells.divide(component, RHO);
+    }
     rows::to_primitive(cells.split_mut(), with_gas, &ctx.model.mixture);
-    ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
+    ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, carried.start, cells);
     let id = ctx.mesh.tree().leaves()[slot];
     ctx.mesh.inverse_radii(id, inverse_r);
     analysis.limited()
@@ -66,7 +71,15 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     /// Primitive variables of the block and its ghosts.
     pub(super) fn assemble(ctx: &'a FluidStep<'a, N>, slot: usize, scratch: &mut BlockScratch<N>) -> Self {
         let id = ctx.mesh.tree().leaves()[slot];
-        let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
+        let widths = ctx.mesh.widths(id.level);
+        let inverse_h = widths.map(|h| 1.0 / h);
+        let r_low = ctx.mesh.origin(id)[1];
+        for (j, weight) in scratch.face_weight.iter_mut().enumerate() {
+            *weight = ctx.mesh.weight(r_low + j as f64 * widths[1]);
+        }
+        for (j, inverse) in scratch.inverse_weight.iter_mut().enumerate() {
+            *inverse = 1.0 / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
+        }
         let may_have_gas = may_have_gas(ctx, slot);
         let limited_predictions = assemble(ctx, slot, may_have_gas, scratch);
         let gas = if may_have_gas { GasBlock::of(ctx, slot, &scratch.cells) } else { None };
@@ -75,6 +88,17 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             scratch.without_gas();
         }
         Self { ctx, slot, id, inverse_h, gas, with_gas, limited_predictions, clipped_roots: 0 }
+    }
+
+    /// - `face_weight`, `inverse_weight`: as [`BlockStep::assemble`] has left them.
+    fn metric<'b>(&self, face_weight: &'b [f64], inverse_weight: &'b [f64]) -> Metric<'b> {
+        Metric {
+            stride: Padded::<N>::STRIDE,
+            origin: Padded::<N>::index(0, 0),
+            inverse_h: self.inverse_h,
+            face_weight,
+            inverse_weight,
+        }
     }
 
     /// Limited differences, and the states at mid-step.
@@ -102,6 +126,11 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         );
         even_slopes(self.ctx, self.slot, scratch);
         predict_beside_mirrors(self.ctx, self.slot, self.inverse_h, scratch);
+        if let Some(gain) = self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt) {
+            for (component, gain) in [1, 2].into_iter().zip(gain) {
+                scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);
+            }
+        }
     }
 
     /// States beyond the sides of the domain, and cells that make this step at first order.
@@ -120,33 +149,56 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         }
     }
 
+    /// What terms add to fluxes and cells, and what the mass carries with it: the fluxes are final then.
+    pub(super) fn add_terms(&self, scratch: &mut BlockScratch<N>) {
+        let ctx = self.ctx;
+        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } = scratch;
+        if !ctx.model.terms.is_empty() {
+            let metric = &self.metric(face_weight, inverse_weight);
+            let block = TermBlock { cells: N, metric, dt: ctx.dt, half: half.split() };
+            with_sources.clear();
+            with_sources.extend_from_slice(ctx.old.block(self.slot));
+            ctx.model.terms.add(&block, [z_faces, r_faces], with_sources);
+        }
+        let BlockScratch { cells, carried, z_faces, r_faces, .. } = scratch;
+        let first = ctx.old.components() - carried.len();
+        for (number, carried) in carried.iter_mut().enumerate() {
+            carried.carry(
+                ctx.model.scheme.limiter,
+                cells.component(first + number),
+                [1, 2].map(|c| cells.component(c)),
+                self.inverse_h,
+                ctx.dt,
+                [z_faces, r_faces],
+                Padded::<N>::STRIDE,
+            );
+        }
+    }
+
     /// What passes to blocks of other levels.
     pub(super) fn register_fluxes(&self, scratch: &BlockScratch<N>, fluxes: &mut [f64]) {
-        register_fluxes(self.ctx.mesh, self.slot, &scratch.z_faces, &scratch.r_faces, fluxes);
+        let BlockScratch { z_faces, r_faces, carried, .. } = scratch;
+        register_fluxes(self.ctx.mesh, self.slot, z_faces, r_faces, carried, fluxes);
     }
 
     /// The new cells.
     pub(super) fn update(&self, scratch: &mut BlockScratch<N>, new: &mut [f64], report: &mut BlockReport<N>) {
         let ctx = self.ctx;
-        let h_r = ctx.mesh.widths(self.id.level)[1];
         let BlockScratch {
-            z_faces, r_faces, face_weight, inverse_weight, speeds, gas, cells, inverse_r, ..
-        } = scratch;
-        let r_low = ctx.mesh.origin(self.id)[1];
-        for (j, weight) in face_weight.iter_mut().enumerate() {
-            *weight = ctx.mesh.weight(r_low + j as f64 * h_r);
-        }
-        for (j, inverse) in inverse_weight.iter_mut().enumerate() {
-            *inverse = 1.0 / ctx.mesh.weight(ctx.mesh.centre(self.id, 0, j)[1]);
-        }
-        let metric = Metric {
-            stride: Padded::<N>::STRIDE,
-            origin: Padded::<N>::index(0, 0),
-            inverse_h: self.inverse_h,
+            z_faces,
+            r_faces,
             face_weight,
             inverse_weight,
-        };
-        let old = ctx.old.block(self.slot);
+            speeds,
+            gas,
+            cells,
+            inverse_r,
+            with_sources,
+            carried,
+            ..
+        } = scratch;
+        let metric = self.metric(face_weight, inverse_weight);
+        let old = if ctx.model.terms.is_empty() { ctx.old.block(self.slot) } else { with_sources };
         let old_rows: [&[f64]; COUNT] = std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]);
         let mut speeds = speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
         let [speed_z, speed_r, floor] = &mut speeds;
@@ -164,9 +216,14 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if let Some(block) = &self.gas {
             let faces = [&*z_faces, &*r_faces];
             let pressure = cells.component(3);
-            block.update(gas, old_rows, pressure, faces, &metric, inverse_r, new, &mut speeds, report);
+            block.update(gas, old, pressure, faces, &metric, inverse_r, new, &mut speeds, report);
         } else if !self.with_gas {
             new[PHI * N * N..].fill(0.0);
+        }
+        let first = ctx.old.components() - carried.len();
+        for (number, carried) in carried.iter().enumerate() {
+            let rows = (first + number) * N * N..(first + number + 1) * N * N;
+            carried.update::<N>(&old[rows.clone()], &metric, ctx.dt, &mut new[rows]);
         }
     }
 

@@ -9,7 +9,7 @@ use super::scratch::GasScratch;
 use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
 use crate::options::TwoPhaseOptions;
 use crate::physics::FluidStep;
-use crate::reconstruction::{Reconstruction, Rows};
+use crate::reconstruction::Reconstruction;
 use crate::state::conserved::{GAS, PHI, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
@@ -66,6 +66,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             dt: self.ctx.dt,
             mixture: &self.ctx.model.mixture,
             options: self.options,
+            velocity_gain: self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt),
         }
     }
 
@@ -149,7 +150,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     pub fn update(
         &self,
         gas: &mut GasScratch,
-        old: Rows<'_>,
+        old: &[f64],
         pressure: &[f64],
         faces: [&FaceRows; 2],
         metric: &Metric<'_>,
@@ -158,13 +159,14 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         speeds: &mut [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
-        let old_gas = self.ctx.old.component(self.slot, GAS);
-        let (first, new_gas) = new.split_at_mut(GAS * N * N);
+        let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
+        let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
+        let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
         update_gas::<N>(old_gas, faces[0], faces[1], self.ctx.dt, metric, new_gas);
         let mut rows = split_block::<N>(first);
         let mut clipped = update_mixed::<N>(
             &gas.mixed,
-            old,
+            old_rows,
             pressure,
             [old_gas, new_gas],
             faces,
@@ -222,6 +224,8 @@ mod tests {
             far_field: None,
             adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![] }),
             scales: Scales { pressure: 5e7, density: 1e3 },
+            gravity: None,
+            tracer: None,
         };
         let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0, 0.0] };
         let initial = InitialCondition {

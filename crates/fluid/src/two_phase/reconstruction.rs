@@ -31,6 +31,8 @@ pub(crate) struct CellRule<'a> {
     pub dt: f64,
     pub mixture: &'a Mixture,
     pub options: TwoPhaseOptions,
+    /// What v_z and v_r gain in half the step by a uniform acceleration, m/s.
+    pub velocity_gain: Option<[f64; 2]>,
 }
 
 /// States on the four faces of mixed cells, in the order of [`mesh::Side::ALL`]: z−, z+, r−, r+.
@@ -116,6 +118,10 @@ fn window_states(
                 half[c][k] = w[c][k] + shares[k] * (half[c][k] - w[c][k]);
             }
         }
+    }
+    if let Some([gain_z, gain_r]) = rule.velocity_gain {
+        half[V_Z].iter_mut().for_each(|v| *v += gain_z);
+        half[V_R].iter_mut().for_each(|v| *v += gain_r);
     }
     let mut ends = [[ZERO; 2]; 2];
     for (axis, ends) in ends.iter_mut().enumerate() {

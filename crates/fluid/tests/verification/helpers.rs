@@ -52,6 +52,8 @@ pub fn setup_of(
         far_field: None,
         adaptation: None,
         scales: fluid::Scales { pressure: 1e6, density: 1e3 },
+        gravity: None,
+        tracer: None,
     }
 }
 

@@ -7,7 +7,8 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// The longest step of the block in `slot`, s.
     fn limit_of(&self, slot: usize, cfl: f64) -> f64 {
         let widths = self.mesh.widths(self.mesh.tree().leaves()[slot].level);
-        longest_step(cfl, widths, self.model.signal_speeds(&self.reports.finished[slot]))
+        let report = &self.reports.finished[slot];
+        longest_step(cfl, widths, self.model.signal_speeds(report)).min(self.model.step_limit(report, widths))
     }
 
     /// The fastest signals in any block along z and r, m/s.

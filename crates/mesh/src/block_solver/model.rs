@@ -19,8 +19,6 @@ pub trait Model<const N: usize>: Sized + Sync {
     const NAME: &'static str;
     /// The side of the domain beyond which the other medium is, if there is one.
     const INTERFACE: Side;
-    /// Numbers that are registered of each face between levels.
-    const REGISTERED: usize;
     /// What adaptation must know of the components.
     type Analysis: Multiresolution;
     /// What one block tells of its step.
@@ -32,6 +30,8 @@ pub trait Model<const N: usize>: Sized + Sync {
 
     /// What adaptation must know of the components.
     fn analysis(&self) -> &Self::Analysis;
+    /// Numbers that are registered of each face between levels.
+    fn registered(&self) -> usize;
     /// Whether another medium is beyond [`Model::INTERFACE`].
     fn has_interface(&self) -> bool;
     /// Blocks besides those at the interface whose state is asked for at all times within a step.
@@ -66,6 +66,11 @@ pub trait Model<const N: usize>: Sized + Sync {
     fn measure(&self, mesh: &Mesh<N>, slot: usize, block: &[f64], report: &mut Self::Report);
     /// The fastest signals of a block along z and r, m/s.
     fn signal_speeds(&self, report: &Self::Report) -> [f64; 2];
+
+    /// The longest step of a block that what is not waves allows, s; `widths`: of its cells.
+    fn step_limit(&self, _report: &Self::Report, _widths: [f64; 2]) -> f64 {
+        f64::INFINITY
+    }
 
     /// The first cell of a block that is no admissible state.
     fn inadmissible_cell(&self, report: &Self::Report, block: &[f64]) -> Option<usize>;

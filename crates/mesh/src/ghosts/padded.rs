@@ -68,6 +68,15 @@ impl<const N: usize> Padded<N> {
         std::array::from_fn(|_| rows.next().expect("asserted above"))
     }
 
+    /// Divides a component by another one, cell by cell, ghosts included.
+    pub fn divide(&mut self, component: usize, by: usize) {
+        assert!(component > by, "the divisor comes first");
+        let (before, rows) = self.data.split_at_mut(component * Self::LEN);
+        for (value, by) in rows[..Self::LEN].iter_mut().zip(&before[by * Self::LEN..][..Self::LEN]) {
+            *value /= by;
+        }
+    }
+
     /// Copies the block in `slot` and fills the ghost cells that other blocks own: cells of the same level are
     /// copied, finer ones projected, and from coarser ones predicted. Ghosts beyond the domain are set to the
     /// nearest cell of the block, so that they hold finite numbers; [`Padded::reflect`] and

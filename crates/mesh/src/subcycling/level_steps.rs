@@ -52,9 +52,10 @@ impl<const N: usize> FinerSide<'_, N> {
         &self,
         mesh: &Mesh<N>,
         slot: usize,
+        first: usize,
         correct: impl FnMut(CorrectedFace<K>),
     ) {
-        self.own.for_corrected_faces(self.finer, mesh, slot, correct);
+        self.own.for_corrected_faces(self.finer, mesh, slot, first, correct);
     }
 
     /// [`FluxRegister::for_corrected_sides`].
@@ -62,9 +63,10 @@ impl<const N: usize> FinerSide<'_, N> {
         &self,
         mesh: &Mesh<N>,
         slot: usize,
+        first: usize,
         correct: impl FnMut(Side, f64, &[[f64; N]; K]),
     ) {
-        self.own.for_corrected_sides(self.finer, mesh, slot, correct);
+        self.own.for_corrected_sides(self.finer, mesh, slot, first, correct);
     }
 }
 

@@ -48,18 +48,20 @@ impl<const N: usize> FluxRegister<N> {
 
     /// Keeps the values on those sides of a block that meet another level.
     ///
-    /// - `block`: its part of the register; `values`: what passes the outer face of a side above the padded cell `k`.
+    /// - `block`: its part of the register; `first`: the number of the first quantity; `values`: what passes the outer face of a side
+    ///   above the padded cell `k`.
     pub fn record<const K: usize>(
         mesh: &Mesh<N>,
         slot: usize,
         block: &mut [f64],
+        first: usize,
         values: impl Fn(Side, usize) -> [f64; K],
     ) {
         for side in Side::ALL {
             if !Self::is_needed(mesh, slot, side) {
                 continue;
             }
-            let rows = Self::rows::<K>(block, side);
+            let rows = &mut Self::rows(block, side)[first * N..];
             for along in 0..N {
                 let (n, at) = (N as isize, along as isize);
                 let k = match side {
@@ -82,15 +84,17 @@ impl<const N: usize> FluxRegister<N> {
 
     /// Calls `correct` for every face of a block that has finer neighbours beyond it, side by side.
     ///
-    /// - `finer`: what the finer side has passed; this register, unless levels step by themselves.
+    /// - `finer`: what the finer side has passed; this register, unless levels step by themselves. `first`: the number of the first
+    ///   of the K quantities.
     pub fn for_corrected_faces<const K: usize>(
         &self,
         finer: &Self,
         mesh: &Mesh<N>,
         slot: usize,
+        first: usize,
         mut correct: impl FnMut(CorrectedFace<K>),
     ) {
-        self.for_corrected_sides(finer, mesh, slot, |side, outward, differences: &[[f64; N]; K]| {
+        self.for_corrected_sides(finer, mesh, slot, first, |side, outward, differences: &[[f64; N]; K]| {
             for along in 0..N {
                 let cell = match side {
                     Side::ZMin => [0, along],
@@ -111,19 +115,20 @@ impl<const N: usize> FluxRegister<N> {
         finer: &Self,
         mesh: &Mesh<N>,
         slot: usize,
+        first: usize,
         mut correct: impl FnMut(Side, f64, &[[f64; N]; K]),
     ) {
         for side in Side::ALL {
             if let Neighbour::Finer(children) = mesh.tree().neighbours(slot)[side as usize] {
                 let outward = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
-                correct(side, outward, &self.differences(finer, mesh, slot, side, children));
+                correct(side, outward, &self.differences(finer, mesh, (slot, side), first, children));
             }
         }
     }
 
     /// The rows of one side in a block's part of the register: quantity by quantity, along the side.
-    pub fn rows<const K: usize>(block: &mut [f64], side: Side) -> &mut [f64] {
-        let len = K * N;
+    pub fn rows(block: &mut [f64], side: Side) -> &mut [f64] {
+        let len = block.len() / Side::ALL.len();
         &mut block[side as usize * len..(side as usize + 1) * len]
     }
 
@@ -140,13 +145,13 @@ impl<const N: usize> FluxRegister<N> {
     /// The mean of the finer side's values minus the block's own on the faces of a coarse block, quantity by quantity. The
     /// mean is weighted with the areas of the fine faces.
     ///
-    /// - `children`: the finer blocks beyond the side, see [`Neighbour::Finer`].
+    /// - `first`: the number of the first quantity; `children`: the finer blocks beyond the side, see [`Neighbour::Finer`].
     fn differences<const K: usize>(
         &self,
         finer: &Self,
         mesh: &Mesh<N>,
-        slot: usize,
-        side: Side,
+        (slot, side): (usize, Side),
+        first: usize,
         children: [usize; 2],
     ) -> [[f64; N]; K] {
         let opposite = match side {
@@ -164,22 +169,18 @@ impl<const N: usize> FluxRegister<N> {
                 *share = row.lower_share;
             }
         }
-        fn row<const N: usize, const K: usize>(
-            of: &FluxRegister<N>,
-            slot: usize,
-            side: Side,
-            quantity: usize,
-        ) -> &[f64; N] {
-            (of.values.component(slot, side as usize * K + quantity))
+        fn row<const N: usize>(of: &FluxRegister<N>, slot: usize, side: Side, quantity: usize) -> &[f64; N] {
+            let quantities = of.values.components() / Side::ALL.len();
+            (of.values.component(slot, side as usize * quantities + quantity))
                 .first_chunk()
                 .expect("a row has as many faces as a block has cells along a side")
         }
         std::array::from_fn(|quantity| {
-            let own = row::<N, K>(self, slot, side, quantity);
-            let fine = children.map(|child| row::<N, K>(finer, child, opposite, quantity));
+            let own = row(self, slot, side, first + quantity);
+            let fine = children.map(|child| row(finer, child, opposite, first + quantity));
             std::array::from_fn(|along| {
-                let (child, first) = (fine[along / (N / 2)], 2 * (along % (N / 2)));
-                let (low, high) = (child[first], child[first + 1]);
+                let (child, at) = (fine[along / (N / 2)], 2 * (along % (N / 2)));
+                let (low, high) = (child[at], child[at + 1]);
                 high + lower_shares[along] * (low - high) - own[along]
             })
         })

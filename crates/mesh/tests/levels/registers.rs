@@ -32,7 +32,7 @@ proptest! {
         let mut values = vec![[[[0.0; N]; K]; 4]; mesh.blocks()];
         for (slot, values) in values.iter_mut().enumerate() {
             for side in Side::ALL {
-                let rows = FluxRegister::<N>::rows::<K>(register.values_mut().block_mut(slot), side);
+                let rows = FluxRegister::<N>::rows(register.values_mut().block_mut(slot), side);
                 for (row, values) in rows.chunks_exact_mut(N).zip(&mut values[side as usize]) {
                     random.fill(row);
                     values.copy_from_slice(row);
@@ -43,7 +43,7 @@ proptest! {
             (Side::RMin, Side::RMax, [0, -1]), (Side::RMax, Side::RMin, [0, 1])];
         for (slot, id) in mesh.tree().leaves().iter().enumerate() {
             let mut corrected = [None; 4];
-            register.for_corrected_sides(&register, &mesh, slot, |side, outward, differences: &[[f64; N]; K]| {
+            register.for_corrected_sides(&register, &mesh, slot, 0, |side, outward, differences: &[[f64; N]; K]| {
                 assert_eq!(outward > 0.0, matches!(side, Side::ZMax | Side::RMax));
                 corrected[side as usize] = Some(*differences);
             });

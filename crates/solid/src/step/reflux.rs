@@ -19,7 +19,7 @@ pub(crate) fn register_stars<const N: usize>(
     r_faces: &FaceRows,
     values: &mut [f64],
 ) {
-    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, |side, k| {
+    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, 0, |side, k| {
         let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
         [faces.v_n[k], faces.v_t[k], faces.s_nn[k], faces.s_nt[k]]
     });
@@ -37,46 +37,51 @@ pub(crate) fn correct<const N: usize>(
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let e = &ctx.model.elasticity;
-    finer.for_corrected_sides(ctx.mesh, slot, |side, outward, [v_n, v_t, s_nn, s_nt]: &[_; QUANTITIES]| {
-        if matches!(side, Side::ZMin | Side::ZMax) {
-            let i = if side == Side::ZMin { 0 } else { N - 1 };
-            let scale = outward * ctx.dt / h_z;
-            for j in 0..N {
-                let (v_n, v_t) = (scale * v_n[j], scale * v_t[j]);
-                let (s_nn, s_nt) = (scale * s_nn[j], scale * s_nt[j]);
-                let changes = [
-                    e.inverse_density * s_nn,
-                    e.inverse_density * s_nt,
-                    e.p_modulus * v_n,
-                    e.mu * v_t,
-                    e.lambda * v_n,
-                    e.lambda * v_n,
-                ];
-                add(new, j * N + i, N * N, changes);
+    finer.for_corrected_sides(
+        ctx.mesh,
+        slot,
+        0,
+        |side, outward, [v_n, v_t, s_nn, s_nt]: &[_; QUANTITIES]| {
+            if matches!(side, Side::ZMin | Side::ZMax) {
+                let i = if side == Side::ZMin { 0 } else { N - 1 };
+                let scale = outward * ctx.dt / h_z;
+                for j in 0..N {
+                    let (v_n, v_t) = (scale * v_n[j], scale * v_t[j]);
+                    let (s_nn, s_nt) = (scale * s_nn[j], scale * s_nt[j]);
+                    let changes = [
+                        e.inverse_density * s_nn,
+                        e.inverse_density * s_nt,
+                        e.p_modulus * v_n,
+                        e.mu * v_t,
+                        e.lambda * v_n,
+                        e.lambda * v_n,
+                    ];
+                    add(new, j * N + i, N * N, changes);
+                }
+            } else {
+                let j = if side == Side::RMin { 0 } else { N - 1 };
+                // What of the terms with 1/r stems from a face; planar geometry has none.
+                let over_r = match ctx.mesh.domain().geometry {
+                    Geometry::Axisymmetric => ctx.dt / ctx.mesh.centre(id, 0, j)[1],
+                    Geometry::Planar => 0.0,
+                };
+                let scale = outward * ctx.dt / h_r;
+                for i in 0..N {
+                    let (v_n, v_t, s_nn, s_nt) = (v_n[i], v_t[i], s_nn[i], s_nt[i]);
+                    let (radial, hoop) = (scale * v_n, FACES * over_r * v_n);
+                    let changes = [
+                        e.inverse_density * (scale * s_nt + 0.5 * over_r * s_nt),
+                        e.inverse_density * (scale * s_nn),
+                        e.lambda * (radial + hoop),
+                        e.mu * (scale * v_t),
+                        e.p_modulus * radial + e.lambda * hoop,
+                        e.p_modulus * hoop + e.lambda * radial,
+                    ];
+                    add(new, j * N + i, N * N, changes);
+                }
             }
-        } else {
-            let j = if side == Side::RMin { 0 } else { N - 1 };
-            // What of the terms with 1/r stems from a face; planar geometry has none.
-            let over_r = match ctx.mesh.domain().geometry {
-                Geometry::Axisymmetric => ctx.dt / ctx.mesh.centre(id, 0, j)[1],
-                Geometry::Planar => 0.0,
-            };
-            let scale = outward * ctx.dt / h_r;
-            for i in 0..N {
-                let (v_n, v_t, s_nn, s_nt) = (v_n[i], v_t[i], s_nn[i], s_nt[i]);
-                let (radial, hoop) = (scale * v_n, FACES * over_r * v_n);
-                let changes = [
-                    e.inverse_density * (scale * s_nt + 0.5 * over_r * s_nt),
-                    e.inverse_density * (scale * s_nn),
-                    e.lambda * (radial + hoop),
-                    e.mu * (scale * v_t),
-                    e.p_modulus * radial + e.lambda * hoop,
-                    e.p_modulus * hoop + e.lambda * radial,
-                ];
-                add(new, j * N + i, N * N, changes);
-            }
-        }
-    });
+        },
+    );
     report_stresses(ctx.mesh, slot, new, ctx.model.yield_squared(), report);
 }
 

@@ -38,7 +38,7 @@ impl FluidRecord {
         solver: &FluidSolver<BLOCK>,
         saved: FluidRecordState,
     ) -> Result<Self, RunError> {
-        let files = SideFiles::resume(case, directory, names(), &saved.files)?;
+        let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
         let mut record = Self::on(case, files, solver)?;
         let FluidRecordState {
             files,

@@ -49,6 +49,9 @@ pub enum FarFieldError {
     /// Flow between plates, or along a row of images, spreads in two dimensions.
     #[error("it spreads in half of space at least, and z_min and z_max are both walls, or periodic")]
     Layer,
+    /// The pressure far away is one number.
+    #[error("its pressure far away is one number, and gravity makes it one of height")]
+    Gravity,
 }
 
 /// A bubble on the axis.

@@ -23,6 +23,7 @@ fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState
         dt,
         mixture: &mixture,
         options,
+        velocity_gain: None,
     };
     let mut states = FaceStates::default();
     face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &rule, &mut states);
@@ -70,6 +71,7 @@ fn what_is_bounded_is_told() {
             dt: 1e-12,
             mixture: &mixture,
             options,
+            velocity_gain: None,
         };
         let mut states = FaceStates::default();
         let window = Window { first: 2 * STRIDE + 2, step: 1, listed: 1 };
