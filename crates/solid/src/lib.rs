@@ -19,6 +19,7 @@ mod options;
 mod outer_states;
 mod participant;
 mod physics;
+pub mod plasticity;
 mod predictor;
 mod reflux;
 mod report;

@@ -1,0 +1,26 @@
+//! J2 plasticity at a point: hardening laws, the radial return, materials. Knows no mesh.
+//!
+//! Small strains, isotropic hardening, backward Euler in time. A cell is stepped elastically first; where its stress then
+//! lies outside the yield surface, [`Plasticity::return_map`] brings it back.
+
+mod consistency;
+mod error;
+mod hardening;
+mod johnson_cook;
+mod rate;
+mod return_map;
+mod rows;
+mod screen;
+mod stress;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use error::PlasticityError;
+pub use hardening::{Flow, Hardening, Linear, Perfect};
+pub use johnson_cook::{JohnsonCook, ThermalSoftening};
+pub use rate::RateFactor;
+pub use return_map::{Plasticity, Returned};
+pub use rows::PlasticRows;
+pub use stress::{Stress, project_to_yield};
+pub use table::Table;
