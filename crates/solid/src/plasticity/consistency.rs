@@ -73,11 +73,15 @@ impl Trial<'_> {
             } else {
                 high = increment;
             }
-            let newton = increment * (residual / (self.three_mu * increment + slope)).exp();
+            let step = residual / (self.three_mu * increment + slope);
+            let newton = increment * step.exp();
             let halved = residual.abs() <= 0.5 * last;
             last = residual.abs();
-            if newton == increment || middle(low, high) == low {
+            if step.abs() < 0.5 * f64::EPSILON {
                 return (increment, self.settle(stress, line));
+            }
+            if middle(low, high) == low {
+                break;
             }
             let inside = newton > low && newton < high;
             increment = if inside && (halved || count < 3) { newton } else { middle(low, high) };

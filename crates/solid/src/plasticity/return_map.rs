@@ -33,8 +33,8 @@ pub struct Returned {
     pub increment: f64,
     /// Backward Euler's plastic work q Δε_p, J/m³: what heats.
     pub plastic_work: f64,
-    /// The elastic energy that the return takes from the deviator, (q_trial² − q²)/(6μ), J/m³: what a balance of
-    /// energy has to count. It exceeds the plastic work by 3/2 μ Δε_p², of second order in the step.
+    /// The elastic energy that the return takes from the deviator, (q_trial² − q²)/(6μ) = q Δε_p + 3/2 μ Δε_p², J/m³:
+    /// what a balance of energy has to count. The second term, of second order in the step, is the scheme's.
     pub energy_released: f64,
 }
 
@@ -132,7 +132,7 @@ impl Plasticity {
             temperature: temperature + self.heating * plastic_work,
             increment,
             plastic_work,
-            energy_released: (von_mises - left) * (von_mises + left) / (2.0 * three_mu),
+            energy_released: plastic_work + 0.5 * three_mu * increment * increment,
         })
     }
 

@@ -67,7 +67,7 @@ fn the_spherical_cavity_opens_as_hill_says() {
                 (dilatation + d) / 3.0 / displacement - 1.0,
                 strain / wall_strain - 1.0,
             ];
-            println!("p {pressure:e}, angle {angle}: {errors:.1e?}");
+            println!("p {pressure:e}, angle {angle}: {errors:?}");
             // The front is given to ten digits.
             assert!(errors.iter().all(|error| error.abs() < 4e-9), "{errors:?}");
         }

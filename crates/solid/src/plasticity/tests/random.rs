@@ -27,7 +27,7 @@ fn any_state_returns_to_the_yield_surface_and_dissipates() {
     let (mut flowed, mut off) = (0, 0.0_f64);
     for hardening in laws() {
         let plasticity = Plasticity::new(hardening.clone(), STEEL);
-        for _ in 0..20_000 {
+        for _ in 0..40_000 {
             let (trial, strain, temperature, dt) = state(&mut dice);
             let said = format!("{hardening:?} {trial:?} {strain:e} {temperature} {dt:e}");
             let Some(returned) = plasticity.return_map(trial, strain, temperature, dt) else {
@@ -57,7 +57,7 @@ fn any_state_returns_to_the_yield_surface_and_dissipates() {
             assert!(returned.von_mises <= strength + tolerance, "{} {strength} {said}", returned.von_mises);
             // On it, but where the law jumps between one increment and the next number.
             let jumps = returned.increment < 1e-300;
-            assert!(jumps || returned.von_mises >= strength - tolerance, "{strength} {said}");
+            assert!(jumps || returned.von_mises >= strength - tolerance, "{strength} {returned:?} {said}");
             if strength > 0.0 && !jumps {
                 off = off.max((returned.von_mises - strength).abs() / (1e-12 * strength).max(tolerance));
             }
@@ -82,7 +82,10 @@ fn energy_that_the_deviator_loses_is_the_energy_released() {
             let lost = trial.deviatoric_energy(mu) - returned.stress.deviatoric_energy(mu);
             let size = trial.zz.abs().max(trial.rr.abs()).max(trial.phiphi.abs());
             let rounding = size * trial.von_mises_squared().sqrt() / mu;
-            assert!((lost - returned.energy_released).abs() <= 4.0 * f64::EPSILON * rounding, "{returned:?}");
+            assert!(
+                (lost - returned.energy_released).abs() <= 16.0 * f64::EPSILON * rounding,
+                "{returned:?}"
+            );
             // What it is more than backward Euler's work is of second order in the increment.
             let more = 1.5 * mu * returned.increment * returned.increment;
             let apart = returned.energy_released - returned.plastic_work - more;

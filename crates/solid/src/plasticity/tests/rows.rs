@@ -22,7 +22,7 @@ fn rows_return_what_single_cells_return() {
     let mut dice = Dice::new(11);
     for hardening in laws() {
         let plasticity = Plasticity::new(hardening, STEEL);
-        for (n, beyond) in [(1, 1.0), (63, 0.5), (200, 0.01), (256, 0.0), (300, 1.0)] {
+        for (n, beyond) in [(1, 1.0), (63, 0.5), (200, 0.05), (256, 0.0), (300, 1.0)] {
             let before = columns(&mut dice, n, beyond);
             let mut after = before.clone();
             let [zz, zr, rr, phiphi, strain, temperature] = &mut after;
@@ -42,14 +42,17 @@ fn rows_return_what_single_cells_return() {
             let mut told = told.into_iter();
             for k in 0..n {
                 let [zz, zr, rr, phiphi, strain, temperature] = [0, 1, 2, 3, 4, 5].map(|c| before[c][k]);
-                let single = plasticity.return_map(Stress { zz, zr, rr, phiphi }, strain, temperature, 1e-9);
+                let warm = if plasticity.has_heat() { temperature } else { 0.0 };
+                let single = plasticity.return_map(Stress { zz, zr, rr, phiphi }, strain, warm, 1e-9);
                 let bits = |numbers: [f64; 6]| numbers.map(f64::to_bits);
                 let expected = match single {
                     None => [zz, zr, rr, phiphi, strain, temperature],
                     Some(returned) => {
                         assert_eq!(told.next(), Some((k, returned)));
                         let Stress { zz, zr, rr, phiphi } = returned.stress;
-                        [zz, zr, rr, phiphi, returned.strain, returned.temperature]
+                        let temperature =
+                            if plasticity.has_heat() { returned.temperature } else { temperature };
+                        [zz, zr, rr, phiphi, returned.strain, temperature]
                     }
                 };
                 assert_eq!(bits([0, 1, 2, 3, 4, 5].map(|c| after[c][k])), bits(expected), "cell {k}");
