@@ -90,11 +90,30 @@ impl Trial<'_> {
         (high, self.settle(stress, q - self.three_mu * high))
     }
 
-    /// The increment if neither rate nor heat changed the slope: from above in all but softening laws.
+    /// The increment if the flow stress were a straight line over it plus the logarithm of the rate:
+    /// x + a ln(x/x₀) = X for x above x₀, which a rate of ε̇₀ gives, so x = a W(x₀/a e^{X/a}) with Lambert's function.
     fn guess(&self) -> f64 {
-        let Flow { stress, per_log_strain, .. } = self.static_flow;
-        let slope = if self.strain > 0.0 { per_log_strain / self.strain } else { 0.0 };
-        (self.von_mises - stress) / (self.three_mu + slope)
+        let Flow { stress, per_log_strain, per_log_rise, .. } = self.static_flow;
+        let mut slope = self.three_mu;
+        if self.strain > 0.0 {
+            slope += per_log_strain / self.strain;
+        }
+        if self.rise > 0.0 {
+            slope += per_log_rise / self.rise * self.heating * stress;
+        }
+        let slope = slope.max(0.5 * self.three_mu);
+        let alone = (self.von_mises - stress) / slope;
+        let Some(rate) = self.hardening.rate() else { return alone };
+        let slowest = rate.reference_rate * self.dt;
+        if !(alone > slowest) {
+            return alone;
+        }
+        let scale = stress * rate.rate_coefficient / slope;
+        let exponent = (slowest / scale).ln() + alone / scale;
+        // Winitzki's W(z), good to 2 %, then a step of Newton's for w + ln w = ln z.
+        let soft = if exponent < 30.0 { exponent.exp().ln_1p() } else { exponent };
+        let rough = soft * (1.0 - soft.ln_1p() / (2.0 + soft));
+        scale * rough * (1.0 + exponent - rough.ln()) / (1.0 + rough)
     }
 
     /// The stress at the end: on the yield surface, unless that jumps past the return line.
