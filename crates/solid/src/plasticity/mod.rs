@@ -3,6 +3,7 @@
 //! Small strains, isotropic hardening, backward Euler in time. A cell is stepped elastically first; where its stress then
 //! lies outside the yield surface, [`Plasticity::return_map`] brings it back.
 
+mod closed;
 mod consistency;
 mod error;
 mod hardening;

@@ -1,5 +1,6 @@
 //! The radial return of a trial stress onto the yield surface.
 
+use super::closed::{Line, LineReturn};
 use super::consistency::Trial;
 use super::hardening::{Flow, Hardening};
 use super::screen::Screen;
@@ -11,6 +12,8 @@ use crate::WaveSpeeds;
 pub struct Plasticity {
     hardening: Hardening,
     pub(super) screen: Screen,
+    /// Of laws in closed form.
+    pub(super) line: Option<Line>,
     mu: f64,
     /// χ/(ρ c_p), K m³/J.
     heating: f64,
@@ -46,6 +49,7 @@ impl Plasticity {
             .map_or(0.0, |heat| heat.taylor_quinney / (speeds.density * heat.heat_capacity));
         Self {
             screen: Screen::new(&hardening),
+            line: Line::new(&hardening, speeds.shear_modulus()),
             mu: speeds.shear_modulus(),
             heating,
             reference: hardening.reference_temperature().unwrap_or(0.0),
@@ -87,6 +91,11 @@ impl Plasticity {
     /// - tested by: bisection of the equations, ordinary differential equations, random states, limits, a spherical cavity.
     #[inline]
     pub fn return_map(&self, trial: Stress, strain: f64, temperature: f64, dt: f64) -> Option<Returned> {
+        if let Some(line) = self.line {
+            let LineReturn { yields, stress, von_mises, increment } = line.return_map(trial, strain);
+            return yields
+                .then(|| self.returned(stress, von_mises, strain + increment, temperature, increment));
+        }
         let squared = trial.von_mises_squared();
         let beyond = if self.has_heat() {
             self.screen.is_beyond_hot(squared, strain, temperature)
@@ -111,29 +120,32 @@ impl Plasticity {
         if !(von_mises > strength) {
             return None;
         }
-        let three_mu = 3.0 * self.mu;
-        let (increment, left) = match &self.hardening {
-            Hardening::Perfect(law) => ((von_mises - strength) / three_mu, law.yield_strength),
-            Hardening::Linear(law) => {
-                let increment = (von_mises - strength) / (three_mu + law.hardening_modulus);
-                (increment, law.yield_strength + law.hardening_modulus * (strain + increment))
-            }
-            Hardening::JohnsonCook(_) | Hardening::Table(_) => {
-                self.iterate(von_mises, strain, rise, dt, static_flow)?
-            }
-        };
-        // Rounding must not put a stress that just yields outside of where it was.
+        let (increment, left) = self.iterate(von_mises, strain, rise, dt, static_flow)?;
         let left = left.min(von_mises);
-        let plastic_work = left * increment;
-        Some(Returned {
-            stress: trial.with_deviator_times(left / von_mises),
-            von_mises: left,
-            strain: strain + increment,
+        let stress = trial.with_deviator_times(left / von_mises);
+        Some(self.returned(stress, left, strain + increment, temperature, increment))
+    }
+
+    /// With works and heat.
+    #[inline(always)]
+    pub(super) fn returned(
+        &self,
+        stress: Stress,
+        von_mises: f64,
+        strain: f64,
+        temperature: f64,
+        increment: f64,
+    ) -> Returned {
+        let plastic_work = von_mises * increment;
+        Returned {
+            stress,
+            von_mises,
+            strain,
             temperature: temperature + self.heating * plastic_work,
             increment,
             plastic_work,
-            energy_released: plastic_work + 0.5 * three_mu * increment * increment,
-        })
+            energy_released: plastic_work + 1.5 * self.mu * increment * increment,
+        }
     }
 
     /// Δε_p and q of the laws without a closed form.

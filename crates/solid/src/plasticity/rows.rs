@@ -1,11 +1,14 @@
 //! The radial return over rows of cells.
 
+use std::ops::Range;
+
+use super::closed::{Line, LineCells, return_batch};
 use super::return_map::{Plasticity, Returned};
 use super::screen::{any_beyond, any_beyond_hot};
 use super::stress::Stress;
 
 /// Cells that are looked at together: with none of them beyond, none is looked at closely.
-const BATCH: usize = 64;
+pub(super) const BATCH: usize = 64;
 
 /// The rows of a block that a return changes, cells in one order, all of one length.
 #[derive(Debug)]
@@ -60,6 +63,10 @@ impl Plasticity {
             if !any {
                 continue;
             }
+            if let Some(line) = self.line {
+                count += self.return_lines(rows, line, batch, &mut on_return);
+                continue;
+            }
             for k in batch {
                 let temperature = if hot { rows.temperature[k] } else { 0.0 };
                 let Some(returned) = self.return_map(rows.stress(k), rows.strain[k], temperature, dt) else {
@@ -67,6 +74,37 @@ impl Plasticity {
                 };
                 rows.set(k, &returned, hot);
                 on_return(k, &returned);
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// A batch of a law in closed form.
+    fn return_lines(
+        &self,
+        rows: &mut PlasticRows<'_>,
+        line: Line,
+        batch: Range<usize>,
+        on_return: &mut impl FnMut(usize, &Returned),
+    ) -> usize {
+        let (mut increment, mut von_mises) = ([0.0; BATCH], [0.0; BATCH]);
+        let cells = LineCells {
+            stress: [
+                &mut rows.stress_zz[batch.clone()],
+                &mut rows.stress_zr[batch.clone()],
+                &mut rows.stress_rr[batch.clone()],
+                &mut rows.stress_phiphi[batch.clone()],
+            ],
+            strain: &mut rows.strain[batch.clone()],
+            increment: &mut increment,
+            von_mises: &mut von_mises,
+        };
+        return_batch(line, cells);
+        let mut count = 0;
+        for (k, (increment, von_mises)) in batch.zip(increment.into_iter().zip(von_mises)) {
+            if increment > 0.0 {
+                on_return(k, &self.returned(rows.stress(k), von_mises, rows.strain[k], 0.0, increment));
                 count += 1;
             }
         }
