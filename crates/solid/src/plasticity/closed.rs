@@ -3,8 +3,10 @@
 use multiversion::multiversion;
 
 use super::hardening::Hardening;
-use super::rows::BATCH;
 use super::stress::Stress;
+
+/// Cells that are looked at together: with none of them beyond the surface, none is looked at closely.
+pub(super) const BATCH: usize = 64;
 
 /// Y = A + H ε_p over an elasticity of 3μ, all Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! The plastic increment of laws that need an iteration: one equation, bracketed, solved to round-off.
 
-use super::hardening::{Flow, Hardening};
+use super::flow::Flow;
+use super::hardening::Hardening;
 
 /// A trial state that lies outside the yield surface.
 pub(super) struct Trial<'a> {

@@ -1,7 +1,7 @@
 //! The Johnson–Cook law.
 
 use super::error::{PlasticityError, not_negative, positive, within};
-use super::hardening::Flow;
+use super::flow::Flow;
 use super::rate::RateFactor;
 
 /// Softening by heat: the factor 1 − T*ᵐ, T* = (T − T_r)/(T_m − T_r) within 0 and 1, and the adiabatic heating

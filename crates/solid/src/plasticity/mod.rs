@@ -6,6 +6,7 @@
 mod closed;
 mod consistency;
 mod error;
+mod flow;
 mod hardening;
 mod johnson_cook;
 mod library;
@@ -19,7 +20,8 @@ mod table;
 mod tests;
 
 pub use error::PlasticityError;
-pub use hardening::{Flow, Hardening, Linear, Perfect};
+pub use flow::Flow;
+pub use hardening::{Hardening, Linear, Perfect};
 pub use johnson_cook::{JohnsonCook, ThermalSoftening};
 pub use library::MaterialHardening;
 pub use rate::RateFactor;

@@ -2,7 +2,8 @@
 
 use super::closed::{Line, LineReturn};
 use super::consistency::Trial;
-use super::hardening::{Flow, Hardening};
+use super::flow::Flow;
+use super::hardening::Hardening;
 use super::screen::Screen;
 use super::stress::Stress;
 use crate::WaveSpeeds;

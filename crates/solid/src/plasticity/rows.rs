@@ -2,13 +2,10 @@
 
 use std::ops::Range;
 
-use super::closed::{Line, LineCells, return_batch};
+use super::closed::{BATCH, Line, LineCells, return_batch};
 use super::return_map::{Plasticity, Returned};
 use super::screen::{any_beyond, any_beyond_hot};
 use super::stress::Stress;
-
-/// Cells that are looked at together: with none of them beyond, none is looked at closely.
-pub(super) const BATCH: usize = 64;
 
 /// The rows of a block that a return changes, cells in one order, all of one length.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! Flow stress as a table.
 
 use super::error::PlasticityError;
-use super::hardening::Flow;
+use super::flow::Flow;
 use super::rate::RateFactor;
 
 /// Flow stress over plastic strain: straight between the points, constant before the first and beyond the last, with an

@@ -7,7 +7,9 @@ use crate::plasticity::{PlasticRows, Plasticity, Stress};
 fn columns(dice: &mut Dice, n: usize, beyond: f64) -> [Vec<f64>; 6] {
     let mut columns: [Vec<f64>; 6] = std::array::from_fn(|_| Vec::with_capacity(n));
     for _ in 0..n {
-        let size = if dice.unit() < beyond { 2e9 } else { 2e7 };
+        // Some without any stress, as cells are where nothing has come yet.
+        let elastic = if dice.unit() < 0.1 { 0.0 } else { 2e7 };
+        let size = if dice.unit() < beyond { 2e9 } else { elastic };
         for column in &mut columns[..4] {
             column.push(size * (2.0 * dice.unit() - 1.0));
         }
