@@ -66,7 +66,7 @@ pub fn report(case: &Case) -> String {
 /// The materials known by name.
 pub fn materials_table() -> String {
     let mut text = format!(
-        "{:<18}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}  source\n{:<18}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}\n",
+        "{:<25}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}  source\n{:<25}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}\n",
         "name",
         "density",
         "c1",
@@ -86,7 +86,7 @@ pub fn materials_table() -> String {
         let strength = material.yield_strength().map_or("-".to_owned(), |y| format!("{:.0}", y / 1e6));
         let _ = writeln!(
             text,
-            "{:<18}{:>9.0}{:>7.0}{:>7.0}{:>9.4}{:>9.4}{:>9}  {}",
+            "{:<25}{:>9.0}{:>7.0}{:>7.0}{:>9.4}{:>9.4}{:>9}  {}",
             material.name(),
             material.density(),
             material.c1(),

@@ -13,6 +13,7 @@ mod material;
 mod model;
 mod options;
 mod physics;
+pub mod plasticity;
 mod reconstruction;
 pub mod riemann;
 mod setup;

@@ -45,7 +45,10 @@ fn its_mass_is_conserved_with_adaptation_and_subcycling() {
                 let [coarsest, finest] = fluid.mesh().levels_present();
                 jumps += usize::from(coarsest < finest);
             }
-            assert!(changes > 2 && jumps > 20 && start > 0.0, "{changes} new meshes, {jumps} steps with jumps");
+            assert!(
+                changes > 2 && jumps > 20 && start > 0.0,
+                "{changes} new meshes, {jumps} steps with jumps"
+            );
             let lost = fluid.tracer_mass() / start - 1.0;
             assert!(lost.abs() < 1e-13, "{kind:?} {local}: {lost:e}");
             let [least, most] = range(&fluid);

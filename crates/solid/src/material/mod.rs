@@ -1,6 +1,9 @@
 //! Isotropic, linear-elastic materials and a small library of them.
 
+mod library;
 pub(crate) mod yield_criterion;
+
+use library::LIBRARY;
 
 /// Why three numbers are no elastic material.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -218,87 +221,6 @@ fn positive(name: &'static str, value: f64, unit: &'static str) -> Result<(), Ma
     }
 }
 
-/// One row of the library.
-struct Entry {
-    name: &'static str,
-    density: f64,
-    c1: f64,
-    c2: f64,
-    yield_strength: Option<f64>,
-    source: &'static str,
-}
-
-/// Speeds other than the paper's are those of the CRC Handbook of Chemistry and Physics, "Speed of sound in various
-/// media"; yield strengths are those the paper's reference [71] tabulates unless said otherwise.
-const LIBRARY: [Entry; 8] = [
-    Entry {
-        name: "structural-steel",
-        density: 7800.0,
-        c1: 5990.0,
-        c2: 3458.0,
-        yield_strength: Some(250e6),
-        source: "Dickopp, Gartz & Mueller 2012: density and speeds as printed; yield from its reference [71], \
-                 engineeringtoolbox.com (ASTM A36)",
-    },
-    Entry {
-        name: "stainless-steel",
-        density: 7800.0,
-        c1: 5990.0,
-        c2: 3458.0,
-        yield_strength: Some(502e6),
-        source: "Dickopp, Gartz & Mueller 2012: density and speeds as printed; yield from its reference [71], \
-                 engineeringtoolbox.com (AISI 302, cold-rolled)",
-    },
-    Entry {
-        name: "aluminium",
-        density: 2700.0,
-        c1: 6420.0,
-        c2: 3040.0,
-        yield_strength: Some(95e6),
-        source: "CRC Handbook (aluminium, rolled); yield from engineeringtoolbox.com (aluminium)",
-    },
-    Entry {
-        name: "copper",
-        density: 8930.0,
-        c1: 5010.0,
-        c2: 2270.0,
-        yield_strength: Some(70e6),
-        source: "CRC Handbook (copper, rolled); yield from engineeringtoolbox.com (copper)",
-    },
-    Entry {
-        name: "pmma",
-        density: 1180.0,
-        c1: 2680.0,
-        c2: 1100.0,
-        yield_strength: Some(70e6),
-        source: "CRC Handbook (Lucite); tensile strength of acrylic from engineeringtoolbox.com, taken as yield",
-    },
-    Entry {
-        name: "titanium",
-        density: 4500.0,
-        c1: 6070.0,
-        c2: 3125.0,
-        yield_strength: Some(275e6),
-        source: "CRC Handbook (titanium); least yield of ASTM B265 grade 2",
-    },
-    Entry {
-        name: "tungsten-carbide",
-        density: 13800.0,
-        c1: 6655.0,
-        c2: 3980.0,
-        yield_strength: None,
-        source: "CRC Handbook (tungsten carbide); brittle, so without yield strength",
-    },
-    Entry {
-        name: "gelatine",
-        density: 1100.0,
-        c1: 1550.0,
-        c2: 20.0,
-        yield_strength: None,
-        source: "illustrative: a stiff water-based gel, c1 near water's, shear modulus 0.44 MPa",
-    },
-];
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -367,6 +289,21 @@ mod tests {
             assert!(material.yield_strength().is_none_or(|y| y > 1e6), "{}", material.name());
             assert!(!material.source().is_empty());
             assert_eq!(library.iter().filter(|other| other.name() == material.name()).count(), 1);
+        }
+        for (name, young, poisson) in [
+            ("stainless-316l", 193e9, 0.3),
+            ("duplex-2205", 186e9, 0.3),
+            ("al-1100-o", 68.9e9, 0.33),
+            ("al-6061-t6", 68.9e9, 0.33),
+            ("al-7075-t6", 71.7e9, 0.33),
+            ("copper-ofhc", 124e9, 0.34),
+            ("nickel-aluminium-bronze", 122e9, 0.32),
+            ("ti-6al-4v", 113.8e9, 0.342),
+        ] {
+            // The speeds are rounded to 0.1 m/s.
+            let material = Material::by_name(name).expect("in the library");
+            assert_relative_eq!(material.young(), young, max_relative = 1e-4);
+            assert_relative_eq!(material.poisson(), poisson, max_relative = 1e-3);
         }
         let steel = Material::by_name("structural-steel").expect("in the library");
         assert_eq!(

@@ -1,0 +1,88 @@
+//! The return in closed form: flow stresses that are a straight line over plastic strain.
+
+use multiversion::multiversion;
+
+use super::hardening::Hardening;
+use super::stress::Stress;
+
+/// Cells that are looked at together: with none of them beyond the surface, none is looked at closely.
+pub(super) const BATCH: usize = 64;
+
+/// Y = A + H ε_p over an elasticity of 3μ, all Pa.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Line {
+    strength: f64,
+    modulus: f64,
+    three_mu: f64,
+}
+
+/// What a return on a line gives.
+#[derive(Clone, Copy)]
+pub(super) struct LineReturn {
+    /// Whether the cell yields; nothing else means anything otherwise.
+    pub yields: bool,
+    pub stress: Stress,
+    pub von_mises: f64,
+    pub increment: f64,
+}
+
+impl Line {
+    /// Of a perfect or linear law.
+    pub fn new(hardening: &Hardening, mu: f64) -> Option<Self> {
+        let (strength, modulus) = match hardening {
+            Hardening::Perfect(law) => (law.yield_strength, 0.0),
+            Hardening::Linear(law) => (law.yield_strength, law.hardening_modulus),
+            Hardening::JohnsonCook(_) | Hardening::Table(_) => return None,
+        };
+        Some(Self { strength, modulus, three_mu: 3.0 * mu })
+    }
+
+    /// Δε_p = (q_trial − Y)/(3μ + H), free of branches.
+    #[inline(always)]
+    pub fn return_map(self, trial: Stress, strain: f64) -> LineReturn {
+        let (squared, bound) = (trial.von_mises_squared(), self.strength + self.modulus * strain);
+        let von_mises = squared.sqrt();
+        let increment = (von_mises - bound) / (self.three_mu + self.modulus);
+        let line = self.strength + self.modulus * (strain + increment);
+        // Rounding must not put a stress that just yields outside of where it was.
+        let left = if line < von_mises { line } else { von_mises };
+        LineReturn {
+            // Both: of two that round apart the squares may be ordered when the roots are equal.
+            yields: (squared > bound * bound) & (von_mises > bound),
+            stress: trial.with_deviator_times(left / von_mises),
+            von_mises: left,
+            increment,
+        }
+    }
+}
+
+/// Cells of a batch: their stresses zz, zr, rr, φφ and plastic strains, of one length, changed in place where they yield.
+pub(super) struct LineCells<'a> {
+    pub stress: [&'a mut [f64]; 4],
+    pub strain: &'a mut [f64],
+    /// Written: Δε_p, 0 where a cell stays elastic.
+    pub increment: &'a mut [f64; BATCH],
+    /// Written: q, Pa, where it does not.
+    pub von_mises: &'a mut [f64; BATCH],
+}
+
+/// The returns of a batch.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(super) fn return_batch(line: Line, cells: LineCells<'_>) {
+    let LineCells { stress: [zz, zr, rr, phiphi], strain, increment, von_mises } = cells;
+    let n = strain.len().min(BATCH);
+    let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
+    let (increment, von_mises) = (&mut increment[..n], &mut von_mises[..n]);
+    for k in 0..n {
+        let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
+        let returned = line.return_map(trial, strain[k]);
+        let select = |new: f64, old: f64| if returned.yields { new } else { old };
+        zz[k] = select(returned.stress.zz, trial.zz);
+        zr[k] = select(returned.stress.zr, trial.zr);
+        rr[k] = select(returned.stress.rr, trial.rr);
+        phiphi[k] = select(returned.stress.phiphi, trial.phiphi);
+        strain[k] = select(strain[k] + returned.increment, strain[k]);
+        increment[k] = select(returned.increment, 0.0);
+        von_mises[k] = returned.von_mises;
+    }
+}

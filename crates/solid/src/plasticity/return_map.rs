@@ -1,0 +1,175 @@
+//! The radial return of a trial stress onto the yield surface.
+
+use super::closed::{Line, LineReturn};
+use super::consistency::Trial;
+use super::flow::Flow;
+use super::hardening::Hardening;
+use super::screen::Screen;
+use super::stress::Stress;
+use crate::WaveSpeeds;
+
+/// An isotropic elastoplastic material: a hardening law over linear elasticity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plasticity {
+    hardening: Hardening,
+    pub(super) screen: Screen,
+    /// Of laws in closed form.
+    pub(super) line: Option<Line>,
+    mu: f64,
+    /// χ/(ρ c_p), K m³/J.
+    heating: f64,
+    /// T_r, K; 0 for laws without heat.
+    reference: f64,
+}
+
+/// What a cell's return gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Returned {
+    /// The stress at the end of the step, Pa.
+    pub stress: Stress,
+    /// Its von Mises stress q, Pa.
+    pub von_mises: f64,
+    /// Plastic strain ε_p at the end of the step.
+    pub strain: f64,
+    /// Temperature at the end of the step, K; as it came in where the law has no heat.
+    pub temperature: f64,
+    /// Δε_p ≥ 0.
+    pub increment: f64,
+    /// Backward Euler's plastic work q Δε_p, J/m³: what heats.
+    pub plastic_work: f64,
+    /// The elastic energy that the return takes from the deviator, (q_trial² − q²)/(6μ) = q Δε_p + 3/2 μ Δε_p², J/m³:
+    /// what a balance of energy has to count. The second term, of second order in the step, is the scheme's.
+    pub energy_released: f64,
+}
+
+impl Plasticity {
+    /// A hardening law over the elasticity of these wave speeds.
+    pub fn new(hardening: Hardening, speeds: WaveSpeeds) -> Self {
+        let heating = hardening
+            .softening()
+            .map_or(0.0, |heat| heat.taylor_quinney / (speeds.density * heat.heat_capacity));
+        Self {
+            screen: Screen::new(&hardening),
+            line: Line::new(&hardening, speeds.shear_modulus()),
+            mu: speeds.shear_modulus(),
+            heating,
+            reference: hardening.reference_temperature().unwrap_or(0.0),
+            hardening,
+        }
+    }
+
+    /// The hardening law.
+    pub fn hardening(&self) -> &Hardening {
+        &self.hardening
+    }
+
+    /// Shear modulus μ, Pa.
+    pub fn mu(&self) -> f64 {
+        self.mu
+    }
+
+    /// Whether temperature is a part of the state.
+    pub fn has_heat(&self) -> bool {
+        self.hardening.softening().is_some()
+    }
+
+    /// Radial return: from an elastic trial stress to the stress, plastic strain and temperature at the end of a step.
+    ///
+    /// Wilkins (1964); Simo & Hughes (1998) sect. 3.3 (return mapping by backward Euler, consistency condition at the
+    /// end of the step). Paper: none. Where the trial stress lies outside the yield surface of rate 0,
+    ///
+    /// q = q_trial − 3μ Δε_p = Y(ε_p + Δε_p, Δε_p/Δt, T + χ q Δε_p/(ρ c_p)),  s = (q/q_trial) s_trial.
+    ///
+    /// - `trial`: stress after an elastic step, Pa. `strain`: plastic strain ε_p ≥ 0 and `temperature`: T, K (ignored by
+    ///   laws without heat), both at the beginning. `dt`: s, not negative. At 0 a law with rate does not flow (no stress
+    ///   relaxes in no time), one without returns as in any step.
+    /// - returns: `None` where the cell stays elastic, nothing changes then; else the state at the end. Its mean stress
+    ///   is the trial's to round-off, q is Y to 1e-12 of the trial's q.
+    /// - valid for: stresses below 1e150 Pa, small strains. A law that softens by heat may have several solutions in a
+    ///   step that melts; one of them is found. Where m < 1 and T − T_r is but rounding of T, Y is known no better than
+    ///   T*^m is.
+    /// - errors: none. No finite argument gives NaN. A stress that is NaN stays.
+    /// - tested by: bisection of the equations, ordinary differential equations, random states, limits, a spherical cavity.
+    #[inline]
+    pub fn return_map(&self, trial: Stress, strain: f64, temperature: f64, dt: f64) -> Option<Returned> {
+        if let Some(line) = self.line {
+            let LineReturn { yields, stress, von_mises, increment } = line.return_map(trial, strain);
+            return yields
+                .then(|| self.returned(stress, von_mises, strain + increment, temperature, increment));
+        }
+        let squared = trial.von_mises_squared();
+        let beyond = if self.has_heat() {
+            self.screen.is_beyond_hot(squared, strain, temperature)
+        } else {
+            self.screen.is_beyond(squared, strain)
+        };
+        if beyond { self.flow_back(trial, squared.sqrt(), strain, temperature, dt) } else { None }
+    }
+
+    /// The return of what may lie outside; `von_mises` is the trial's q, Pa.
+    fn flow_back(
+        &self,
+        trial: Stress,
+        von_mises: f64,
+        strain: f64,
+        temperature: f64,
+        dt: f64,
+    ) -> Option<Returned> {
+        let rise = temperature - self.reference;
+        let static_flow = self.hardening.flow_at_rise(strain, 0.0, rise);
+        let strength = static_flow.stress;
+        if !(von_mises > strength) {
+            return None;
+        }
+        let (increment, left) = self.iterate(von_mises, strain, rise, dt, static_flow)?;
+        let left = left.min(von_mises);
+        let stress = trial.with_deviator_times(left / von_mises);
+        Some(self.returned(stress, left, strain + increment, temperature, increment))
+    }
+
+    /// With works and heat.
+    #[inline(always)]
+    pub(super) fn returned(
+        &self,
+        stress: Stress,
+        von_mises: f64,
+        strain: f64,
+        temperature: f64,
+        increment: f64,
+    ) -> Returned {
+        let plastic_work = von_mises * increment;
+        Returned {
+            stress,
+            von_mises,
+            strain,
+            temperature: temperature + self.heating * plastic_work,
+            increment,
+            plastic_work,
+            energy_released: plastic_work + 1.5 * self.mu * increment * increment,
+        }
+    }
+
+    /// Δε_p and q of the laws without a closed form.
+    fn iterate(
+        &self,
+        von_mises: f64,
+        strain: f64,
+        rise: f64,
+        dt: f64,
+        static_flow: Flow,
+    ) -> Option<(f64, f64)> {
+        let three_mu = 3.0 * self.mu;
+        if static_flow.stress == 0.0 {
+            // Molten: all of the deviator becomes plastic strain.
+            return Some((von_mises / three_mu, 0.0));
+        }
+        if dt == 0.0 && self.hardening.rate().is_some() {
+            return None;
+        }
+        // Without a rate's factor the rate does not matter, but 0/0 would.
+        let dt = if dt == 0.0 { 1.0 } else { dt };
+        let hardening = &self.hardening;
+        let heating = self.heating;
+        Some(Trial { hardening, von_mises, strain, rise, dt, three_mu, heating, static_flow }.solve())
+    }
+}

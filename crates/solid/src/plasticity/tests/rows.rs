@@ -1,0 +1,80 @@
+//! Rows against single cells.
+
+use super::{Dice, STEEL, laws};
+use crate::plasticity::{PlasticRows, Plasticity, Stress};
+
+/// Columns zz, zr, rr, φφ, ε_p, T of `n` cells, of which about a share `beyond` yields.
+fn columns(dice: &mut Dice, n: usize, beyond: f64) -> [Vec<f64>; 6] {
+    let mut columns: [Vec<f64>; 6] = std::array::from_fn(|_| Vec::with_capacity(n));
+    for _ in 0..n {
+        // Some without any stress, as cells are where nothing has come yet.
+        let elastic = if dice.unit() < 0.1 { 0.0 } else { 2e7 };
+        let size = if dice.unit() < beyond { 2e9 } else { elastic };
+        for column in &mut columns[..4] {
+            column.push(size * (2.0 * dice.unit() - 1.0));
+        }
+        columns[4].push(0.1 * dice.unit());
+        columns[5].push(250.0 + 300.0 * dice.unit());
+    }
+    columns
+}
+
+#[test]
+fn rows_return_what_single_cells_return() {
+    let mut dice = Dice::new(11);
+    for hardening in laws() {
+        let plasticity = Plasticity::new(hardening, STEEL);
+        for (n, beyond) in [(1, 1.0), (63, 0.5), (200, 0.05), (256, 0.0), (300, 1.0)] {
+            let before = columns(&mut dice, n, beyond);
+            let mut after = before.clone();
+            let [zz, zr, rr, phiphi, strain, temperature] = &mut after;
+            let temperature: &mut [f64] = if plasticity.has_heat() { temperature } else { &mut [] };
+            let mut told = Vec::new();
+            let mut rows = PlasticRows {
+                stress_zz: zz,
+                stress_zr: zr,
+                stress_rr: rr,
+                stress_phiphi: phiphi,
+                strain,
+                temperature,
+            };
+            let count = plasticity.return_rows(&mut rows, 1e-9, |k, returned| told.push((k, *returned)));
+            assert_eq!(count, told.len());
+            assert_eq!(count == 0, beyond == 0.0);
+            let mut told = told.into_iter();
+            for k in 0..n {
+                let [zz, zr, rr, phiphi, strain, temperature] = [0, 1, 2, 3, 4, 5].map(|c| before[c][k]);
+                let warm = if plasticity.has_heat() { temperature } else { 0.0 };
+                let single = plasticity.return_map(Stress { zz, zr, rr, phiphi }, strain, warm, 1e-9);
+                let bits = |numbers: [f64; 6]| numbers.map(f64::to_bits);
+                let expected = match single {
+                    None => [zz, zr, rr, phiphi, strain, temperature],
+                    Some(returned) => {
+                        assert_eq!(told.next(), Some((k, returned)));
+                        let Stress { zz, zr, rr, phiphi } = returned.stress;
+                        let temperature =
+                            if plasticity.has_heat() { returned.temperature } else { temperature };
+                        [zz, zr, rr, phiphi, returned.strain, temperature]
+                    }
+                };
+                assert_eq!(bits([0, 1, 2, 3, 4, 5].map(|c| after[c][k])), bits(expected), "cell {k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_quick_look_never_overlooks_a_cell_that_yields() {
+    let mut dice = Dice::new(3);
+    for hardening in laws() {
+        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+        for _ in 0..5000 {
+            let (strain, temperature) = (dice.power(-9.0, 0.5), 250.0 + 1200.0 * dice.unit());
+            let strength = hardening.yield_stress(strain, 0.0, temperature);
+            let q = strength * (1.0 + 1e-9) + 1.0;
+            let trial = Stress { zz: q, ..Stress::default() };
+            let returned = plasticity.return_map(trial, strain, temperature, 1e-9);
+            assert!(returned.is_some(), "{hardening:?} at {strain:e}, {temperature} K");
+        }
+    }
+}
