@@ -12,12 +12,13 @@ import argparse
 import sys
 from pathlib import Path
 
+from pycav import plot
+
 from paper.head_waves import head_waves
 from paper.picture_file import save
 from paper.readings import report
 from paper.study import MICRO, Study
 from paper.wall_front import wall_front
-from pycav import plot
 
 STEELS = {"structural steel": 250e6, "stainless steel": 502e6}
 SOFT = {"aluminium": 95e6, "copper": 70e6}
@@ -28,14 +29,20 @@ def of_result(draw, **options):
     return lambda study, time, window: draw(study.result, time=time, window=window, **options)
 
 
+def interface(what, reach):
+    """What has to be continuous, and up to `reach` radii off the wall along the axis."""
+    return lambda study, time, window: plot.interface_continuity(
+        study.result, time, window, what=[what], reach=reach * study.radius)
+
+
 def yielding(materials):
     return of_result(plot.yield_function, yield_strength=list(materials.values()), names=list(materials))
 
 
 KINDS = {
     "schlieren": of_result(plot.schlieren), "streamlines": of_result(plot.streamlines), "headwaves": head_waves,
-    "velocity": of_result(plot.interface_continuity, what=["velocity"]),
-    "pressure": of_result(plot.interface_continuity, what=["stress"]), "levels": of_result(plot.grid_levels),
+    "velocity": interface("velocity", 0.1),
+    "pressure": interface("stress", 0.6), "levels": of_result(plot.grid_levels),
     "bubble": of_result(plot.close_up), "yield": yielding(STEELS), "yield-soft": yielding(SOFT),
 }
 # Windows (z from, z to, r up to) in radii of the bubble, z counted from the wall.

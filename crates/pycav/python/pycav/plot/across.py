@@ -21,13 +21,14 @@ MEGA = 1e-6
 @styled
 def interface_continuity(
     run: Run, time: float | None = None, window: Window | None = None, *, what: Sequence[str] = ("velocity", "stress"),
-    levels: bool = False,
+    reach: float | None = None, levels: bool = False,
 ) -> Figure:
     """v_z in both media, and |σ_zz| beside |p|, each on one scale: nothing may jump at the interface.
 
     Below, the same along the axis.
 
     - `what`: "velocity", "stress", or both, a panel each.
+    - `reach`: of the lines below, off the wall, m; else a fifth of the window.
     - `levels`: outlines of the levels of refinement.
     """
     section = Section.of(run, time, window)
@@ -36,14 +37,15 @@ def interface_continuity(
     if not what or not set(what) <= set(PANELS):
         raise ValueError(f'what are "velocity" and "stress", not {what!r}')
     figure, panels = section.canvas(len(what), foot=2.75)
+    near = 0.2 * (section.box[1] - section.box[0]) if reach is None else reach
     for name, axes in zip(what, panels):
-        PANELS[name](figure, section, axes)
+        PANELS[name](figure, section, axes, near)
         if levels:
             section.levels(axes)
     return figure
 
 
-def _velocity(figure: Figure, section: Section, axes: Axes) -> None:
+def _velocity(figure: Figure, section: Section, axes: Axes, reach: float) -> None:
     images = section.images({medium: snapshot["velocity"][:, 0] for medium, snapshot in section.snapshots.items()})
     top = max(1.0, *(float(np.nanpercentile(np.abs(image), 99.95)) for _, image in images))
     # From a hundredth of a metre per second in the solid to hundreds in the jet: linear only about 0.
@@ -53,10 +55,10 @@ def _velocity(figure: Figure, section: Section, axes: Axes) -> None:
     bar(figure, axes, drawn[-1], label, extend="both", up=2.2, ticks=signed_powers(top, (-1, 1, 3)))
     section.bubble(axes)
     section.names(axes, "Normal velocity")
-    _below(figure, section, axes, {"solid": ("velocity", 1.0), "fluid": ("velocity", 1.0)}, label)
+    _below(figure, section, axes, {"solid": ("velocity", 1.0), "fluid": ("velocity", 1.0)}, label, reach)
 
 
-def _stress(figure: Figure, section: Section, axes: Axes) -> None:
+def _stress(figure: Figure, section: Section, axes: Axes, reach: float) -> None:
     fields = {"solid": "stress_zz", "fluid": "pressure"}
     images = section.images({medium: MEGA * np.abs(section.snapshots[medium][name]) for medium, name in fields.items()})
     highest = max(float(np.nanmax(image)) for _, image in images)
@@ -64,7 +66,8 @@ def _stress(figure: Figure, section: Section, axes: Axes) -> None:
     drawn = [section.show(axes, raster, image, cmap="cividis", norm=norm) for raster, image in images]
     bar(figure, axes, drawn[-1], r"$|\sigma_{zz}|$ and $|p|$ / MPa", extend="min", up=2.2)
     section.names(axes, "Normal stress")
-    _below(figure, section, axes, {"solid": ("stress_zz", -MEGA), "fluid": ("pressure", MEGA)}, r"$-\sigma_{zz}$, $p$ / MPa")
+    fields_below = {"solid": ("stress_zz", -MEGA), "fluid": ("pressure", MEGA)}
+    _below(figure, section, axes, fields_below, r"$-\sigma_{zz}$, $p$ / MPa", reach)
 
 
 PANELS = {"velocity": _velocity, "stress": _stress}
@@ -79,13 +82,14 @@ def along(snapshot: Snapshot, values: Floats, r: float) -> tuple[Floats, Floats]
     return z, mesh.sample(values, np.column_stack([z, np.full_like(z, r)]))
 
 
-def _below(figure: Figure, section: Section, axes: Axes, fields: dict[str, tuple[str, float]], label: str) -> None:
+def _below(
+    figure: Figure, section: Section, axes: Axes, fields: dict[str, tuple[str, float]], label: str, reach: float
+) -> None:
     """A small panel below another one: the quantity along the axis through the interface."""
     wall = section.wall or 0.0
     place, inch = axes.get_position(), 1 / figure.get_figheight()
     aside = 0.02 if place.x0 > 0.5 else 0.0  # so that its numbers are not over the panel to the left
     below = figure.add_axes((place.x0 + aside, 0.42 * inch, place.width - aside, 1.1 * inch))
-    reach = 0.2 * (section.box[1] - section.box[0])
     scale, letter = prefix(reach)
     for (medium, (name, factor)), colour in zip(fields.items(), (BLUE, ORANGE)):
         snapshot = section.snapshots[medium]
