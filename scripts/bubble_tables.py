@@ -19,13 +19,8 @@ import program
 from bubble import free, robustness, roundness, sides, stand_off, wall
 
 TABLES = {
-    "free": free.table,
-    "round": roundness.table,
-    "parts": free.parts,
-    "wall": wall.table,
-    "robustness": robustness.table,
-    "stand-off": stand_off.table,
-    "sides": sides.table,
+    "free": free.table, "round": roundness.table, "parts": free.parts, "wall": wall.table, "robustness": robustness.table,
+    "stand-off": stand_off.table, "sides": sides.table,
 }
 
 

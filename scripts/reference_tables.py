@@ -23,16 +23,9 @@ import program
 from reference import lamb, pictures, plane, pulse
 
 TABLES = {
-    "plane": plane.table,
-    "oblique": plane.oblique,
-    "materials": plane.materials,
-    "rest": plane.rest,
-    "pulse": pulse.refinement,
-    "arrivals": pulse.arrivals,
-    "bubble": pulse.beside_bubble,
-    "grids": pulse.grids,
-    "solid": lamb.table,
-    "pictures": pictures.draw,
+    "plane": plane.table, "oblique": plane.oblique, "materials": plane.materials, "rest": plane.rest,
+    "pulse": pulse.refinement, "arrivals": pulse.arrivals, "bubble": pulse.beside_bubble, "grids": pulse.grids,
+    "solid": lamb.table, "pictures": pictures.draw,
 }
 
 

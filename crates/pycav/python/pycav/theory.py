@@ -19,7 +19,7 @@ RAYLEIGH_FACTOR = float(beta(5 / 6, 1 / 2) / np.sqrt(6))
 def rayleigh_wave_speed(c1: float, c2: float) -> float:
     """The speed c of waves on a solid's free surface, m/s: (2 − c²/c₂²)² = 4 √(1 − c²/c₁²) √(1 − c²/c₂²).
 
-    - `c1`, `c2`: speeds of dilatational and of shear waves, m/s, c₁ > √2 c₂.
+    - `c1`, `c2`: speeds of dilatational and of shear waves, m/s, c₁ ≥ √2 c₂.
     """
     def excess(c: float) -> float:
         left = (2 - (c / c2) ** 2) ** 2
