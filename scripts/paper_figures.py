@@ -36,7 +36,8 @@ def interface(what, reach):
 
 
 def yielding(materials):
-    return of_result(plot.yield_function, yield_strength=list(materials.values()), names=list(materials))
+    return of_result(plot.yield_function, yield_strength=list(materials.values()), names=list(materials),
+                     one_scale=False)
 
 
 KINDS = {

@@ -81,6 +81,9 @@ def test_the_yield_function_is_the_stress_less_the_strength(result):
     for image, strength in zip(shown, strengths):
         assert 1e6 * np.nanmax(image.get_array()) == pytest.approx(stress.max() - strength)
         assert image.norm.vcenter == 0
+    assert len({id(image.norm) for image in shown}) == 1
+    own = images(pycav.plot.yield_function(result, strengths, 50e-6, one_scale=False))
+    assert [image.norm.vmin for image in own] == [pytest.approx(-1e-6 * strength) for strength in strengths]
     with pytest.raises(ValueError, match="no solid"):
         pycav.plot.yield_function(_rigid(result), 1e6)
 
