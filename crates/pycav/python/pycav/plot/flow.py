@@ -69,7 +69,8 @@ def _trace(raster: Raster, v_z: Floats, v_r: Floats, density: Floats) -> list[Fl
     off = max(1, len(raster.r) // 40)
     z, r = raster.z, raster.r[off:]
     axes.set(xlim=(z[0], z[-1]), ylim=(r[0], r[-1]))
-    lines = axes.streamplot(z, r, v_z[off:], v_r[off:], density=(float(density[0]), float(density[1])), minlength=0.2, maxlength=8).lines
+    across, along = (float(part) for part in density)
+    lines = axes.streamplot(z, r, v_z[off:], v_r[off:], density=(across, along), minlength=0.2, maxlength=8).lines
     joined: list[list[Any]] = []
     for segment in lines.get_segments():
         if joined and np.allclose(joined[-1][-1], segment[0], rtol=0, atol=1e-9 * (z[-1] - z[0])):
