@@ -13,34 +13,22 @@ Runs `cav` (target/release/cav, or --cav) in a directory of its own (--out) and 
 scripts/requirements.txt.
 """
 
-import argparse
 from pathlib import Path
 
+import program
 from bubble import free, robustness, roundness, sides, stand_off, wall
 
 TABLES = {
-    "free": free.table,
-    "round": roundness.table,
-    "parts": free.parts,
-    "wall": wall.table,
-    "robustness": robustness.table,
-    "stand-off": stand_off.table,
-    "sides": sides.table,
+    "free": free.table, "round": roundness.table, "parts": free.parts, "wall": wall.table, "robustness": robustness.table,
+    "stand-off": stand_off.table, "sides": sides.table,
 }
 
 
-def main():
-    root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("table", choices=TABLES)
+def add_options(parser):
     parser.add_argument("--cells", type=int, nargs="+", help="cells per radius")
     parser.add_argument("--model", default="five-equation", help="of round: the two-phase model")
-    parser.add_argument("--cav", type=Path, default=root / "target/release/cav")
-    parser.add_argument("--out", type=Path, default=Path("bubble-tables"))
     parser.add_argument("--picture", type=Path, help="of stand-off: draws the curves, too")
-    options = parser.parse_args()
-    TABLES[options.table](options)
 
 
 if __name__ == "__main__":
-    main()
+    program.run_table(__doc__, "bubble-tables", TABLES, add_options)

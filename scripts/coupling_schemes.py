@@ -9,13 +9,13 @@ there; root mean squares from 48 to 56 µs, in which the water hammer's shock pa
 that of the paper's Δt = 10⁻¹⁰ s on its finest grid. Needs scripts/requirements.txt.
 """
 
-import argparse
-import json
 import subprocess
 from pathlib import Path
 
-import h5py
 import numpy as np
+import pycav
+
+import program
 
 SCHEMES = {
     "`riemann`": [],
@@ -32,34 +32,24 @@ WALL, CELL = 0.01, 0.05 / 256
 PROBES = [("above", WALL + 0.5 * CELL, "fluid"), ("below", WALL - 0.5 * CELL, "solid"), ("deep", WALL - 2e-3, "solid")]
 
 
-def run(options, cfl, name, changes):
-    """Runs a case unless it is there; returns its directory, or None if it failed numerically."""
+def run(options, cfl, changes):
+    """Runs a case unless it is there, as far as it goes; returns its result."""
     directory = options.out / f"{cfl}-{'-'.join(change.split('=')[1] for change in changes) or 'riemann'}"
     if not (directory / "summary.json").exists():
         probes = ", ".join(f'{{ name = "{name}", position = [{z!r}, {0.5 * CELL!r}], medium = "{medium}" }}'
                            for name, z, medium in PROBES)
         sets = [f"time.cfl={cfl}", "coupling.step_ratio=1", f"probe=[{probes}]", *changes]
-        command = [options.cav, "run", options.case, "--out", directory, "-q", "--in-process", "--threads", "1"]
-        subprocess.run([*command, *(part for change in sets for part in ("--set", change))], check=False)
-    return directory
+        command = program.command(options.cav, options.case, directory, sets, "--in-process", "--threads", "1")
+        subprocess.run(command, check=False)
+    return pycav.open(directory)
 
 
-def mises(probe):
-    zz, rr, pp, zr = (probe[f"stress_{name}"][:] for name in ("zz", "rr", "phiphi", "zr"))
-    return np.sqrt(0.5 * ((zz - rr) ** 2 + (rr - pp) ** 2 + (pp - zz) ** 2) + 3.0 * zr**2).max()
-
-
-def row(directory):
-    summary = json.loads((directory / "summary.json").read_text())
-    with h5py.File(directory / "history.h5") as file:
-        probes = file["probes"]
-        time = probes["above/time"][:]
-        during = (time > WINDOW[0]) & (time < WINDOW[1])
-        below = {key: np.interp(time, probes["below/time"][:], probes[f"below/{key}"][:])
-                 for key in ("velocity_z", "stress_zz")}
-        kinematic = (probes["above/velocity_z"][:] - below["velocity_z"])[during]
-        dynamic = (-probes["above/pressure"][:] - below["stress_zz"])[during]
-        deep = mises(probes["deep"])
+def row(result):
+    summary, above, deep = result.summary, result.probes["above"], float(result.probes["deep"]["von_mises"].max())
+    below = result.probes["below"].interp(time=above["time"], kwargs={"fill_value": "extrapolate"})
+    during = (above["time"] > WINDOW[0]) & (above["time"] < WINDOW[1])
+    kinematic = (above["velocity_z"] - below["velocity_z"])[during].to_numpy()
+    dynamic = (-above["pressure"] - below["stress_zz"])[during].to_numpy()
     ended = "" if summary["completed"] else f", failed at {summary['t_end'] * 1e6:.1f} µs"
     sizes = [f"{np.sqrt(np.mean(error**2)) / unit:.3g}" if error.size else "–"
              for error, unit in ((kinematic, 1.0), (dynamic, 1e6))]
@@ -69,19 +59,16 @@ def row(directory):
 
 
 def main():
-    root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = program.parser(__doc__, "coupling-schemes")
     parser.add_argument("--cfl", type=float, nargs="+", default=[0.45, 0.098])
-    parser.add_argument("--out", type=Path, default=Path("coupling-schemes"))
-    parser.add_argument("--case", type=Path, default=root / "cases/dickopp2012-coarse.toml")
-    parser.add_argument("--cav", type=Path, default=root / "target/release/cav")
+    parser.add_argument("--case", type=Path, default=program.ROOT / "cases/dickopp2012-coarse.toml")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     for cfl in options.cfl:
         print(f"\nCourant number {cfl}\n\n| scheme | wall pressure, MPa | largest σ_vM, MPa | σ_vM 2 mm below the wall, MPa "
               "| ε_k, m/s | ε_d, MPa | iterations a step |\n|---|---|---|---|---|---|---|")
         for name, changes in SCHEMES.items():
-            print(f"| {name} | " + " | ".join(row(run(options, cfl, name, changes))) + " |", flush=True)
+            print(f"| {name} | " + " | ".join(row(run(options, cfl, changes))) + " |", flush=True)
 
 
 if __name__ == "__main__":

@@ -6,17 +6,20 @@
 Runs the figures' case (cases/dickopp2012.toml, or --case) with both models at the same time, one thread each on a core of its
 own, and once more with the cores exchanged: what else the machine does meets both alike. With --uniform all cells are of
 the finest level and both models have the same. Prints the fluid's processor time per
-cell and step of one over the other, the median and the range of the pairs, as Markdown. Needs two cores, and Linux.
+cell and step of one over the other, the median and the range of the pairs, as Markdown. Needs two cores, Linux, and
+scripts/requirements.txt.
 """
 
-import argparse
-import json
 import math
 import os
 import statistics
 import subprocess
 import tempfile
 from pathlib import Path
+
+import pycav
+
+import program
 
 MODELS = ("five-equation", "saurel-abgrall")
 # The same cells for both models: `--uniform`.
@@ -30,15 +33,14 @@ def start(options, model, levels, limiter, core, out):
                 "solid.levels": levels - COARSER, "time.snapshots": "[]"}
     if options.uniform:
         settings |= UNIFORM
-    command = [str(options.cav), "run", str(options.case), "--in-process", "--out", str(out), "-q", "--force"]
-    for key, value in settings.items():
-        command += ["--set", f"{key}={value}"]
+    changes = [f"{key}={value}" for key, value in settings.items()]
+    command = program.command(options.cav, options.case, out, changes, "--in-process")
     return subprocess.Popen(command, env=dict(os.environ, RAYON_NUM_THREADS="1"),
                             preexec_fn=lambda: os.sched_setaffinity(0, {core}))
 
 
 def seconds_per_cell(out):
-    summary = json.loads((out / "summary.json").read_text())
+    summary = pycav.open(out).summary
     return summary["compute_seconds"]["fluid"] / summary["cell_updates"]["fluid"], summary["steps"]
 
 
@@ -52,14 +54,12 @@ def both(options, levels, limiter, cores, directory):
 
 
 def main():
-    root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = program.parser(__doc__)
     parser.add_argument("--levels", type=int, nargs="+", default=[6, 7])
     parser.add_argument("--limiters", nargs="+", default=["mc", "minmod"])
     parser.add_argument("--pairs", type=int, default=4)
     parser.add_argument("--uniform", action="store_true")
-    parser.add_argument("--case", type=Path, default=root / "cases/dickopp2012.toml")
-    parser.add_argument("--cav", type=Path, default=root / "target/release/cav")
+    parser.add_argument("--case", type=Path, default=program.ROOT / "cases/dickopp2012.toml")
     options = parser.parse_args()
     cores = sorted(os.sched_getaffinity(0))[:2]
     print("| levels | limiter | five-equation | the paper's mixture | per cell and step, median (range) |\n|---|---|---|---|---|")

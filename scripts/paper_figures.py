@@ -12,23 +12,39 @@ import argparse
 import sys
 from pathlib import Path
 
-from across_interface import pressure, velocity
-from bubble_close_up import close_up
-from drawing import save, style
-from flow_lines import pathlines, streamlines
-from grid_levels import levels
-from histories import histories
-from readings import report
-from run_directory import MICRO, Run
-from wall_front import wall_front
-from waves import headwaves, schlieren
-from yielding import SOFT, STEELS, yielding
+from pycav import plot
+
+from paper.head_waves import head_waves
+from paper.picture_file import save
+from paper.readings import report
+from paper.study import MICRO, Study
+from paper.wall_front import wall_front
+
+STEELS = {"structural steel": 250e6, "stainless steel": 502e6}
+SOFT = {"aluminium": 95e6, "copper": 70e6}
+
+
+def of_result(draw, **options):
+    """A kind of picture that is one of pycav's."""
+    return lambda study, time, window: draw(study.result, time=time, window=window, **options)
+
+
+def interface(what, reach):
+    """What has to be continuous, and up to `reach` radii off the wall along the axis."""
+    return lambda study, time, window: plot.interface_continuity(
+        study.result, time, window, what=[what], reach=reach * study.radius)
+
+
+def yielding(materials):
+    return of_result(plot.yield_function, yield_strength=list(materials.values()), names=list(materials),
+                     one_scale=False)
+
 
 KINDS = {
-    "schlieren": schlieren, "streamlines": streamlines, "headwaves": headwaves, "velocity": velocity,
-    "pressure": pressure, "levels": levels, "bubble": close_up,
-    "yield": lambda run, time, window: yielding(run, time, window, STEELS),
-    "yield-soft": lambda run, time, window: yielding(run, time, window, SOFT),
+    "schlieren": of_result(plot.schlieren), "streamlines": of_result(plot.streamlines), "headwaves": head_waves,
+    "velocity": interface("velocity", 0.1),
+    "pressure": interface("stress", 0.6), "levels": of_result(plot.grid_levels),
+    "bubble": of_result(plot.close_up), "yield": yielding(STEELS), "yield-soft": yielding(SOFT),
 }
 # Windows (z from, z to, r up to) in radii of the bubble, z counted from the wall.
 WIDE, CLOSE, DEEP, DEEPER = (-4.5, 4.5, 4.5), (-1.5, 3.0, 2.25), (-3.5, 0.0, 3.5), (-3.0, 0.0, 3.0)
@@ -50,6 +66,15 @@ FIGURES = [
 ]
 
 
+def pathlines(study):
+    return plot.pathlines(study.result, study.window(WIDE), spacing=study.radius / 5, substeps=16)
+
+
+def histories(study):
+    probes = [name for name in study.result.probes if name == "solid-2mm"]
+    return plot.histories(study.result, theory=False, yield_strength=list(STEELS.values()), probes=probes, place=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("run", type=Path, metavar="RUN_DIR", help="directory of a coupled run")
@@ -57,35 +82,33 @@ def main():
     parser.add_argument("--all", action="store_true", help="every kind at every snapshot instead")
     parser.add_argument("--only", metavar="NAME", help="only pictures whose name contains this, and no numbers")
     arguments = parser.parse_args()
-    run = Run(arguments.run)
+    study = Study(arguments.run)
     arguments.out.mkdir(parents=True, exist_ok=True)
-    style()
 
     figures = FIGURES
     if arguments.all:
         windows = dict.fromkeys(KINDS, WIDE)
         windows |= {"yield": DEEP, "yield-soft": DEEPER, "headwaves": HEAD, "bubble": BUBBLE}
-        figures = [(f"{time * MICRO:05.2f}us", kind, time * MICRO / run.slowness, windows[kind])
-                   for time in run.fluid.times for kind in KINDS]
+        figures = [(f"{time * MICRO:05.2f}us", kind, time * MICRO / study.slowness, windows[kind])
+                   for time in study.result.fluid.times for kind in KINDS]
     for name, kind, microseconds, window in figures:
-        time = run.time_of(microseconds)
+        time = study.time_of(microseconds)
         file = f"{name}.png" if name == kind else f"{name}-{kind}.png"
         if arguments.only and arguments.only not in file:
             continue
         if time is None:
-            print(f"{file}: left out, no snapshot near {microseconds * run.slowness:g} µs", file=sys.stderr)
+            print(f"{file}: left out, no snapshot near {microseconds * study.slowness:g} µs", file=sys.stderr)
             continue
-        save(KINDS[kind](run, time, window), arguments.out / file)
-    for file, draw in (("pathlines.png", lambda run: pathlines(run, WIDE)), ("histories.png", histories),
-                       ("wall-front.png", wall_front)):
+        save(KINDS[kind](study, time, study.window(window)), arguments.out / file)
+    for file, draw in (("pathlines.png", pathlines), ("histories.png", histories), ("wall-front.png", wall_front)):
         if arguments.only and arguments.only not in file:
             continue
-        if file == "pathlines.png" and len(run.fluid.times) < 40:
+        if file == "pathlines.png" and len(study.result.fluid.times) < 40:
             print(f"{file}: left out, needs 40 snapshots or more", file=sys.stderr)
             continue
-        save(draw(run), arguments.out / file)
+        save(draw(study), arguments.out / file)
     if not arguments.only:
-        report(run, {figure[2] for figure in FIGURES})
+        report(study, {figure[2] for figure in FIGURES})
 
 
 if __name__ == "__main__":

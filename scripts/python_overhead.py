@@ -8,7 +8,6 @@ values of what they took and the ratios (pycav to cav). Starting Python and impo
 own. On a machine with other work look at the processors' time and at the smallest values. Needs pycav installed.
 """
 
-import argparse
 import json
 import os
 import statistics
@@ -17,6 +16,10 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+
+import pycav
+
+import program
 
 RUN = """
 import json, resource, sys, time
@@ -41,14 +44,11 @@ ROWS = [("computing", "as the summary has it: all steps of both media"), ("wall"
 
 def computing(out):
     """Seconds that the run's own clocks counted."""
-    summary = json.loads((out / "summary.json").read_text())
-    return sum(summary["compute_seconds"].values())
+    return sum(pycav.open(out).summary["compute_seconds"].values())
 
 
 def by_command_line(cav, case, sets, out, threads):
-    command = [cav, "run", case, "--in-process", "--quiet", "--threads", str(threads), "--out", str(out)]
-    for change in sets:
-        command += ["--set", change]
+    command = program.command(cav, case, out, sets, "--in-process", "--threads", str(threads))
     begin = time.perf_counter()
     child = subprocess.Popen(command)
     _, status, used = os.wait4(child.pid, 0)
@@ -69,12 +69,11 @@ def by_python(case, sets, out, threads):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = program.parser(__doc__)
     parser.add_argument("case")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--cav", default=str(Path(__file__).parents[1] / "target/release/cav"))
     options = parser.parse_args()
     command_line, python = [], []
     with tempfile.TemporaryDirectory() as place:

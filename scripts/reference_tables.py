@@ -17,39 +17,25 @@ Runs `cav` (target/release/cav, or --cav) in a directory of its own (--out), wit
 prints Markdown. The exact solutions are CSV files in --data. Needs scripts/requirements.txt.
 """
 
-import argparse
 from pathlib import Path
 
+import program
 from reference import lamb, pictures, plane, pulse
 
 TABLES = {
-    "plane": plane.table,
-    "oblique": plane.oblique,
-    "materials": plane.materials,
-    "rest": plane.rest,
-    "pulse": pulse.refinement,
-    "arrivals": pulse.arrivals,
-    "bubble": pulse.beside_bubble,
-    "grids": pulse.grids,
-    "solid": lamb.table,
-    "pictures": pictures.draw,
+    "plane": plane.table, "oblique": plane.oblique, "materials": plane.materials, "rest": plane.rest,
+    "pulse": pulse.refinement, "arrivals": pulse.arrivals, "bubble": pulse.beside_bubble, "grids": pulse.grids,
+    "solid": lamb.table, "pictures": pictures.draw,
 }
 
 
-def main():
-    root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("table", choices=TABLES)
+def add_options(parser):
     parser.add_argument("--cells", type=int, nargs="+", help="cells per width of the pulse or the load")
     parser.add_argument("--far", action="store_true", help="all receivers, to 16 mm and 16 µs, instead of 2 mm and 3 µs")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a change of every case")
-    parser.add_argument("--data", type=Path, default=root.parent / "shared/reference/data")
-    parser.add_argument("--cav", type=Path, default=root / "target/release/cav")
-    parser.add_argument("--out", type=Path, default=Path("reference-tables"))
+    parser.add_argument("--data", type=Path, default=program.ROOT.parent / "shared/reference/data")
     parser.add_argument("--threads", type=int, default=1)
-    options = parser.parse_args()
-    TABLES[options.table](options)
 
 
 if __name__ == "__main__":
-    main()
+    program.run_table(__doc__, "reference-tables", TABLES, add_options)

@@ -10,13 +10,14 @@ its cells per radius), and prints a table of what can be read off. Needs scripts
 import argparse
 from pathlib import Path
 
-import h5py
-import matplotlib.pyplot as plt
+import matplotlib as mpl
 import numpy as np
+import pycav
+from matplotlib.figure import Figure
+from pycav.plot.style import styled
 
-from drawing import save, style
-from histories import von_mises
-from run_directory import MEGA, MICRO, MILLI
+from paper.picture_file import save
+from paper.study import MEGA, MICRO, MILLI
 
 RADIUS, WALL = 0.01, 0.01
 NEAR = 0.1 * RADIUS
@@ -26,13 +27,14 @@ STAINLESS = 502e6
 class Histories:
     def __init__(self, argument):
         self.cells, directory = argument.split("=", 1)
-        with h5py.File(Path(directory) / "history.h5") as file:
-            self.time, self.wall = file["time"][:], file["wall/pressure_axis"][:]
-            self.radius, self.jet = file["bubble/equivalent_radius"][:] / RADIUS, file["bubble/jet_velocity"][:]
-            self.solid_time, self.stress = file["solid/time"][:], file["solid/von_mises_max"][:]
-            self.place = file["solid/von_mises_max_position"][:]
-            probe = file["probes/solid-2mm"] if "probes/solid-2mm" in file else file["probes/deep"]
-            self.deep_time, self.deep = probe["time"][:], von_mises(probe)
+        result = pycav.open(directory)
+        self.time, self.wall, radius, self.jet, self.solid_time, self.stress, self.place = (
+            result.histories[name].to_numpy() for name in (
+                "time", "wall/pressure_axis", "bubble/equivalent_radius", "bubble/jet_velocity", "solid/time",
+                "solid/von_mises_max", "solid/von_mises_max_position"))
+        self.radius = radius / RADIUS
+        probe = result.probes["solid-2mm" if "solid-2mm" in result.probes else "deep"]
+        self.deep_time, self.deep = probe["time"].to_numpy(), probe["von_mises"].to_numpy()
 
     def row(self):
         smallest = self.radius.argmin()
@@ -55,11 +57,13 @@ class Histories:
                 first_above]
 
 
+@styled
 def draw(columns):
-    figure, axes = plt.subplots(3, 2, sharex=True, sharey="row", figsize=(8.4, 6.4),
-                                gridspec_kw=dict(height_ratios=(1, 1.5, 1.5), hspace=0.08, wspace=0.05))
+    figure = Figure(figsize=(8.4, 6.4))
+    axes = figure.subplots(3, 2, sharex=True, sharey="row",
+                           gridspec_kw=dict(height_ratios=(1, 1.5, 1.5), hspace=0.08, wspace=0.05))
     for column, (title, runs) in zip(axes.T, columns):
-        shades = plt.get_cmap("viridis")(np.linspace(0.85, 0.05, len(runs)))
+        shades = mpl.colormaps["viridis"](np.linspace(0.85, 0.05, len(runs)))
         for run, colour in zip(runs, shades):
             line = dict(color=colour, linewidth=1, label=f"{run.cells} cells per radius")
             column[0].plot(run.time * MICRO, run.radius, **line)
@@ -84,7 +88,6 @@ def main():
     parser.add_argument("--five", nargs="+", type=Histories, required=True, metavar="CELLS=DIR")
     options = parser.parse_args()
     columns = [("the paper's mixture", options.mixture), ("five-equation model", options.five)]
-    style()
     save(draw(columns), options.out)
     print("| model | cells per radius | smallest R_eq | jet before that | wall pressure on the axis | σ_vM near the axis | 2 mm deep "
           "| σ_vM anywhere | above 502 MPa |\n|---|---|---|---|---|---|---|---|---|")

@@ -2,7 +2,7 @@
 
 import itertools
 
-from .runs import rayleigh_time, run, box_side
+from .runs import box_side, rayleigh_time, run
 
 RADIUS = 1e-3
 # Ambient pressure and gas pressure; the gas is air at 293 K.

@@ -1,15 +1,10 @@
 """How round a free bubble stays: half of it in front of a plane of symmetry."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
+from pycav.mesh import Raster
 
 from .free import CASES, RADIUS, exact
 from .runs import box_side, run
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from snapshots import Raster, Series  # noqa: E402
 
 # Radii at which is looked, in initial ones, as far as the exact bubble has them.
 RADII = [0.7, 0.5, 0.3, 0.2, 0.1]
@@ -24,10 +19,10 @@ def when(curve, radius):
     return float(np.interp(-radius * RADIUS, -r[: until + 1], t[: until + 1]))
 
 
-def gas(series, step, reach):
+def gas(snapshot, reach):
     """Centres of pixels along z and r, and the gas fraction there, within `reach` of the centre."""
-    raster = Raster(series.mesh(step), (0.0, reach, 0.0, reach), MOST)
-    return raster.z, raster.r, raster.paint(series.field("gas_fraction", step)).T
+    raster = Raster(snapshot.mesh, (0.0, reach, 0.0, reach), MOST)
+    return raster.z, raster.r, raster.paint(snapshot["gas_fraction"]).T
 
 
 def surface(z, r, fraction):
@@ -63,9 +58,8 @@ def table(options):
             if code:
                 print(f"| {name} | {cells} | exit code {code} | | |", flush=True)
                 continue
-            series = Series(options.out / f"round-{name}-{cells}" / "fluid.vtkhdf")
             for radius, time in zip(radii, times):
-                z, r, fraction = gas(series, series.nearest(time), 1.6 * radius * RADIUS)
+                z, r, fraction = gas(result.result.fluid.at(time), 1.6 * radius * RADIUS)
                 found = surface(z, r, fraction)
                 mean = np.average(found, weights=np.sin(ANGLES))
                 low, high = found.min() / mean - 1, found.max() / mean - 1

@@ -1,23 +1,22 @@
-"""Case texts of a bubble on the axis, runs of them, and what is read off their histories."""
+"""Cases of a bubble on the axis, runs of them, and what is read off their histories."""
 
-import json
-import subprocess
-
-import h5py
 import numpy as np
+import pycav
+from pycav.theory import RAYLEIGH_FACTOR
+
+import program
 
 ROOT_CELLS = 32  # cells of the coarsest grid along a side
+LIQUID, GAS = {"gamma": 7.15, "pi": 3e8}, {"gamma": 1.4, "pi": 0.0}
 
 
 class Run:
     """What a run left: its summary, and the gas volume against time."""
 
-    def __init__(self, directory):
-        self.summary = json.loads((directory / "summary.json").read_text())
-        with h5py.File(directory / "history.h5") as file:
-            self.time = file["time"][:]
-            self.volume = file["bubble/volume"][:]
-            self.jet = file["bubble/jet_velocity"][:]
+    def __init__(self, result):
+        self.result, self.summary = result, result.summary
+        self.time, self.volume, self.jet = (
+            result.histories[name].to_numpy() for name in ("time", "bubble/volume", "bubble/jet_velocity"))
 
     def rebound(self):
         """Time and volume of the largest volume after the first minimum."""
@@ -40,8 +39,8 @@ class Run:
         return time[k] - 0.5 * b / a, volume[k]
 
 
-def case_text(*, pressure, gas, radius, centre, side, cells, end, model="five-equation", interface=None,
-              limiter="mc", epsilon=1e-3, wall="rigid", start="uniform", box=None, second=None, snapshots=()):
+def case(*, pressure, gas, radius, centre, side, cells, end, model="five-equation", interface=None, limiter="mc",
+         epsilon=1e-3, wall="rigid", start="uniform", box=None, second=None, snapshots=()):
     """A case: a gas bubble (density, pressure) about (centre, 0) in liquid of a pressure, in a box of a side that is
     2^n times the radius times 32 over the cells per radius; or in a box (z from, z to, r to) of whole radii, with 2^n cells
     per radius. `second`: centre and radius of another bubble."""
@@ -53,83 +52,27 @@ def case_text(*, pressure, gas, radius, centre, side, cells, end, model="five-eq
         levels = round(np.log2(cells))
         z, r = box[:2], box[2]
         roots = round((z[1] - z[0]) / radius), round(r / radius)
-    sharpening = f'interface = "{interface}"\n' if interface else ""
-    began = f'initial_pressure = "{start}"\n' if start != "uniform" else ""
-    solid = ""
-    if wall not in ("rigid", "none"):
-        solid = f"""
-[solid]
-z = [-{r}, 0.0]
-r = [0.0, {r}]
-cells = [{roots[1]}, {roots[1]}]
-levels = {levels}
-epsilon = {epsilon}
-material = "{wall}"
-"""
-    other = "" if second is None else f"""
-[[fluid.region]]
-shape = "sphere"
-centre = [{second[0]}, 0.0]
-radius = {second[1]}
-phase = "gas"
-density = {gas[0]}
-pressure = {gas[1]}
-"""
-    scheme = wall if wall in ("rigid", "none") else "riemann"
-    return f"""geometry = "axisymmetric"
-
-[time]
-end = {end}
-cfl = 0.45
-snapshots = {list(snapshots)}
-
-[fluid]
-z = [{z[0]}, {z[1]}]
-r = [0.0, {r}]
-cells = [{roots[0]}, {roots[1]}]
-levels = {levels}
-epsilon = {epsilon}
-model = "{model}"
-{sharpening}{began}limiter = "{limiter}"
-
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-
-[fluid.gas]
-gamma = 1.4
-pi = 0.0
-
-[fluid.ambient]
-phase = "liquid"
-density = 1000.0
-pressure = {pressure}
-
-[[fluid.region]]
-shape = "sphere"
-centre = [{centre}, 0.0]
-radius = {radius}
-phase = "gas"
-density = {gas[0]}
-pressure = {gas[1]}
-{other}{solid}
-[coupling]
-scheme = "{scheme}"
-"""
+    is_solid = wall not in ("rigid", "none")
+    grid = {"levels": levels, "epsilon": epsilon}
+    bubbles = [(centre, radius), *([second] if second else [])]
+    return pycav.Case.from_dict({
+        "geometry": "axisymmetric",
+        "time": {"end": end, "cfl": 0.45, "snapshots": list(snapshots)},
+        "fluid": grid | {
+            "z": z, "r": (0.0, r), "cells": roots, "model": model, "interface": interface, "limiter": limiter,
+            "initial_pressure": None if start == "uniform" else start, "liquid": LIQUID, "gas": GAS,
+            "ambient": {"phase": "liquid", "density": 1000.0, "pressure": pressure},
+            "region": [{"shape": "sphere", "centre": (place, 0.0), "radius": size, "phase": "gas", "density": gas[0],
+                        "pressure": gas[1]} for place, size in bubbles]},
+        "solid": grid | {"z": (-r, 0.0), "r": (0.0, r), "cells": (roots[1], roots[1]), "material": wall} if is_solid else None,
+        "coupling": {"scheme": "riemann" if is_solid else wall},
+    })
 
 
 def run(options, name, **parameters):
     """Runs a case unless its directory is already complete; returns the run and the command's exit code."""
-    options.out.mkdir(parents=True, exist_ok=True)
-    directory, case = options.out / name, options.out / f"{name}.toml"
-    text = case_text(**parameters)
-    is_known = case.exists() and case.read_text() == text and (directory / "summary.json").exists()
-    if not is_known or not json.loads((directory / "summary.json").read_text()).get("completed"):
-        case.write_text(text)
-        done = subprocess.run([options.cav, "run", case, "--out", directory, "--force", "-q"], check=False)
-        if done.returncode:
-            return None, done.returncode
-    return Run(directory), 0
+    result, code = program.solve(options, name, case(**parameters).to_toml())
+    return result and Run(result), code
 
 
 def box_side(radius):
@@ -139,4 +82,4 @@ def box_side(radius):
 
 def rayleigh_time(radius, pressure, gas_pressure):
     """Rayleigh's collapse time of an empty bubble, 0.915 R √(ρ/Δp), s."""
-    return 0.91468 * radius * np.sqrt(1000.0 / (pressure - gas_pressure))
+    return RAYLEIGH_FACTOR * radius * np.sqrt(1000.0 / (pressure - gas_pressure))

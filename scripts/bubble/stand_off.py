@@ -3,8 +3,10 @@
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
+from pycav.plot.style import BLUE, GREY, ORANGE, legend
 
-from .runs import rayleigh_time, run, box_side
+from .runs import box_side, rayleigh_time, run
 
 RADIUS = 1e-3
 STAND_OFFS = [1.1, 1.3, 1.5, 2.0, 2.5, 3.0]
@@ -53,18 +55,14 @@ def table(options):
 
 def picture(curves, path: Path):
     """Both ratios over the stand-off, with what is known of incompressible liquid."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, (times, jets) = plt.subplots(1, 2, figsize=(7.2, 3.0), layout="constrained")
+    figure = Figure(figsize=(7.2, 3.0), layout="constrained")
+    times, jets = figure.subplots(1, 2)
     known = np.linspace(1.0, 3.1, 100)
-    times.plot(known, 1 + 0.205 / known, color="0.5", label="incompressible, 1 + 0.205 R/d")
+    times.plot(known, 1 + 0.205 / known, color=GREY, label="incompressible, 1 + 0.205 R/d")
     beyond = known[known >= 1.5]
-    jets.plot(beyond, 0.9 / (0.195 / beyond**2), color="0.5", label="Supponen et al. (2016)")
+    jets.plot(beyond, 0.9 / (0.195 / beyond**2), color=GREY, label="Supponen et al. (2016)")
     jets.plot(*zip(*PLESSET_CHAPMAN), "k+", label="Plesset & Chapman (1971)")
-    for ((pressure, start), rows), colour, marker in zip(curves.items(), ("#d55e00", "#0072b2"), "os"):
+    for ((pressure, start), rows), colour, marker in zip(curves.items(), (ORANGE, BLUE), "os"):
         d, ratio, speed = zip(*rows)
         label = f"{pressure:.0e} Pa, {start}"
         times.plot(d, ratio, marker, color=colour, label=label, markersize=4)
@@ -72,6 +70,6 @@ def picture(curves, path: Path):
     times.set(xlabel="stand-off d/R", ylabel="collapse time T(d)/T(free)")
     jets.set(xlabel="stand-off d/R", ylabel="jet / √(Δp/ρ)", ylim=(0, 50))
     for axes in (times, jets):
-        axes.legend(fontsize=7, frameon=False)
+        legend(axes, fontsize=7, frameon=False)
         axes.spines[["top", "right"]].set_visible(False)
     figure.savefig(path, dpi=140)

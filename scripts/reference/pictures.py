@@ -2,12 +2,8 @@
 
 from pathlib import Path
 
-import h5py
-import matplotlib
 import numpy as np
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
 
 from . import pulse
 from .runs import Box, run
@@ -17,27 +13,10 @@ TIME = 5e-6
 IMAGES = Path(__file__).resolve().parents[2] / "docs/images"
 
 
-def field(path, name, points, time):
-    """The values of the cells that points (z, r) lie in, at the snapshot nearest to a time."""
-    with h5py.File(path) as file:
-        group = file["VTKHDF"]
-        steps = group["Steps"]
-        k = int(np.argmin(np.abs(steps["Values"][:] - time)))
-        part = steps["PartOffsets"][k] if "PartOffsets" in steps else k
-        count = group["NumberOfCells"][part]
-        links = steps["ConnectivityIdOffsets"][k].ravel()[0]
-        corners = group["Connectivity"][links : links + 4 * count].reshape(-1, 4)
-        first = steps["PointOffsets"][k].ravel()[0]
-        places = group["Points"][first : first + group["NumberOfPoints"][part]][:, :2]
-        begin = steps["CellDataOffsets"][name][k]
-        values = group["CellData"][name][begin : begin + count]
-    low, high = places[corners].min(axis=1), places[corners].max(axis=1)
-    found = np.full(len(points), np.nan)
-    for k, (z, r) in enumerate(points):
-        # Round-off leaves gaps between blocks: the cell that a point is least outside of.
-        outside = np.maximum(low - (z, r), (z, r) - high).max(axis=1)
-        found[k] = values[np.argmin(outside)]
-    return found
+def of_cells(snapshot, name, points):
+    """The values of the cells that points (z, r) lie in."""
+    cells = snapshot.mesh.locate(points)
+    return np.where(cells >= 0, snapshot[name][cells], np.nan)
 
 
 def draw(options):
@@ -51,13 +30,14 @@ def draw(options):
 
 
 def snapshot(options, result):
-    figure, axes = plt.subplots(1, 2, figsize=(10, 5), sharey=True, layout="constrained")
+    figure = Figure(figsize=(10, 5), layout="constrained")
+    axes = figure.subplots(1, 2, sharey=True)
     for medium, column, name, rest in (("fluid", "p_Pa", "pressure", 1e5), ("solid", "sigma_zz_Pa", "stress_zz", -1e5)):
         exact = read(options.data / f"D/steel/snap2d_{medium}.csv")
         z, r = np.abs(exact["z_m"]), exact["r_m"]
         sign = 1.0 if medium == "fluid" else -1.0
         inside = np.clip(z, 1e-6, None) * sign
-        ours = field(result.directory / f"{medium}.vtkhdf", name, list(zip(inside, np.clip(r, 1e-6, None))), TIME)
+        ours = of_cells(result.result.snapshots(medium).at(TIME), name, np.column_stack([inside, np.clip(r, 1e-6, None)]))
         shape = (len(np.unique(z)), len(np.unique(r)))
         values = [(ours - rest) * sign, exact[column] * sign]
         for axis, value in zip(axes, values):
@@ -73,7 +53,8 @@ def snapshot(options, result):
 
 def histories(options, result):
     names = ["interface_r2mm", "interface_r4mm", "fluid_r8_z2mm", "solid_r4_zm2mm"]
-    figure, axes = plt.subplots(len(names), 1, figsize=(9, 9), layout="constrained")
+    figure = Figure(figsize=(9, 9), layout="constrained")
+    axes = figure.subplots(len(names), 1)
     for axis, name in zip(axes, names):
         exact = read(options.data / f"D/steel/{name}.csv")
         in_solid = name.startswith("solid")

@@ -1,13 +1,12 @@
 """Case texts of a liquid above an elastic half-space, runs of them, and their probes' histories."""
 
-import json
-import os
-import subprocess
+import sys
 import time as clock
 from dataclasses import dataclass, field
 
-import h5py
 import numpy as np
+
+import program
 
 LIQUID = (1000.0, 7.15, 3e8)  # density at the initial pressure, gamma, pi
 STEEL = (7800.0, 5990.0, 3458.0)  # density, c1, c2
@@ -100,18 +99,16 @@ def sound(pressure=1e5, liquid=LIQUID):
 
 
 class Run:
-    """What a run left: its summary, and the histories of its probes."""
+    """What a run left: its result, its summary, and the histories of its probes."""
 
-    def __init__(self, directory):
-        self.directory = directory
-        self.summary = json.loads((directory / "summary.json").read_text())
+    def __init__(self, result):
+        self.result, self.summary = result, result.summary
 
     def probe(self, name, *columns, absolute=False):
         """Times and the columns, one row each, without their values at the start unless `absolute`."""
-        with h5py.File(self.directory / "history.h5") as file:
-            group = file[f"probes/{name}"]
-            rows = np.array([group[column][:] for column in columns])
-            return group["time"][:], rows if absolute else rows - rows[:, :1]
+        probe = self.result.probes[name]
+        rows = np.array([probe[column] for column in columns])
+        return probe["time"].to_numpy(), rows if absolute else rows - rows[:, :1]
 
     def updates(self):
         return sum(self.summary["cell_updates"].values())
@@ -119,15 +116,9 @@ class Run:
 
 def run(options, name, problem):
     """Runs a problem unless its directory already holds that very run."""
-    options.out.mkdir(parents=True, exist_ok=True)
-    directory, case = options.out / name, options.out / f"{name}.toml"
-    text = problem.text() + "".join(f"# --set {change}\n" for change in options.set)
-    is_known = case.exists() and case.read_text() == text and (directory / "summary.json").exists()
-    if not is_known or not Run(directory).summary.get("completed"):
-        case.write_text(text)
-        changes = [part for change in options.set for part in ("--set", change)]
-        command = [options.cav, "run", case, *changes, "--out", directory, "--force", "-q", "--in-process"]
-        begin = clock.monotonic()
-        subprocess.run(command, check=True, env={**os.environ, "RAYON_NUM_THREADS": str(options.threads)})
-        print(f"<!-- {name}: {clock.monotonic() - begin:.0f} s -->", flush=True)
-    return Run(directory)
+    begin = clock.monotonic()
+    result, code = program.solve(options, name, problem.text(), options.set, "--in-process", threads=options.threads)
+    if code:
+        sys.exit(f"{name}: exit code {code}")
+    print(f"<!-- {name}: {clock.monotonic() - begin:.0f} s -->", flush=True)
+    return Run(result)

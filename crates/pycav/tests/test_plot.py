@@ -29,9 +29,9 @@ def images(figure: Figure):
     return [image for axes in figure.axes for image in axes.images]
 
 
-@pytest.mark.parametrize("kind", ["schlieren", "streamlines", "interface_continuity"])
+@pytest.mark.parametrize("kind", ["schlieren", "streamlines", "interface_continuity", "grid_levels"])
 def test_sections_show_both_media_mirrored(kind, result, tmp_path):
-    figure = getattr(pycav.plot, kind)(result, window=WINDOW, levels=True)
+    figure = getattr(pycav.plot, kind)(result, window=WINDOW, **({} if kind == "grid_levels" else {"levels": True}))
     save(figure, tmp_path / "a.png")
     assert "solid" in texts(figure) and "fluid" in texts(figure) and "µs" in texts(figure)
     shown = images(figure)
@@ -81,6 +81,9 @@ def test_the_yield_function_is_the_stress_less_the_strength(result):
     for image, strength in zip(shown, strengths):
         assert 1e6 * np.nanmax(image.get_array()) == pytest.approx(stress.max() - strength)
         assert image.norm.vcenter == 0
+    assert len({id(image.norm) for image in shown}) == 1
+    own = images(pycav.plot.yield_function(result, strengths, 50e-6, one_scale=False))
+    assert [image.norm.vmin for image in own] == [pytest.approx(-1e-6 * strength) for strength in strengths]
     with pytest.raises(ValueError, match="no solid"):
         pycav.plot.yield_function(_rigid(result), 1e6)
 
@@ -173,6 +176,52 @@ def test_histories_stand_beside_theory(result, tmp_path):
     theory = np.interp(run.get_xdata()[early], keller.get_xdata(), keller.get_ydata())
     assert np.abs(run.get_ydata()[early] - theory).max() < 0.01 * 0.01, "until the wall makes itself felt"
     assert "$Y_0$ = 250 MPa" in texts(figure) and "/ mm" in texts(figure) and "/ MPa" in texts(figure)
+
+
+def test_histories_show_a_probe_and_where_the_stress_is_largest(small, tmp_path):
+    probe = {"name": "deep", "position": [0.008, 0.0], "medium": "solid"}
+    run = pycav.run(small.with_({"probe": [probe], "time.snapshots": []}), tmp_path / "run")
+    figure = pycav.plot.histories(run, theory=False, probes=["deep"], place=True)
+    assert "von Mises stress at deep" in texts(figure) and "place of the" in texts(figure)
+    lines = {line.get_label(): np.asarray(line.get_ydata()) for axes in figure.axes for line in axes.lines}
+    assert np.array_equal(lines["von Mises stress at deep"], run.probes["deep"]["von_mises"])
+    place = run.histories["solid/von_mises_max_position"].to_numpy()[-1]
+    assert lines["below the wall"][-1] == pytest.approx(0.01 - place[0]) and lines["off the axis"][-1] == place[1]
+
+
+def test_the_levels_are_those_of_the_cells(result):
+    figure = pycav.plot.grid_levels(result, 50e-6, WINDOW)
+    for image, medium in zip(images(figure), ("solid", "fluid")):
+        level = result.snapshots(medium).at(50e-6)["level"]
+        assert (image.norm.vmin, image.norm.vmax) == (level.min() - 0.5, level.max() + 0.5)
+        assert set(np.unique(image.get_array())) <= set(range(int(level.min()), int(level.max()) + 1))
+
+
+def test_the_bubble_close_up_has_its_density_and_velocity(result, tmp_path):
+    figure = pycav.plot.close_up(result, 40e-6, (0.0, 0.04, 0.02), levels=True)
+    save(figure, tmp_path / "a.png")
+    snapshot = result.fluid.at(40e-6)
+    density, speed = (np.asarray(image.get_array()) for image in images(figure))
+    inside = (snapshot.mesh.centre()[:, 1] < 0.02) & (snapshot.mesh.centre()[:, 0] < 0.04)
+    assert density.min() == snapshot["density"][inside].min()
+    assert np.abs(speed).max() == np.abs(snapshot["velocity"][inside, 0]).max()
+    with pytest.raises(ValueError, match="nothing of a fluid"):
+        pycav.plot.close_up(result, 40e-6, (-0.04, -0.01, 0.02))
+
+
+def test_an_overview_has_the_fluid_above_the_solid(result, tmp_path):
+    figure = pycav.plot.overview(result, 50e-6, reach=0.03)
+    save(figure, tmp_path / "a.png")
+    above, below = images(figure)
+    wall = float(result.solid[0].mesh.high[0])
+    assert above.get_extent()[2] == pytest.approx(wall) and below.get_extent()[3] == pytest.approx(wall)
+    assert figure.axes[0].get_ylim() == pytest.approx((wall, wall + 0.036))
+    assert figure.axes[1].get_ylim() == pytest.approx((wall - 0.03, wall))
+    stress = np.asarray(below.get_array())
+    assert np.array_equal(stress, stress[:, ::-1]), "mirrored about the axis"
+    assert 1e6 * stress[-1].max() > 1e6 * stress[0].max(), "z upwards: the stress is greatest near the wall"
+    assert f"{1e-6 * result.solid.at(50e-6)['von_mises'].max():.3g} MPa" in texts(figure)
+    assert len(images(pycav.plot.overview(_rigid(result)))) == 1, "of a fluid alone"
 
 
 @pytest.mark.parametrize("what", ["wall", "axis"])

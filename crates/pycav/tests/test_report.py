@@ -12,7 +12,8 @@ from PIL import Image
 
 import pycav
 from pycav.__main__ import main
-from pycav._health import health, jumps, si
+from pycav._health import health, jumps
+from pycav.plot.style import si
 from pycav._report import _timings
 
 

@@ -11,6 +11,7 @@ import pyvista
 import pytest
 
 import pycav
+from pycav import theory
 from pycav.theory import RAYLEIGH_FACTOR, Bubble
 
 
@@ -84,6 +85,28 @@ def test_summary_table_and_case(result):
 def test_a_directory_of_something_else_is_refused(tmp_path):
     with pytest.raises(FileNotFoundError, match="no run directory"):
         pycav.open(tmp_path)
+
+
+@pytest.mark.parametrize(("poisson", "ratio"), [(0.0, 0.874032), (0.25, 0.919402), (0.5 - 1e-9, 0.955313)])
+def test_the_rayleigh_wave_is_as_fast_as_poissons_ratio_says(poisson, ratio):
+    """c/c₂, e.g. Graff (1975), Wave Motion in Elastic Solids, table 6.1."""
+    c2 = 3000.0
+    c1 = c2 * np.sqrt((2 - 2 * poisson) / (1 - 2 * poisson))
+    assert theory.rayleigh_wave_speed(c1, c2) == pytest.approx(ratio * c2, rel=1e-5)
+
+
+def test_a_probe_in_the_solid_has_its_von_mises_stress(small, tmp_path):
+    probes = [{"name": name, "position": [z, 2e-3], "medium": medium} for name, z, medium in
+              (("deep", 0.005, "solid"), ("wet", 0.015, "fluid"))]
+    found = pycav.run(small.with_({"probe": probes, "time.end": 1e-5, "time.snapshots": []}), tmp_path / "run").probes
+    deep = found["deep"]
+    parts = [deep[f"stress_{part}"].to_numpy() for part in ("zz", "rr", "phiphi")]
+    shear = deep["stress_zr"].to_numpy()
+    # By the stress deviator: σ_vM² = 3/2 s:s.
+    deviator = [part - sum(parts) / 3 for part in parts]
+    wanted = np.sqrt(1.5 * (sum(part**2 for part in deviator) + 2 * shear**2))
+    assert np.allclose(deep["von_mises"], wanted, rtol=1e-9) and deep["von_mises"].attrs["units"] == "Pa"
+    assert "von_mises" not in found["wet"]
 
 
 def test_rayleighs_collapse(result):

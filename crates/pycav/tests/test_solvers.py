@@ -86,6 +86,13 @@ def test_a_fluid_without_a_surface_needs_nothing(root):
     assert fluid.steps == 1 and fluid.sample([0.1], [0.1])["pressure"].shape == (1, 1)
 
 
+def test_what_a_solver_says_of_itself_cannot_be_set(small):
+    fluid = pycav.FluidSolver(small)
+    with pytest.raises(AttributeError, match="time cannot be set"):
+        fluid.time = 1.0
+    assert fluid.time == 0.0 and pycav.Simulation.steps.__doc__ == "Steps made."
+
+
 def test_what_makes_no_sense_is_refused(small, root):
     fluid, solid = pycav.FluidSolver(small), pycav.SolidSolver(small)
     dt = fluid.time_step_limit()

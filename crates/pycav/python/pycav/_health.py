@@ -8,26 +8,10 @@ from typing import Any
 import numpy as np
 
 from .mesh import Floats
-from .plot.style import number, prefix
+from .plot.style import number, si
 from .result import Result
 
 Rows = Iterable[tuple[str, str, str]]
-
-
-def si(value: Any, unit: str) -> str:
-    """A number with the prefix that fits it; pure numbers without one."""
-    if value is None or (isinstance(value, float) and not np.isfinite(value)):
-        return "–"
-    size = abs(float(value))
-    if unit == "m³":  # the prefix is of the length whose cube it is
-        scale, letter = prefix(size ** (1 / 3))
-        return f"{_digits(value * scale**3)} {letter}m³"
-    scale, letter = prefix(size) if unit in ("Pa", "s", "m", "J/rad") else (1.0, "")
-    return f"{_digits(value * scale)} {letter}{unit}".strip()
-
-
-def _digits(value: float) -> str:
-    return number(float(f"{value:.4g}"))
 
 
 def _power(value: float) -> str:

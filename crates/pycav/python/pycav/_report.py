@@ -13,8 +13,9 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from . import plot
-from ._health import Rows, health, si
+from ._health import Rows, health
 from .plot.section import Run, default_time
+from .plot.style import si
 from .result import Result, open_run
 
 STYLE = """

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _pycav, _toml
+from ._native import Native
 from ._sampling import table
 
 
@@ -71,30 +72,11 @@ class Case:
         p = np.broadcast_to(np.asarray(pressure(t), float), t.shape)
         return self.with_({"fluid.inflow.pressure": np.column_stack([t, p])})
 
-    @property
-    def name(self) -> str:
-        """What the case is called: its file's name without `.toml`."""
-        return self._native.name
-
-    @property
-    def end(self) -> float:
-        """End of the run, s."""
-        return self._native.end
-
-    @property
-    def media(self) -> list[str]:
-        """"fluid", "solid", or both."""
-        return self._native.media
-
-    @property
-    def warnings(self) -> list[str]:
-        """What a run of the case would warn of."""
-        return self._native.warnings
-
-    @property
-    def hash(self) -> str:
-        """SHA-256 of what the case computes, the same as in the files of a run."""
-        return self._native.hash
+    name: Native[str] = Native("What the case is called: its file's name without `.toml`.")
+    end: Native[float] = Native("End of the run, s.")
+    media: Native[list[str]] = Native('"fluid", "solid", or both.')
+    warnings: Native[list[str]] = Native("What a run of the case would warn of.")
+    hash: Native[str] = Native("SHA-256 of what the case computes, the same as in the files of a run.")
 
     def to_toml(self) -> str:
         """The case as a case file with all defaults filled in."""

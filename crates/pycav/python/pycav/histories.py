@@ -75,7 +75,7 @@ def text(value: Any) -> Any:
 
 
 def probes(histories: xarray.Dataset) -> dict[str, xarray.Dataset]:
-    """Each probe's dataset by its name, with the coordinate `time`."""
+    """Each probe's dataset by its name, with the coordinate `time`; in the solid with `von_mises` besides."""
     names = sorted({str(name).split("/")[1] for name in histories.variables if str(name).startswith(PROBES)})
     found = {}
     for name in names:
@@ -85,4 +85,13 @@ def probes(histories: xarray.Dataset) -> dict[str, xarray.Dataset]:
         found[name] = xarray.Dataset(
             {n.removeprefix(prefix): (("time",), histories[n].to_numpy(), histories[n].attrs) for n in members},
             {"time": (("time",), time.to_numpy(), time.attrs)})
+        if "stress_phiphi" in found[name]:
+            found[name]["von_mises"] = von_mises(found[name])
     return found
+
+
+def von_mises(probe: xarray.Dataset) -> xarray.DataArray:
+    """√(½ ((σ_zz − σ_rr)² + (σ_rr − σ_φφ)² + (σ_φφ − σ_zz)²) + 3 σ_zr²) of a probe's stresses, Pa."""
+    zz, rr, phiphi, zr = (probe[f"stress_{part}"] for part in ("zz", "rr", "phiphi", "zr"))
+    found = (0.5 * ((zz - rr) ** 2 + (rr - phiphi) ** 2 + (phiphi - zz) ** 2) + 3.0 * zr**2) ** 0.5
+    return found.assign_attrs(units="Pa", description="von Mises stress")

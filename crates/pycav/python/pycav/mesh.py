@@ -14,6 +14,8 @@ CHUNK = 1 << 20  # cells worked on at once
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Box = tuple[float, float, float, float]
+"""z from, z to, r from, r to, m"""
 
 
 class Mesh:
@@ -112,8 +114,7 @@ class Raster:
     along a side. Painting is exact: a pixel within a cell has its value, a pixel of several cells their mean.
     """
 
-    def __init__(self, mesh: Mesh, window: tuple[float, float, float, float], most: int) -> None:
-        """`window` is (z_low, z_high, r_low, r_high)."""
+    def __init__(self, mesh: Mesh, window: Box, most: int) -> None:
         self.mesh = mesh
         low = np.maximum([window[0], window[2]], mesh.low)
         high = np.minimum([window[1], window[3]], mesh.high)

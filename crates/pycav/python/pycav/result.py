@@ -108,7 +108,8 @@ class Snapshots(Sequence[Snapshot]):
 
     def field(self, name: str, step: int) -> Floats:
         if name not in self.fields:
-            raise KeyError(f"{self.path.name} has no field {name}, only {', '.join(self.fields)}")
+            raise KeyError(f"{self.path.name} has no field {name}, only {', '.join(self.fields)}: "
+                           "output.fields of the case says which")
         with h5py.File(self.path, "r") as file:
             root = file["VTKHDF"]
             start = int(root["Steps/CellDataOffsets"][name][step])

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _pycav
+from ._native import Native
 from .case import Case
 from .cells import Array, Cells
 
@@ -54,30 +55,11 @@ class Simulation:
             case._native, None if out is None else os.fspath(out), force, threads, fluid_initial, solid_initial
         )
 
-    @property
-    def time(self) -> float:
-        """Simulated time, s."""
-        return self._native.time
-
-    @property
-    def dt(self) -> float:
-        """Length of the last step, s; 0 before the first."""
-        return self._native.dt
-
-    @property
-    def steps(self) -> int:
-        """Steps made."""
-        return self._native.steps_made
-
-    @property
-    def completed(self) -> bool:
-        """Whether the case's end is reached."""
-        return self._native.completed
-
-    @property
-    def closed(self) -> bool:
-        """Whether no more steps can be made."""
-        return self._native.closed
+    time: Native[float] = Native("Simulated time, s.")
+    dt: Native[float] = Native("Length of the last step, s; 0 before the first.")
+    steps: Native[int] = Native("Steps made.", "steps_made")
+    completed: Native[bool] = Native("Whether the case's end is reached.")
+    closed: Native[bool] = Native("Whether no more steps can be made.")
 
     @property
     def directory(self) -> Path | None:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _pycav
+from ._native import Native
 from .case import Case
 from .cells import Array, Cells
 from .simulation import InitialState
@@ -21,20 +22,10 @@ def _faces(values: ArrayLike | None, count: int) -> Array | None:
 class _Solver:
     _native: _pycav.FluidSolver | _pycav.SolidSolver
 
-    @property
-    def time(self) -> float:
-        """s"""
-        return self._native.time
-
-    @property
-    def steps(self) -> int:
-        """Steps made."""
-        return self._native.steps
-
-    @property
-    def surface_edges(self) -> Array:
-        """Outer radii of the faces of the surface, m, ascending, shape (faces,). They change when the grid adapts."""
-        return self._native.surface_edges
+    time: Native[float] = Native("s")
+    steps: Native[int] = Native("Steps made.")
+    surface_edges: Native[Array] = Native(
+        "Outer radii of the faces of the surface, m, ascending, shape (faces,). They change when the grid adapts.")
 
     def time_step_limit(self) -> float:
         """The longest step that the case's Courant number allows, s."""
@@ -86,15 +77,8 @@ class FluidSolver(_Solver):
     def __init__(self, case: Case, *, initial: InitialState | None = None, threads: int | None = None) -> None:
         self._native = _pycav.FluidSolver(case._native, initial, threads)
 
-    @property
-    def surface_pressure(self) -> Array:
-        """Pressure on the surface during the last step, Pa, shape (faces,)."""
-        return self._native.surface_pressure
-
-    @property
-    def equivalent_radius(self) -> float:
-        """Radius of the ball of the gas's volume, m."""
-        return self._native.equivalent_radius
+    surface_pressure: Native[Array] = Native("Pressure on the surface during the last step, Pa, shape (faces,).")
+    equivalent_radius: Native[float] = Native("Radius of the ball of the gas's volume, m.")
 
 
 class SolidSolver(_Solver):
@@ -105,7 +89,4 @@ class SolidSolver(_Solver):
     def __init__(self, case: Case, *, initial: InitialState | None = None, threads: int | None = None) -> None:
         self._native = _pycav.SolidSolver(case._native, initial, threads)
 
-    @property
-    def surface_velocity(self) -> Array:
-        """Velocity of the surface during the last step along +z, m/s, shape (faces,)."""
-        return self._native.surface_velocity
+    surface_velocity: Native[Array] = Native("Velocity of the surface during the last step along +z, m/s, shape (faces,).")

@@ -1,4 +1,4 @@
-"""A single bubble in unbounded liquid: what histories are compared with."""
+"""A single bubble in unbounded liquid, waves on a surface: what runs are compared with."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 from scipy.special import beta, betainc
 
 from .mesh import Floats
@@ -13,6 +14,18 @@ from .result import Result
 
 RAYLEIGH_FACTOR = float(beta(5 / 6, 1 / 2) / np.sqrt(6))
 """Collapse time over R₀ √(ρ/Δp): 0.91468."""
+
+
+def rayleigh_wave_speed(c1: float, c2: float) -> float:
+    """The speed c of waves on a solid's free surface, m/s: (2 − c²/c₂²)² = 4 √(1 − c²/c₁²) √(1 − c²/c₂²).
+
+    - `c1`, `c2`: speeds of dilatational and of shear waves, m/s, c₁ ≥ √2 c₂.
+    """
+    def excess(c: float) -> float:
+        left = (2 - (c / c2) ** 2) ** 2
+        return float(left - 4 * np.sqrt((1 - (c / c1) ** 2) * (1 - (c / c2) ** 2)))
+
+    return float(brentq(excess, 0.5 * c2, c2))
 
 
 @dataclass(frozen=True)

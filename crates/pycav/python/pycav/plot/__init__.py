@@ -7,15 +7,18 @@ perceptually uniform and safe for the colour-blind.
 """
 
 from .across import interface_continuity
+from .close_up import close_up
 from .flow import pathlines, streamlines
 from .maps import stand_off_map
 from .overtime import histories, space_time
+from .overview import overview
+from .refinement import grid_levels
 from .section import Window, default_time
 from .volume import volume
 from .waves import schlieren
 from .yielding import yield_function
 
 __all__ = [
-    "Window", "default_time", "histories", "interface_continuity", "pathlines", "schlieren", "space_time", "stand_off_map",
-    "streamlines", "volume", "yield_function",
+    "Window", "close_up", "default_time", "grid_levels", "histories", "interface_continuity", "overview", "pathlines",
+    "schlieren", "space_time", "stand_off_map", "streamlines", "volume", "yield_function",
 ]

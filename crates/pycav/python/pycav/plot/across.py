@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,52 +13,64 @@ from matplotlib.ticker import FuncFormatter
 from ..mesh import Floats
 from ..result import Snapshot
 from .section import Run, Section, Window, bar
-from .style import BLUE, INK, ORANGE, legend, number, prefix, styled
+from .style import BLUE, INK, ORANGE, legend, number, prefix, signed_powers, styled
 
 MEGA = 1e-6
 
 
 @styled
 def interface_continuity(
-    run: Run, time: float | None = None, window: Window | None = None, *, levels: bool = False
+    run: Run, time: float | None = None, window: Window | None = None, *, what: Sequence[str] = ("velocity", "stress"),
+    reach: float | None = None, levels: bool = False,
 ) -> Figure:
     """v_z in both media, and |σ_zz| beside |p|, each on one scale: nothing may jump at the interface.
 
     Below, the same along the axis.
+
+    - `what`: "velocity", "stress", or both, a panel each.
+    - `reach`: of the lines below, off the wall, m; else a fifth of the window.
+    - `levels`: outlines of the levels of refinement.
     """
     section = Section.of(run, time, window)
     if len(section.snapshots) < 2 or section.wall is None:
         raise ValueError("the run has no interface between two media")
-    figure, (left, right) = section.canvas(2, foot=2.75)
-    rasters = {medium: section.raster(medium) for medium in ("solid", "fluid")}
-    shown = {medium: raster for medium, raster in rasters.items() if raster is not None}
-
-    velocity = {medium: raster.paint(section.snapshots[medium]["velocity"][:, 0]) for medium, raster in shown.items()}
-    top = max(1.0, *(float(np.nanpercentile(np.abs(image), 99.95)) for image in velocity.values()))
-    # From a hundredth of a metre per second in the solid to hundreds in the jet: linear only about 0.
-    signed = SymLogNorm(0.05, linscale=0.4, vmin=-top, vmax=top, base=10)
-    drawn: Any = None
-    for medium, raster in shown.items():
-        drawn = section.show(left, raster, velocity[medium], cmap="RdBu_r", norm=signed)
-    ticks = sorted([s * 10.0**k for s in (-1, 1) for k in (-1, 1, 3) if 10.0**k < top] + [0.0])
-    bar(figure, left, drawn, "$v_z$ / (m s$^{-1}$)", extend="both", up=2.2, ticks=ticks)
-    section.bubble(left)
-    section.names(left, "Normal velocity")
-    _below(figure, section, left, {"solid": ("velocity", 1.0), "fluid": ("velocity", 1.0)}, "$v_z$ / (m s$^{-1}$)")
-
-    pressure = {medium: MEGA * np.abs(raster.paint(section.snapshots[medium][name]))
-                for (medium, raster), name in zip(shown.items(), ("stress_zz", "pressure"))}
-    highest = max(float(np.nanmax(image)) for image in pressure.values())
-    scale = LogNorm(highest / 30, highest, clip=True)
-    for medium, raster in shown.items():
-        drawn = section.show(right, raster, pressure[medium], cmap="cividis", norm=scale)
-    bar(figure, right, drawn, r"$|\sigma_{zz}|$ and $|p|$ / MPa", extend="min", up=2.2)
-    section.names(right, "Normal stress")
-    _below(figure, section, right, {"solid": ("stress_zz", -MEGA), "fluid": ("pressure", MEGA)}, r"$-\sigma_{zz}$, $p$ / MPa")
-    if levels:
-        section.levels(left)
-        section.levels(right)
+    if not what or not set(what) <= set(PANELS):
+        raise ValueError(f'what are "velocity" and "stress", not {what!r}')
+    figure, panels = section.canvas(len(what), foot=2.75)
+    near = 0.2 * (section.box[1] - section.box[0]) if reach is None else reach
+    for name, axes in zip(what, panels):
+        PANELS[name](figure, section, axes, near)
+        if levels:
+            section.levels(axes)
     return figure
+
+
+def _velocity(figure: Figure, section: Section, axes: Axes, reach: float) -> None:
+    images = section.images({medium: snapshot["velocity"][:, 0] for medium, snapshot in section.snapshots.items()})
+    top = max(1.0, *(float(np.nanpercentile(np.abs(image), 99.95)) for _, image in images))
+    # From a hundredth of a metre per second in the solid to hundreds in the jet: linear only about 0.
+    norm = SymLogNorm(0.05, linscale=0.4, vmin=-top, vmax=top, base=10)
+    drawn = [section.show(axes, raster, image, cmap="RdBu_r", norm=norm) for raster, image in images]
+    label = "$v_z$ / (m s$^{-1}$)"
+    bar(figure, axes, drawn[-1], label, extend="both", up=2.2, ticks=signed_powers(top, (-1, 1, 3)))
+    section.bubble(axes)
+    section.names(axes, "Normal velocity")
+    _below(figure, section, axes, {"solid": ("velocity", 1.0), "fluid": ("velocity", 1.0)}, label, reach)
+
+
+def _stress(figure: Figure, section: Section, axes: Axes, reach: float) -> None:
+    fields = {"solid": "stress_zz", "fluid": "pressure"}
+    images = section.images({medium: MEGA * np.abs(section.snapshots[medium][name]) for medium, name in fields.items()})
+    highest = max(float(np.nanmax(image)) for _, image in images)
+    norm = LogNorm(highest / 30, highest, clip=True)
+    drawn = [section.show(axes, raster, image, cmap="cividis", norm=norm) for raster, image in images]
+    bar(figure, axes, drawn[-1], r"$|\sigma_{zz}|$ and $|p|$ / MPa", extend="min", up=2.2)
+    section.names(axes, "Normal stress")
+    fields_below = {"solid": ("stress_zz", -MEGA), "fluid": ("pressure", MEGA)}
+    _below(figure, section, axes, fields_below, r"$-\sigma_{zz}$, $p$ / MPa", reach)
+
+
+PANELS = {"velocity": _velocity, "stress": _stress}
 
 
 def along(snapshot: Snapshot, values: Floats, r: float) -> tuple[Floats, Floats]:
@@ -70,13 +82,14 @@ def along(snapshot: Snapshot, values: Floats, r: float) -> tuple[Floats, Floats]
     return z, mesh.sample(values, np.column_stack([z, np.full_like(z, r)]))
 
 
-def _below(figure: Figure, section: Section, axes: Axes, fields: dict[str, tuple[str, float]], label: str) -> None:
+def _below(
+    figure: Figure, section: Section, axes: Axes, fields: dict[str, tuple[str, float]], label: str, reach: float
+) -> None:
     """A small panel below another one: the quantity along the axis through the interface."""
     wall = section.wall or 0.0
     place, inch = axes.get_position(), 1 / figure.get_figheight()
     aside = 0.02 if place.x0 > 0.5 else 0.0  # so that its numbers are not over the panel to the left
     below = figure.add_axes((place.x0 + aside, 0.42 * inch, place.width - aside, 1.1 * inch))
-    reach = 0.2 * (section.box[1] - section.box[0])
     scale, letter = prefix(reach)
     for (medium, (name, factor)), colour in zip(fields.items(), (BLUE, ORANGE)):
         snapshot = section.snapshots[medium]

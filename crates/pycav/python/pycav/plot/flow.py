@@ -26,19 +26,19 @@ def streamlines(
     """
     section = Section.of(run, time, window)
     figure, (axes,) = section.canvas()
-    both = len(section.snapshots) == 2
+    parts = dict(section.parts)
     fluid, solid = section.snapshots.get("fluid"), section.snapshots.get("solid")
     if fluid is not None and (raster := section.raster("fluid")):
         image = raster.paint(fluid["density"])
         top = 1.1 * float(np.nanpercentile(section.result.fluid[0]["density"], 99))
         drawn = section.show(axes, raster, image, cmap=part_of("GnBu", 0.0, 0.75), norm=Normalize(0, top))
         denser = "max" if np.nanmax(image) > top else "neither"
-        bar(figure, axes, drawn, r"density $\rho$ / (kg m$^{-3}$)", (0.52, 1.0) if both else (0.0, 1.0), denser)
+        bar(figure, axes, drawn, r"density $\rho$ / (kg m$^{-3}$)", parts["fluid"], denser)
     if solid is not None and (raster := section.raster("solid")):
         speed = raster.paint(np.hypot(*solid["velocity"][:, :2].T))
         norm = logarithmic(float(np.nanpercentile(speed, 99.9)), 2)
         drawn = section.show(axes, raster, speed, cmap=part_of("YlOrBr", 0.0, 0.6), norm=norm)
-        bar(figure, axes, drawn, r"speed $|\mathbf{v}|$ / (m s$^{-1}$)", (0.0, 0.48) if both else (0.0, 1.0), "both")
+        bar(figure, axes, drawn, r"speed $|\mathbf{v}|$ / (m s$^{-1}$)", parts["solid"], "both")
     for medium, snapshot in section.snapshots.items():
         coarse = section.raster(medium, 320)
         if coarse is None or min(coarse.shape) < 8:  # a tube, whose lines are straight
@@ -48,12 +48,11 @@ def streamlines(
         still = fast < 2e-3 * np.nanpercentile(fast, 99)
         if still.all() or not np.nanmax(fast) > 0:
             continue
-        lines = _trace(coarse, np.where(still, np.nan, v_z), np.where(still, np.nan, v_r), density)
+        # As close to each other in every medium, however much of the window it has.
+        span = np.array([coarse.high[0] - coarse.low[0], coarse.high[1]]) / (section.box[1] - section.box[0])
+        lines = _trace(coarse, np.where(still, np.nan, v_z), np.where(still, np.nan, v_r), 2.6 * density * span)
         _draw(axes, lines, section, color=INK, linewidths=0.55)
-    if levels:
-        section.levels(axes)
-    section.bubble(axes)
-    section.names(axes, "Streamlines")
+    section.annotate(axes, "Streamlines", levels)
     return figure
 
 
@@ -63,14 +62,15 @@ def velocity_image(raster: Raster, snapshot: Snapshot, axis: int) -> Floats:
     return raster.paint(values, snapshot.mesh.gradient(values, (1, -1)[axis]))
 
 
-def _trace(raster: Raster, v_z: Floats, v_r: Floats, density: float) -> list[Floats]:
-    """Evenly spaced streamlines in r > 0."""
+def _trace(raster: Raster, v_z: Floats, v_r: Floats, density: Floats) -> list[Floats]:
+    """Evenly spaced streamlines in r > 0; `density` along z and r."""
     axes = Figure().add_subplot()
     # Not those that creep along the axis, which would meet their mirror images.
     off = max(1, len(raster.r) // 40)
     z, r = raster.z, raster.r[off:]
     axes.set(xlim=(z[0], z[-1]), ylim=(r[0], r[-1]))
-    lines = axes.streamplot(z, r, v_z[off:], v_r[off:], density=density, minlength=0.2, maxlength=8).lines
+    across, along = (float(part) for part in density)
+    lines = axes.streamplot(z, r, v_z[off:], v_r[off:], density=(across, along), minlength=0.2, maxlength=8).lines
     joined: list[list[Any]] = []
     for segment in lines.get_segments():
         if joined and np.allclose(joined[-1][-1], segment[0], rtol=0, atol=1e-9 * (z[-1] - z[0])):

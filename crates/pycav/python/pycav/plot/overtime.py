@@ -18,12 +18,16 @@ from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WIDTH, legend, prefix, 
 
 
 @styled
-def histories(run: Run, *, theory: bool = True, yield_strength: Sequence[float] = ()) -> Figure:
+def histories(
+    run: Run, *, theory: bool = True, yield_strength: Sequence[float] = (), probes: Sequence[str] = (), place: bool = False
+) -> Figure:
     """The bubble's radius, the jet, the pressure on the wall and the largest von Mises stress over time.
 
     - `theory`: Rayleigh's and Keller and Miksis's curves beside the radius. They are of the same bubble without a wall, which
       holds a collapse up.
     - `yield_strength`: lines at these stresses in Pa.
+    - `probes`: names of probes in the solid whose von Mises stress is drawn, too.
+    - `place`: where the largest von Mises stress is, below the wall and off the axis, in a panel of its own.
     """
     result = open_run(run)
     data = result.histories
@@ -34,7 +38,9 @@ def histories(run: Run, *, theory: bool = True, yield_strength: Sequence[float] 
     if has_bubble and result.parameters.get("geometry") != "planar":
         parts.append((lambda axes: _jet(result, axes), 1.0))
     if "interface/pressure" in data or "solid/von_mises_max" in data:
-        parts.append((lambda axes: _loads(result, axes, yield_strength), 1.8))
+        parts.append((lambda axes: _loads(result, axes, yield_strength, probes), 1.8))
+    if place and "solid/von_mises_max" in data:
+        parts.append((lambda axes: _place(result, axes), 1.0))
     if not parts:
         raise ValueError("the run has no bubble, no wall and no solid: its histories are in `histories`")
     heights = [height for _, height in parts]
@@ -71,7 +77,7 @@ def _jet(result: Result, axes: Axes) -> None:
     axes.axhline(0, color=GREY, linewidth=0.5)
 
 
-def _loads(result: Result, axes: Axes, yield_strength: Sequence[float]) -> None:
+def _loads(result: Result, axes: Axes, yield_strength: Sequence[float], probes: Sequence[str]) -> None:
     data = result.histories
     largest = 0.0
     for name, time, colour, label in (
@@ -85,6 +91,9 @@ def _loads(result: Result, axes: Axes, yield_strength: Sequence[float]) -> None:
         axes.plot(data[time], values, color=colour, label=label, linewidth=0.7 if colour == PINK else 1.0,
                   zorder=1.5 if colour == PINK else 2)
         largest = max(largest, float(np.nanmax(values)))
+    for name in probes:
+        stress = result.probes[name]["von_mises"]
+        axes.plot(stress["time"], stress, color=GREEN, label=f"von Mises stress at {name}")
     for strength in yield_strength:
         axes.axhline(strength, color=GREY, linewidth=0.6, dashes=(4, 3))
         axes.annotate(f"$Y_0$ = {strength * 1e-6:.0f} MPa", (0.01, strength), xycoords=("axes fraction", "data"), fontsize=7,
@@ -92,6 +101,21 @@ def _loads(result: Result, axes: Axes, yield_strength: Sequence[float]) -> None:
         largest = max(largest, strength)
     ticks(axes.yaxis, largest, "stress", "Pa")
     legend(axes, loc="upper left")
+
+
+def _place(result: Result, axes: Axes) -> None:
+    data = result.histories
+    place = data["solid/von_mises_max_position"].to_numpy().copy()
+    stress, time = data["solid/von_mises_max"].to_numpy(), data["solid/time"].to_numpy()
+    place[stress < 1.05 * stress[0]] = np.nan  # before the first wave every place is as good
+    wall = float(result.solid[0].mesh.high[0])
+    depth, aside = wall - place[:, 0], place[:, 1]
+    axes.plot(time, depth, color=ORANGE, linewidth=0.8, label="below the wall")
+    axes.plot(time, aside, color=GREEN, linewidth=0.8, label="off the axis")
+    largest = float(np.nanmax([depth, aside], initial=0.0))
+    axes.set_ylim(0, 1.4 * largest or None)
+    ticks(axes.yaxis, largest, "place of the\nlargest stress", "m")
+    legend(axes, ncols=2, loc="upper left")
 
 
 @styled

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,9 +13,9 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from ..mesh import Floats, Raster
+from ..mesh import Box, Floats, Raster
 from ..result import Result, Snapshot, open_run
-from .style import GREY, INK, ORANGE, WHITE, WIDTH, number, prefix
+from .style import GREY, INK, ORANGE, WHITE, WIDTH, number, prefix, si
 
 MOST = 1400  # pixels of a raster along a side
 
@@ -37,7 +38,7 @@ class Section:
     result: Result
     time: float
     snapshots: dict[str, Snapshot]
-    box: tuple[float, float, float, float]
+    box: Box
     """z from, z to, 0, r to, m"""
     wall: float | None
     """z of the interface, m"""
@@ -66,14 +67,24 @@ class Section:
 
     @property
     def time_shown(self) -> str:
-        scale, letter = prefix(self.time)
-        return f"{number(float(f'{self.time * scale:.4g}'))} {letter}s"
+        return si(self.time, "s")
+
+    @property
+    def parts(self) -> list[tuple[str, tuple[float, float]]]:
+        """The media from left to right, and the part of a panel's width that the colour bar of each one has."""
+        media = [medium for medium in ("solid", "fluid") if medium in self.snapshots]
+        return list(zip(media, ((0.0, 0.48), (0.52, 1.0)) if len(media) == 2 else ((0.0, 1.0),)))
 
     def raster(self, medium: str, most: int = MOST) -> Raster | None:
         """The window as far as a medium has it; `None` if it has nothing of it."""
         mesh = self.snapshots[medium].mesh
         inside = self.box[0] < mesh.high[0] and self.box[1] > mesh.low[0] and self.box[3] > mesh.low[1]
         return Raster(mesh, self.box, most) if inside else None
+
+    def images(self, fields: Mapping[str, Floats]) -> list[tuple[Raster, Floats]]:
+        """The window's raster and image of a field of each medium that has part of it, shape (cells,)."""
+        rasters = {medium: self.raster(medium) for medium in fields}
+        return [(raster, raster.paint(fields[medium])) for medium, raster in rasters.items() if raster is not None]
 
     def canvas(self, panels: int = 1, columns: int | None = None, foot: float = 0.95) -> tuple[Figure, list[Axes]]:
         """A figure with panels of equal scale, `columns` side by side, room for bars at the foot."""
@@ -140,6 +151,13 @@ class Section:
             depth = raster.paint(snapshot.mesh.depth.astype(float))
             for level in range(int(snapshot.mesh.depth.max())):
                 self.contour(axes, raster, depth, level + 0.5, colors="0.35", linewidths=0.35)
+
+    def annotate(self, axes: Axes, what: str, levels: bool) -> None:
+        """The bubble's outline and the names; the levels' outlines if they are asked for."""
+        if levels:
+            self.levels(axes)
+        self.bubble(axes)
+        self.names(axes, what)
 
     def names(self, axes: Axes, what: str) -> None:
         """The media's names, the interface, the axis, a title."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
@@ -69,6 +69,22 @@ def number(value: float) -> str:
     return f"{rounded:g}".replace("-", "−") if rounded else "0"
 
 
+def si(value: Any, unit: str) -> str:
+    """A number with the prefix that fits it; pure numbers without one."""
+    if value is None or (isinstance(value, float) and not np.isfinite(value)):
+        return "–"
+    size = abs(float(value))
+    if unit == "m³":  # the prefix is of the length whose cube it is
+        scale, letter = prefix(size ** (1 / 3))
+        return f"{_four_digits(value * scale**3)} {letter}m³"
+    scale, letter = prefix(size) if unit in ("Pa", "s", "m", "J/rad") else (1.0, "")
+    return f"{_four_digits(value * scale)} {letter}{unit}".strip()
+
+
+def _four_digits(value: float) -> str:
+    return number(float(f"{value:.4g}"))
+
+
 def part_of(name: str, low: float, high: float) -> LinearSegmentedColormap:
     """A colour map's part, so that lines drawn over it stay visible."""
     colours = mpl.colormaps[name](np.linspace(low, high, 256))
@@ -79,6 +95,11 @@ def logarithmic(top: float, decades: float) -> LogNorm:
     """A scale of some decades below a value, which may be 0 before anything has happened."""
     top = max(top, 1e-12)
     return LogNorm(top / 10**decades, top, clip=True)
+
+
+def signed_powers(top: float, powers: Sequence[int]) -> list[float]:
+    """Ticks of a scale that is logarithmic on both sides of 0: ±10^k below a value, and 0."""
+    return sorted([sign * 10.0**k for sign in (-1, 1) for k in powers if 10.0**k < top] + [0.0])
 
 
 def legend(axes: Axes, **options: Any) -> None:

@@ -33,8 +33,7 @@ def schlieren(
     """
     section = Section.of(run, time, window)
     figure, (axes,) = section.canvas()
-    media = [medium for medium in ("solid", "fluid") if medium in section.snapshots]
-    for number, medium in enumerate(media):
+    for medium, part in section.parts:
         raster = section.raster(medium)
         if raster is None:
             continue
@@ -45,12 +44,8 @@ def schlieren(
             weakest = max(float(np.nanpercentile(image, 2)), 1e-12 * top, 1e-12)
             decades = 2.5 if strongest else float(np.clip(np.log10(max(top, 1e-12) / weakest), 1.5, 2.5))
         drawn = section.show(axes, raster, image, cmap="gray_r", norm=logarithmic(top, decades))
-        part = (0.0, 1.0) if len(media) == 1 else ((0.0, 0.48), (0.52, 1.0))[number]
         bar(figure, axes, drawn, LABELS[medium], part, "both")
-    if levels:
-        section.levels(axes)
-    section.bubble(axes)
-    section.names(axes, "Numerical schlieren")
+    section.annotate(axes, "Numerical schlieren", levels)
     return figure
 
 

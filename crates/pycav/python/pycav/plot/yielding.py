@@ -24,6 +24,7 @@ def yield_function(
     *,
     names: Sequence[str] | None = None,
     beside: Sequence[Run] = (),
+    one_scale: bool = True,
     levels: bool = False,
 ) -> Figure:
     """The yield function Φ = σ_vM − Y₀ of the solid for one or several yield strengths in Pa, a panel each.
@@ -34,6 +35,7 @@ def yield_function(
     - `names`: of the materials, for the titles.
     - `beside`: runs with the consistent materials, as `pycav.consistent_runs` makes them; a panel each with the yield strength
       that their cases name.
+    - `one_scale`: the same colours in all panels; else each one, side by side, has its own.
     - `levels`: outlines of the levels of refinement.
     """
     first = _solid(run, time, window)
@@ -48,11 +50,13 @@ def yield_function(
 
     images = [_images(section) for section, _, _ in panels]
     strengths = [strength for _, strength, _ in panels]
-    # The very largest values fill a few cells at the surface: the colours end where there is something to see.
-    top = max(float(np.nanpercentile(image, 99.9)) - strength for (image, _), strength in zip(images, strengths))
-    norm = TwoSlopeNorm(0, -max(strengths) * MEGA, max(top, 0.5 * min(strengths)) * MEGA)
-    figure, all_axes = first.canvas(len(panels), 2 if len(panels) == 4 else 3)
-    for axes, (section, strength, name), (image, smooth) in zip(all_axes, panels, images):
+    excesses = [float(np.nanpercentile(image, 99.9)) - strength for (image, _), strength in zip(images, strengths)]
+    norms = [_scale(excesses, strengths)] * len(panels)
+    if not one_scale:
+        norms = [_scale([excess], [strength]) for excess, strength in zip(excesses, strengths)]
+    figure, all_axes = first.canvas(len(panels), len(panels) if not one_scale else 2 if len(panels) == 4 else 3)
+    label = rf"$\Phi = \sigma_\mathrm{{vM}} - Y_0$ / MPa at $t$ = {first.time_shown}"
+    for axes, (section, strength, name), (image, smooth), norm in zip(all_axes, panels, images, norms):
         raster = section.raster("solid")
         assert raster is not None
         drawn = section.show(axes, raster, (image - strength) * MEGA, cmap="PuOr_r", norm=norm)
@@ -65,12 +69,23 @@ def yield_function(
         excess = number(round((float(section.snapshots["solid"]["von_mises"].max()) - strength) * MEGA))
         axes.text(0.03, 0.02, rf"largest $\Phi$: {excess} MPa", transform=axes.transAxes, fontsize=8, color=INK,
                   bbox={"boxstyle": "square,pad=0.2", "facecolor": WHITE, "edgecolor": "none", "alpha": 0.85})
+        if not one_scale:
+            bar(figure, axes, drawn, label, extend="max")
+    if not one_scale:
+        return figure
     # One bar below all columns.
     columns = [axes.get_position() for axes in all_axes]
     begin, end = min(place.x0 for place in columns), max(place.x1 for place in columns)
-    label = rf"$\Phi = \sigma_\mathrm{{vM}} - Y_0$ / MPa at $t$ = {first.time_shown}"
     bar(figure, all_axes[0], drawn, label, (0.0, (end - begin) / columns[0].width), "max")
     return figure
+
+
+def _scale(excesses: Sequence[float], strengths: Sequence[float]) -> TwoSlopeNorm:
+    """Colours of Φ in MPa; `excesses` are nearly the largest Φ of panels in Pa.
+
+    The very largest values fill a few cells at the surface: the colours end where there is something to see.
+    """
+    return TwoSlopeNorm(0, -max(strengths) * MEGA, max(*excesses, 0.5 * min(strengths)) * MEGA)
 
 
 def _solid(run: Run, time: float | None, window: Window | None) -> Section:

@@ -3,12 +3,11 @@
 A load that runs along a solid's surface as fast as its Rayleigh waves is in resonance with them (Cole & Huth 1958).
 """
 
-import h5py
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
+from pycav.plot.style import BLUE, GREY, ORANGE, styled
 
-from drawing import BLUE, BUBBLE, GREY
-from run_directory import MEGA, MICRO, MILLI
+from .study import MEGA, MICRO, MILLI
 
 
 class Front:
@@ -20,14 +19,13 @@ class Front:
     von Mises stress.
     """
 
-    def __init__(self, run):
-        with h5py.File(run.path / "history.h5") as file:
-            time, r, pressure = (file[f"interface/{name}"][:] for name in ("time", "r", "pressure"))
-            axis = file["wall/pressure_axis"][:]
-            self.start = file["time"][axis.argmax()] + 0.3 / MICRO * run.slowness
-            self.peak = [file[f"solid/{name}"][:] for name in ("time", "von_mises_max", "von_mises_max_position")]
+    def __init__(self, study):
+        data = study.result.histories
+        time, r, pressure = (data[f"interface/{name}"].to_numpy() for name in ("time", "r", "pressure"))
+        self.start = float(data["time"][data["wall/pressure_axis"].to_numpy().argmax()]) + 0.3 / MICRO * study.slowness
+        self.peak = [data[f"solid/{name}"].to_numpy() for name in ("time", "von_mises_max", "von_mises_max_position")]
         rows = []
-        cell, margin = r[1] - r[0], int(round(0.15 * run.radius / (r[1] - r[0])))
+        cell, margin = r[1] - r[0], int(round(0.15 * study.radius / (r[1] - r[0])))
         for now, p in zip(time, pressure):
             if now < self.start:
                 continue
@@ -46,7 +44,7 @@ class Front:
 
             rows.append((now, reached(0.5), reached(0.1) - reached(0.9), p[crest] - foot))
         self.time, self.place, self.width, self.jump = np.array(rows).T
-        near = 0.45 / MICRO * run.slowness
+        near = 0.45 / MICRO * study.slowness
         self.speed = np.array([np.polyfit(self.time[s] - t, self.place[s], 2)[1]
                                for t in self.time for s in [np.abs(self.time - t) < near]])
 
@@ -65,16 +63,17 @@ class Front:
         return np.polyfit(time[s] - start, place[s, 1], 1)[0]
 
 
-def wall_front(run):
+@styled
+def wall_front(study):
     """Places and speeds of the front and of the largest von Mises stress."""
-    front, rayleigh = Front(run), run.rayleigh_speed()
+    front, rayleigh = Front(study), study.rayleigh_wave_speed()
     time, stress, place = front.peak
     shown = (time > front.start) & (time < front.time[-1])
     at = time[shown] * MICRO
-    figure, (top, middle, bottom) = plt.subplots(3, 1, sharex=True, figsize=(5.6, 5.6),
-                                                 gridspec_kw=dict(height_ratios=(1.4, 1, 1), hspace=0.08))
+    figure = Figure(figsize=(5.6, 5.6))
+    top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw=dict(height_ratios=(1.4, 1, 1), hspace=0.08))
     top.plot(front.time * MICRO, front.place * MILLI, color=BLUE, linewidth=1, label="front on the wall")
-    top.plot(at, place[shown, 1] * MILLI, color=BUBBLE, linewidth=1, label="largest von Mises stress in the solid")
+    top.plot(at, place[shown, 1] * MILLI, color=ORANGE, linewidth=1, label="largest von Mises stress in the solid")
     passed = front.passes(rayleigh)
     if passed:
         since = np.array([passed[0], front.time[-1]])
@@ -87,7 +86,7 @@ def wall_front(run):
     middle.plot(front.time * MICRO, front.speed, color=BLUE, linewidth=1)
     middle.axhline(rayleigh, color=GREY, linewidth=0.8, dashes=(5, 3))
     middle.set(ylabel="speed of the\nfront / (m/s)", ylim=(0.4 * rayleigh, 2 * rayleigh))
-    bottom.plot(at, stress[shown] * MEGA, color=BUBBLE, linewidth=1)
+    bottom.plot(at, stress[shown] * MEGA, color=ORANGE, linewidth=1)
     bottom.set(xlabel="$t$ / µs", ylabel=r"largest $\sigma_\mathrm{vM}$ / MPa", ylim=(0, None), xlim=(at[0], at[-1]))
     figure.subplots_adjust(0.15, 0.085, 0.98, 0.985)
     figure.align_ylabels()

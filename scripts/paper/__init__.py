@@ -1,0 +1,1 @@
+"""What scripts/paper_figures.py has beside pycav's pictures."""

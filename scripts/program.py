@@ -1,0 +1,54 @@
+"""Runs of the program for tables: the command, its options, and what is kept of former runs."""
+
+import argparse
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pycav
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def parser(doc, out=None):
+    """Arguments that scripts which run `cav` have in common; `out` is the directory of the runs if --out is not given."""
+    found = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    found.add_argument("--cav", type=Path, default=ROOT / "target/release/cav", help="the program")
+    if out:
+        found.add_argument("--out", type=Path, default=Path(out), help="directory of the runs")
+    return found
+
+
+def run_table(doc, out, tables, add_options):
+    """Prints the table that the command line names; tables are functions of the options."""
+    arguments = parser(doc, out)
+    arguments.add_argument("table", choices=tables)
+    add_options(arguments)
+    options = arguments.parse_args()
+    tables[options.table](options)
+
+
+def command(cav, case, out, changes=(), *more):
+    """`cav run` of a case with changes as --set has them, KEY=VALUE."""
+    sets = [part for change in changes for part in ("--set", change)]
+    return [str(cav), "run", str(case), "--out", str(out), "--quiet", "--force", *more, *sets]
+
+
+def is_complete(directory):
+    summary = directory / "summary.json"
+    return summary.exists() and json.loads(summary.read_text()).get("completed", False)
+
+
+def solve(options, name, case, changes=(), *more, threads=None):
+    """Runs a case's text unless its directory already holds that very run; its result, or None, and the exit code."""
+    options.out.mkdir(parents=True, exist_ok=True)
+    directory, path = options.out / name, options.out / f"{name}.toml"
+    text = case + "".join(f"# --set {change}\n" for change in changes)
+    if not (path.exists() and path.read_text() == text and is_complete(directory)):
+        path.write_text(text)
+        environment = os.environ | ({} if threads is None else {"RAYON_NUM_THREADS": str(threads)})
+        done = subprocess.run(command(options.cav, path, directory, changes, *more), check=False, env=environment)
+        if done.returncode:
+            return None, done.returncode
+    return pycav.open(directory), 0
