@@ -67,7 +67,7 @@ pub(super) fn any_beyond(screen: &Screen, stress: [&[f64]; 4], strain: &[f64]) -
     let [zz, zr, rr, phiphi] = stress.map(|row| &row[..n]);
     let mut any = false;
     for k in 0..n {
-        let squared = crate::yield_criterion::von_mises_squared(zz[k], zr[k], rr[k], phiphi[k]);
+        let squared = crate::material::yield_criterion::von_mises_squared(zz[k], zr[k], rr[k], phiphi[k]);
         any |= screen.is_beyond(squared, strain[k]);
     }
     any
@@ -86,7 +86,7 @@ pub(super) fn any_beyond_hot(
     let temperature = &temperature[..n];
     let mut any = false;
     for k in 0..n {
-        let squared = crate::yield_criterion::von_mises_squared(zz[k], zr[k], rr[k], phiphi[k]);
+        let squared = crate::material::yield_criterion::von_mises_squared(zz[k], zr[k], rr[k], phiphi[k]);
         any |= screen.is_beyond_hot(squared, strain[k], temperature[k]);
     }
     any

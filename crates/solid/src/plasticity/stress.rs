@@ -1,6 +1,6 @@
 //! Axisymmetric stress, its deviator, and the elastic energy in it.
 
-use crate::yield_criterion::von_mises_squared;
+use crate::material::yield_criterion::von_mises_squared;
 
 /// A stress tensor without the components that vanish in axisymmetry; Pa, positive in tension.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
