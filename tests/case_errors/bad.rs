@@ -77,6 +77,14 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Append("[[fluid.refine]]\nshape = \"box\"\nat_least = 3\nz = [0.002, 0.001]\nr = [0, 0.001]"), &["fluid.refine.0.z: must increase", "[0.001, 0.002]"]),
     (Append("[[fluid.refine]]\nshape = \"box\"\nwhere = \"outside\"\nat_least = 3\nz = [0, 0.001]\nr = [0, 0.001]"), &["fluid.refine.0.where: unknown key"]),
     (Whole("[time]\nend = 1\n[coupling]\nscheme = \"none\"\n[solid]\nz = [0, 1]\nr = [0, 1]\ncells = [16, 16]\nlevels = 2\nmaterial = \"copper\"\n[[solid.refine]]\nshape = \"interface\"\nat_least = 2"), &["solid.refine.0.shape: scheme = \"none\" has no interface", "\"box\""]),
+    // Gravity and the tracer.
+    (Replace("[fluid.liquid]", "gravity = \"down\"\n[fluid.liquid]"), &["fluid.gravity: must be a number", "in m/s2"]),
+    (Replace("[fluid.liquid]", "gravity = -1e10\n[fluid.liquid]"), &["fluid.gravity: -10000000000.0 m/s2 means a pressure of", "at z = 0.01 m", "bears more than -300000000.0 Pa", "above"]),
+    (Replace("[fluid.liquid]", "gravity = inf\n[fluid.liquid]"), &["fluid.gravity: must be finite"]),
+    (Replace("[fluid.liquid]", "gravity = -9.81\nboundary = { z_max = \"far-field\" }\n[fluid.liquid]"), &["fluid.boundary.z_max: \"far-field\" does not go with this case", "gravity makes it one of height", "remove gravity, or make the side \"non-reflecting\""]),
+    (Append("[fluid.tracer]\nshape = \"sphere\"\ncentre = [0.004, 0.001]\nradius = 0.001"), &["fluid.tracer.centre: a sphere in axisymmetric geometry must be on the axis", "write [0.004, 0.0]"]),
+    (Append("[fluid.tracer]\nshape = \"ball\""), &["fluid.tracer.shape", "`ball`"]),
+    (Append("[fluid.tracer]\nshape = \"box\"\nz = [0.02, 0.03]\nr = [0.0, 0.01]"), &["fluid.tracer.z: the box [0.02, 0.03] m lies outside the fluid"]),
     // Equations of state and what fills the fluid.
     (Replace("gamma = 7.15", "gamma = 1.0"), &["fluid.liquid.gamma: must be greater than 1, got 1.0", "7.15 for water"]),
     (Replace("pi = 3e8", "pi = -3e8"), &["fluid.liquid.pi: must not be negative", "3e8 Pa for water"]),

@@ -17,6 +17,7 @@ epsilon = 1e-3
 adapt_every = 2
 scale_pressure = 1e6
 scale_density = 1e3
+gravity = -9.81
 [fluid.liquid]
 gamma = 7.15
 pi = 3e8
@@ -53,6 +54,10 @@ centre = [0.0085, 0.0]
 width = 1e-3
 amplitude = 1e5
 direction = [-1.0, 0.0]
+[fluid.tracer]
+shape = "box"
+z = [0.001, 0.003]
+r = [0.0, 0.002]
 [[fluid.refine]]
 shape = "sphere"
 centre = [0.004, 0.0]
