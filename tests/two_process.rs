@@ -10,10 +10,11 @@ use std::time::{Duration, Instant};
 #[path = "reliability/cases.rs"]
 #[allow(dead_code, reason = "not all of its cases are run here")]
 mod cases;
+mod fixture;
 
 /// A bubble over steel, adaptive on three levels, with one snapshot before the end.
 fn small() -> String {
-    cases::COUPLED.replace("snapshot_every = 1.3e-6", "snapshots = [1e-5]")
+    cases::coupled().replace("snapshot_every = 1.3e-6", "snapshots = [1e-5]")
 }
 
 struct Workshop {

@@ -57,6 +57,11 @@ impl Sides {
         Self { fluid, solid, to_solid, to_fluid, stop }
     }
 
+    /// [`Sides::of`] a case whose text is that of these parts.
+    pub fn of_parts(parts: &[&str]) -> Self {
+        Self::of(&case(&parts.concat()))
+    }
+
     /// A round of turns; `look` sees both between their turns: at the same time.
     ///
     /// - returns: whether the run goes on.
