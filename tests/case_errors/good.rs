@@ -291,35 +291,43 @@ fn set_changes_what_it_names() {
     assert!(material(&["solid.material=copper", table]).is_some_and(|m| m.name() == "custom"));
 }
 
+fn says(report: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(report.contains(part), "no `{part}` in:\n{report}");
+    }
+}
+
 #[test]
 fn the_report_knows_the_papers_case() {
     let case = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml"));
     let report = cav::case::report(&case);
-    for part in [
-        "256 x 256 = 65536 cells of 195.3 um",
-        "256 blocks of 16 x 16",
-        "51.2 cells per radius",
-        "stand-off d/R = 2.000",
-        "Rayleigh collapse time 40.92 us",
-        "reflection coefficient of pressure 0.934501",
-        "4 in one of the fluid's",
-    ] {
-        assert!(report.contains(part), "no `{part}` in:\n{report}");
-    }
+    says(
+        &report,
+        &[
+            "256 x 256 = 65536 cells of 195.3 um",
+            "256 blocks of 16 x 16",
+            "51.2 cells per radius",
+            "stand-off d/R = 2.000",
+            "Rayleigh collapse time 40.92 us",
+            "reflection coefficient of pressure 0.934501",
+            "4 in one of the fluid's",
+        ],
+    );
     assert!(!report.contains("adaptive") && !report.contains("warning"), "{report}");
     let fine = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012.toml"));
     let report = cav::case::report(&fine);
-    for part in [
-        "adaptive, level 2 to 9: 16 x 16 to 2048 x 2048 cells of 24.41 um",
-        "adaptive, level 0 to 9: 16 x 16 to 8192 x 8192 cells of 6.104 um",
-        "thresholds on the finest level 50 kPa (0.001 of 50 MPa)",
-        "67108864 cells",
-        "if all cells were on the finest level",
-        "409.6 cells per radius at the finest level",
-        "a guess",
-    ] {
-        assert!(report.contains(part), "no `{part}` in:\n{report}");
-    }
+    says(
+        &report,
+        &[
+            "adaptive, level 2 to 9: 16 x 16 to 2048 x 2048 cells of 24.41 um",
+            "adaptive, level 0 to 9: 16 x 16 to 8192 x 8192 cells of 6.104 um",
+            "thresholds on the finest level 50 kPa (0.001 of 50 MPa)",
+            "67108864 cells",
+            "if all cells were on the finest level",
+            "409.6 cells per radius at the finest level",
+            "a guess",
+        ],
+    );
     // Two mirrored spheres at one potential: by the series of image charges 11.25 MPa on the plane between them.
     let sets = ["fluid.initial_pressure=rayleigh".to_owned()];
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml");

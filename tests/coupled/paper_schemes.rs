@@ -2,7 +2,7 @@
 //! the strong one's iteration ends with, and what the factors of the weak one do.
 
 use crate::fixture::{grid, pulse, solid, water};
-use crate::harness::{STEEL, Sides, sound};
+use crate::harness::{PAPERS_SCHEMES, STEEL, Sides, sound};
 use crate::pulse::{Incidence, Outcome};
 
 /// 20 cells per width, the same Courant number 0.1 on both sides.
@@ -19,14 +19,7 @@ fn on_steel(coupling: &str) -> (Outcome, f64) {
 #[test]
 fn all_of_them_and_the_factor_on_the_jump_stay_close() {
     // First order in the interface cells: a few per cent at 20 cells per width.
-    for coupling in [
-        "scheme = \"explicit\"",
-        "scheme = \"weak\"",
-        "scheme = \"weak\"\nfirst = \"solid\"",
-        "scheme = \"weak\"\nkappa = \"jump\"",
-        "scheme = \"strong\"",
-        "scheme = \"strong\"\nfirst = \"solid\"",
-    ] {
+    for coupling in PAPERS_SCHEMES {
         let (Outcome { reflected, transmitted, .. }, exact) = on_steel(coupling);
         assert!((reflected / exact - 1.0).abs() < 0.03, "{coupling}: {reflected} of {exact}");
         assert!(

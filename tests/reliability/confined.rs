@@ -29,14 +29,20 @@ fn below(place: &Path, except: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     found
 }
 
+/// A workshop, and in it a directory with somebody else's file.
+fn beside_a_file(name: &str) -> (Workshop, PathBuf) {
+    let workshop = Workshop::with("");
+    let elsewhere = workshop.file("elsewhere");
+    fs::create_dir(&elsewhere).unwrap();
+    fs::write(elsewhere.join(name), "mine").unwrap();
+    (workshop, elsewhere)
+}
+
 /// Names that lead elsewhere where they are taken for paths: of probes, of the material.
 #[test]
 fn names_lead_nowhere() {
     let _turn = alone();
-    let workshop = Workshop::with("");
-    let elsewhere = workshop.file("elsewhere");
-    fs::create_dir(&elsewhere).unwrap();
-    fs::write(elsewhere.join("fluid.h5"), "mine").unwrap();
+    let (workshop, elsewhere) = beside_a_file("fluid.h5");
     let absolute = elsewhere.join("fluid.h5").to_string_lossy().into_owned();
     let mut accepted = 0;
     for name in
@@ -86,10 +92,7 @@ fn a_case_files_own_name_leads_nowhere() {
 #[test]
 fn an_output_directory_with_other_files_is_refused() {
     let _turn = alone();
-    let workshop = Workshop::with("");
-    let elsewhere = workshop.file("elsewhere");
-    fs::create_dir(&elsewhere).unwrap();
-    fs::write(elsewhere.join("letter.txt"), "mine").unwrap();
+    let (workshop, elsewhere) = beside_a_file("letter.txt");
     let case = format!("{}[output]\ndirectory = {:?}\n", coupled(), elsewhere.to_string_lossy());
     fs::write(workshop.file("case.toml"), case).unwrap();
     let before = below(&workshop.file(""), &workshop.file("out"));

@@ -98,26 +98,28 @@ fn half_a_checkpoint_does_not_count() {
     assert!(!directory.join("fluid.vtkhdf.tmp").exists());
 }
 
-#[test]
-fn with_nothing_but_damaged_checkpoints_a_run_says_so() {
+/// The same change in all checkpoints of a run.
+fn is_refused_with_all_damaged(change: impl Fn(&mut Vec<u8>), words: &[&str]) {
     let _turn = alone();
     let workshop = Workshop::with(&coupled());
     let directory = cut_off(&workshop, "lost", 9);
     for name in checkpoints(&directory) {
-        damage(&directory, &name, |bytes| bytes[100] ^= 4);
+        damage(&directory, &name, &change);
     }
-    is_refused(&workshop, "lost", &["none of its checkpoints can be used", "checksum"]);
+    is_refused(&workshop, "lost", words);
+}
+
+#[test]
+fn with_nothing_but_damaged_checkpoints_a_run_says_so() {
+    is_refused_with_all_damaged(
+        |bytes| bytes[100] ^= 4,
+        &["none of its checkpoints can be used", "checksum"],
+    );
 }
 
 #[test]
 fn a_checkpoint_of_another_format_is_named() {
-    let _turn = alone();
-    let workshop = Workshop::with(&coupled());
-    let directory = cut_off(&workshop, "newer", 9);
-    for name in checkpoints(&directory) {
-        damage(&directory, &name, |bytes| bytes[8] = 77);
-    }
-    is_refused(&workshop, "newer", &["its format is 77"]);
+    is_refused_with_all_damaged(|bytes| bytes[8] = 77, &["its format is 77"]);
 }
 
 /// A program whose state has other fields has written it, and nobody has counted up the format.
