@@ -15,6 +15,11 @@ use coupler::{
     LinkCounters, TraceRow, WallParticipant, direct_pair, fluid_at_moving_wall,
 };
 
+#[path = "../tests/fixture/mod.rs"]
+mod fixture;
+
+use fixture::{AIR, bubble, grid, steel, water};
+
 /// Rounds of a run: some frames after the one that is changed.
 const ROUNDS: usize = 4;
 
@@ -39,43 +44,12 @@ pub const RUNS: [(&[&str], bool, bool); 9] = [
     (&["coupling.scheme=\"external\""], false, true),
 ];
 
-const TIME: &str = "[time]\nend = 2e-6\n";
-const FLUID: &str = r#"
-[fluid]
-z = [0.0, 0.0016]
-r = [0.0, 0.0016]
-cells = [16, 16]
-levels = 0
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.gas]
-gamma = 1.4
-pi = 0.0
-[fluid.ambient]
-phase = "liquid"
-density = 1000.0
-pressure = 1e7
-[[fluid.region]]
-shape = "sphere"
-centre = [0.0004, 0.0]
-radius = 0.0006
-phase = "gas"
-density = 1.2
-pressure = 1e5
-"#;
-const SOLID: &str = r#"
-[solid]
-z = [-0.0016, 0.0]
-r = [0.0, 0.0016]
-cells = [16, 16]
-levels = 0
-material = "structural-steel"
-"#;
-
 fn case((sets, has_fluid, has_solid): (&[&str], bool, bool)) -> Case {
-    let part = |is_there: bool, text: &'static str| if is_there { text } else { "" };
-    let text = [TIME, part(has_fluid, FLUID), part(has_solid, SOLID)].concat();
+    let lines = |z| grid(z, 0.0016, [16, 16]) + "levels = 0\n";
+    let fluid = water(&lines([0.0, 0.0016]), 1e7) + &bubble([0.0004, 0.0], 0.0006, AIR);
+    let solid = steel(&lines([-0.0016, 0.0]));
+    let part = |is_there: bool, text: String| if is_there { text } else { String::new() };
+    let text = ["[time]\nend = 2e-6\n", &part(has_fluid, fluid), &part(has_solid, solid)].concat();
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     Case::from_toml(&text, "frames", &sets).unwrap_or_else(|errors| panic!("{errors}"))
 }

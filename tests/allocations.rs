@@ -12,6 +12,10 @@ use cav::run::side::fluid_side::{FluidSide, Turn};
 use cav::run::side::solid_side::SolidSide;
 use coupler::direct_pair;
 
+mod fixture;
+
+use fixture::{THIN_GAS, bubble, grid, steel, water};
+
 /// Counts allocations of at least [`SIZE`] bytes.
 struct Counting;
 
@@ -48,32 +52,16 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 /// A bubble over steel, 1024 fluid faces on 768 solid ones: rows longer than what the thread pool allocates for itself.
-const CASE: &str = r#"
-[time]
-end = 1e-4
-[fluid]
-z = [0.01, 0.06]
-r = [0.0, 0.05]
-cells = [16, 1024]
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 5e7
-[[fluid.region]]
-shape = "sphere"
-centre = [0.03, 0.0]
-radius = 0.01
-phase = "gas"
-density = 0.0266
-pressure = 2118.0
-[solid]
-z = [-0.04, 0.01]
-r = [0.0, 0.05]
-cells = [16, 768]
-material = "structural-steel"
-"#;
+fn case(sets: &[&str]) -> Case {
+    let text = [
+        "[time]\nend = 1e-4\n",
+        &water(&grid([0.01, 0.06], 0.05, [16, 1024]), 5e7),
+        &bubble([0.03, 0.0], 0.01, THIN_GAS),
+        &steel(&grid([-0.04, 0.01], 0.05, [16, 768])),
+    ];
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    Case::from_toml(&text.concat(), "allocations", &sets).unwrap_or_else(|errors| panic!("{errors}"))
+}
 
 // One function: the counter is the whole process's.
 #[test]
@@ -102,8 +90,7 @@ fn a_coupled_step_allocates_nothing_of_a_rows_size() {
 
 /// Allocations of the size of the shorter side's row in 20 steps.
 fn allocations(sets: &[&str]) -> u64 {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    let case = Case::from_toml(CASE, "allocations", &sets).unwrap_or_else(|errors| panic!("{errors}"));
+    let case = case(sets);
     let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) else { panic!("both media") };
     let mut fluid = FluidSide::new(&case, fluid, None).expect("the fluid");
     let mut solid = SolidSide::new(&case, solid, None).expect("the solid");

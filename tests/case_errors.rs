@@ -8,48 +8,18 @@ use cav::case::{Case, CaseErrors};
 
 #[path = "case_errors/bad.rs"]
 mod bad;
+mod fixture;
 #[path = "case_errors/good.rs"]
 mod good_cases;
 
 use bad::BAD;
+use fixture::small;
 use good_cases::round_trip;
 
 /// A small coupled case that is right.
-const GOOD: &str = r#"
-geometry = "axisymmetric"
-[time]
-end = 1e-6
-[fluid]
-z = [0.0, 0.01]
-r = [0.0, 0.01]
-cells = [4, 4]
-levels = 3
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 1e6
-[[fluid.region]]
-shape = "sphere"
-centre = [0.004, 0.0]
-radius = 0.002
-phase = "gas"
-density = 1.2
-pressure = 1e5
-[solid]
-z = [-0.01, 0.0]
-r = [0.0, 0.01]
-cells = [4, 4]
-levels = 3
-material = "structural-steel"
-[coupling]
-scheme = "riemann"
-[[probe]]
-name = "wall"
-position = [0.0, 0.0]
-medium = "fluid"
-"#;
+fn good_text() -> String {
+    small("end = 1e-6\n", 3)
+}
 
 /// What is done to the good case.
 enum Edit {
@@ -64,24 +34,25 @@ fn read(edit: &Edit) -> Result<Case, CaseErrors> {
     match edit {
         Whole(text) => Case::from_toml(text, "bad", &[]),
         Replace(from, to) => {
-            assert!(GOOD.contains(from), "the good case has no `{from}`");
-            Case::from_toml(&GOOD.replacen(from, to, 1), "bad", &[])
+            let good = good_text();
+            assert!(good.contains(from), "the good case has no `{from}`");
+            Case::from_toml(&good.replacen(from, to, 1), "bad", &[])
         }
-        Append(more) => Case::from_toml(&format!("{GOOD}\n{more}"), "bad", &[]),
+        Append(more) => Case::from_toml(&format!("{}\n{more}", good_text()), "bad", &[]),
         Sets(sets) => {
             let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-            Case::from_toml(GOOD, "bad", &sets)
+            Case::from_toml(&good_text(), "bad", &sets)
         }
     }
 }
 
 fn good() -> Case {
-    Case::from_toml(GOOD, "good", &[]).unwrap_or_else(|errors| panic!("{errors}"))
+    Case::from_toml(&good_text(), "good", &[]).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 fn with(sets: &[&str]) -> Case {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    Case::from_toml(GOOD, "good", &sets).unwrap_or_else(|errors| panic!("{errors}"))
+    Case::from_toml(&good_text(), "good", &sets).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 #[test]
@@ -109,7 +80,7 @@ fn every_bad_case_is_refused_with_key_and_remedy() {
 
 #[test]
 fn all_faults_of_a_case_come_together_and_are_drawn() {
-    let text = GOOD.replace("gamma = 7.15", "gamma = 0.9").replace("radius = 0.002", "raduis = 0.002");
+    let text = good_text().replace("gamma = 7.15", "gamma = 0.9").replace("radius = 0.002", "raduis = 0.002");
     let errors = Case::from_toml(&text, "bubble", &[]).expect_err("two mistakes");
     assert_eq!(errors.faults().len(), 3, "{errors}");
     let drawn = errors.render(false);
@@ -128,7 +99,8 @@ proptest::proptest! {
         value in "[-+.eE0-9]{1,9}|[\\[\\]{}=\"'.a-z0-9, ]{0,12}|inf|nan|\\[1e308, -1e308\\]|1e308|9223372036854775807",
         set in "(time|fluid|solid|probe)(\\.(end|cells|levels|z|r|region|material|0|1|x)){0,3}=[\\[\\]{}0-9ae.,]{0,5}",
     ) {
-        let damaged: Vec<String> = GOOD
+        let good = good_text();
+        let damaged: Vec<String> = good
             .lines()
             .enumerate()
             .map(|(number, text)| match text.split_once('=') {
@@ -137,7 +109,7 @@ proptest::proptest! {
                 _ => text.to_owned(),
             })
             .collect();
-        for (text, sets) in [(damaged.join("\n"), vec![]), (GOOD.to_owned(), vec![set])] {
+        for (text, sets) in [(damaged.join("\n"), vec![]), (good, vec![set])] {
             match Case::from_toml(&text, "damaged", &sets) {
                 Ok(case) => {
                     round_trip(&case);

@@ -5,52 +5,17 @@ use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+mod fixture;
 #[path = "command_line/left.rs"]
 mod left;
 
+use fixture::{probe, small};
 use left::summary;
 
 /// A tiny coupled case that is right, 16 × 16 cells a side.
-const GOOD: &str = r#"
-geometry = "axisymmetric"
-[time]
-end = 2e-6
-snapshots = [1e-6]
-[fluid]
-z = [0.0, 0.01]
-r = [0.0, 0.01]
-cells = [4, 4]
-levels = 2
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 1e6
-[[fluid.region]]
-shape = "sphere"
-centre = [0.004, 0.0]
-radius = 0.002
-phase = "gas"
-density = 1.2
-pressure = 1e5
-[solid]
-z = [-0.01, 0.0]
-r = [0.0, 0.01]
-cells = [4, 4]
-levels = 2
-material = "structural-steel"
-[coupling]
-scheme = "riemann"
-[[probe]]
-name = "wall"
-position = [0.0, 0.0]
-medium = "fluid"
-[[probe]]
-name = "steel"
-position = [-0.002, 0.001]
-medium = "solid"
-"#;
+fn good() -> String {
+    small("end = 2e-6\nsnapshots = [1e-6]\n", 2) + &probe("steel", [-0.002, 0.001], "solid")
+}
 
 /// A bad input must be refused before anything is computed; this is far above a process's start.
 const AT_ONCE: Duration = Duration::from_secs(2);
@@ -62,7 +27,7 @@ struct Workshop {
 impl Workshop {
     fn new() -> Self {
         let workshop = Self { directory: tempfile::tempdir().expect("a temporary directory") };
-        workshop.write("case.toml", GOOD);
+        workshop.write("case.toml", good());
         workshop
     }
 
@@ -206,14 +171,15 @@ fn bad_input_ends_with_code_2_the_key_and_the_remedy() {
     workshop.write("latin.toml", b"# gr\xfc\xdfe\n");
     let before = workshop.content();
     let mut wrong = String::new();
+    let good = good();
     for (number, (edit, fragments)) in BAD.iter().enumerate() {
         let case = match edit {
             Replace(from, to) => {
-                assert!(GOOD.contains(from), "the good case has no `{from}`");
-                GOOD.replacen(from, to, 1)
+                assert!(good.contains(from), "the good case has no `{from}`");
+                good.replacen(from, to, 1)
             }
-            Append(more) => format!("{GOOD}\n{more}\n"),
-            With(_) | Instead(_) => GOOD.to_owned(),
+            Append(more) => format!("{good}\n{more}\n"),
+            With(_) | Instead(_) => good.clone(),
         };
         workshop.write("case.toml", case);
         let arguments = match edit {
@@ -322,7 +288,8 @@ fn materials_are_listed_with_yield_strength_and_source() {
 #[test]
 fn one_medium_runs_alone() {
     let workshop = Workshop::new();
-    let (fluid, solid) = GOOD.split_once("[solid]").expect("both media");
+    let good = good();
+    let (fluid, solid) = good.split_once("[solid]").expect("both media");
     let coupling = solid.find("[coupling]").expect("the coupling follows");
     let (head, _) = fluid.split_once("[fluid]").expect("a head");
     let none = "[coupling]\nscheme = \"none\"\n";

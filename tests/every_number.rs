@@ -18,6 +18,7 @@ use toml::Value;
 
 #[path = "every_number/cases.rs"]
 mod cases;
+mod fixture;
 
 /// What each number is set to. Whole numbers get the largest there is, too.
 const VALUES: [&str; 8] = ["0", "-1", "1e-300", "1e-30", "1e30", "1e300", "nan", "inf"];
@@ -71,15 +72,15 @@ struct Trial {
 /// with them.
 fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
-    for (name, text) in cases::ALL {
-        let case = Case::from_toml(text, name, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    for (name, text) in cases::all() {
+        let case = Case::from_toml(&text, name, &[]).unwrap_or_else(|errors| panic!("{errors}"));
         let whole = case.effective_toml();
-        let own = numbers_of(text);
+        let own = numbers_of(&text);
         let is_own = |path: &str| own.iter().any(|(known, _)| known == path);
         let filled: Vec<_> = numbers_of(&whole).into_iter().filter(|(path, _)| !is_own(path)).collect();
         for (text, (path, is_whole)) in own
             .iter()
-            .map(|number| (text, number))
+            .map(|number| (text.as_str(), number))
             .chain(filled.iter().map(|number| (whole.as_str(), number)))
         {
             let two = name == cases::IN_TWO && path.starts_with("coupling.");

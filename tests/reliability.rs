@@ -11,6 +11,7 @@ mod compare;
 mod confined;
 #[path = "reliability/faults.rs"]
 mod faults;
+mod fixture;
 #[path = "reliability/going_on.rs"]
 mod going_on;
 #[path = "reliability/long.rs"]

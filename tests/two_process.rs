@@ -10,10 +10,16 @@ use std::time::{Duration, Instant};
 #[path = "reliability/cases.rs"]
 #[allow(dead_code, reason = "not all of its cases are run here")]
 mod cases;
+mod fixture;
+#[path = "reliability/processes.rs"]
+#[allow(dead_code, reason = "not all of it is needed here")]
+mod processes;
+
+use processes::{processes_of, segments, text, wait_until};
 
 /// A bubble over steel, adaptive on three levels, with one snapshot before the end.
 fn small() -> String {
-    cases::COUPLED.replace("snapshot_every = 1.3e-6", "snapshots = [1e-5]")
+    cases::coupled().replace("snapshot_every = 1.3e-6", "snapshots = [1e-5]")
 }
 
 struct Workshop {
@@ -48,10 +54,6 @@ impl Workshop {
     }
 }
 
-fn text(output: &Output) -> String {
-    format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
-}
-
 fn summary(directory: &Path) -> serde_json::Value {
     let text = fs::read_to_string(directory.join("summary.json")).expect("there is a summary");
     serde_json::from_str(&text).expect("it is JSON")
@@ -75,43 +77,10 @@ fn datasets(path: &Path) -> Vec<(String, Vec<u64>)> {
     found
 }
 
-/// The processes of this executable whose command line names this directory.
-fn processes_of(out: &Path) -> Vec<(u32, String)> {
-    let wanted = out.to_string_lossy().into_owned();
-    let mut found = Vec::new();
-    for entry in fs::read_dir("/proc").expect("proc").flatten() {
-        let Ok(pid) = entry.file_name().to_string_lossy().parse::<u32>() else { continue };
-        let line = fs::read(entry.path().join("cmdline")).unwrap_or_default();
-        let words: Vec<String> =
-            line.split(|b| *b == 0).map(|w| String::from_utf8_lossy(w).into_owned()).collect();
-        let is_zombie = fs::read_to_string(entry.path().join("stat")).is_ok_and(|s| s.contains(") Z "));
-        if words.first().is_some_and(|w| w.ends_with("cav")) && words.contains(&wanted) && !is_zombie {
-            found.push((pid, words[1].clone()));
-        }
-    }
-    found
-}
-
-fn wait_until(what: &str, limit: Duration, mut done: impl FnMut() -> bool) {
-    let begin = Instant::now();
-    while !done() {
-        assert!(begin.elapsed() < limit, "waited {limit:?} for: {what}");
-        std::thread::sleep(Duration::from_millis(10));
-    }
-}
-
 /// Kills or signals by number; there is no process group to hit by accident.
 fn signal(pid: u32, signal: &str) {
     let status = Command::new("kill").args([signal, &pid.to_string()]).status().expect("kill runs");
     assert!(status.success(), "kill {signal} {pid}");
-}
-
-/// Shared objects of cav that belong to processes of this run (their file names do not say whose they are, so
-/// this is only asked where no other run is under way in the same domain).
-fn segments() -> Vec<String> {
-    let names = fs::read_dir("/dev/shm").expect("shared memory").flatten();
-    let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
-    names.filter(|name| name.starts_with("cav_")).collect()
 }
 
 fn running(workshop: &Workshop, out: &str, child: &mut Child, sides: usize) -> Vec<(u32, String)> {

@@ -2,52 +2,29 @@
 
 use std::time::Instant;
 
+use crate::fixture::{self, grid, steel, water};
 use crate::harness::{Sides, case};
 
 /// A spherical pulse above steel on 16 · 2^`levels` cells of 6.4 mm: 12 cells per width at level 4. A corner of the solid
 /// is kept on the finest level, so that all runs of a resolution make the same steps: what is compared is the grids'
 /// doing, not that of longer steps while the solid is quiet.
 fn pulse(levels: u8, adaptive: bool) -> String {
-    let grid =
-        format!("cells = [16, 16]\nlevels = {levels}\n{}", if adaptive { "" } else { "adapt = false\n" });
-    let corner = if adaptive {
-        format!(
-            "[[solid.refine]]\nshape = \"box\"\nz = [-6.4e-3, -6.3e-3]\nr = [6.3e-3, 6.4e-3]\nat_least = {levels}\n"
-        )
-    } else {
-        String::new()
+    let lines = |z| {
+        let adapt = if adaptive { "" } else { "adapt = false\n" };
+        grid(z, 6.4e-3, [16, 16]) + &format!("levels = {levels}\n{adapt}")
     };
-    format!(
-        r#"
-geometry = "axisymmetric"
-[time]
-end = 2e-6
-[fluid]
-z = [0.0, 6.4e-3]
-r = [0.0, 6.4e-3]
-{grid}
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 1e5
-[[fluid.pulse]]
-shape = "sphere"
-centre = [1.5e-3, 0.0]
-width = 3e-4
-amplitude = 1e4
-[solid]
-z = [-6.4e-3, 0.0]
-r = [0.0, 6.4e-3]
-{grid}
-material = "structural-steel"
-initial_stress = "hydrostatic"
-{corner}
-[coupling]
-scheme = "riemann"
-"#
-    )
+    let corner = format!(
+        "[[solid.refine]]\nshape = \"box\"\nz = [-6.4e-3, -6.3e-3]\nr = [6.3e-3, 6.4e-3]\nat_least = {levels}\n"
+    );
+    let text = [
+        "[time]\nend = 2e-6\n",
+        &water(&lines([0.0, 6.4e-3]), 1e5),
+        &fixture::pulse(1.5e-3),
+        &steel(&lines([-6.4e-3, 0.0])),
+        "initial_stress = \"hydrostatic\"\n",
+        if adaptive { &corner } else { "" },
+    ];
+    text.concat()
 }
 
 /// p and ρc v in the fluid, the stresses and ρ̄c₁ v in the solid, at the centres of 256 × 256 cells of each.

@@ -5,6 +5,7 @@ use std::path::Path;
 use cav::case::Case;
 use cav::run::record::collapse::CollapseFinder;
 
+use crate::fixture::{AIR, bubble, grid, steel, water};
 use crate::harness::Sides;
 
 /// Value and time of the largest so far.
@@ -44,43 +45,13 @@ fn the_figures_case_has_its_known_peaks() {
 /// from them, must be those of their own face states.
 #[test]
 fn gas_comes_to_the_steel() {
-    let text = r#"
-geometry = "axisymmetric"
-[time]
-end = 16e-6
-[fluid]
-z = [0.0, 6.4e-3]
-r = [0.0, 6.4e-3]
-cells = [16, 16]
-levels = 3
-epsilon = 1e-3
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.gas]
-gamma = 1.4
-pi = 0.0
-[fluid.ambient]
-density = 1000.0
-pressure = 1e7
-[[fluid.region]]
-shape = "sphere"
-centre = [1.5e-3, 0.0]
-radius = 1e-3
-phase = "gas"
-density = 1.2
-pressure = 1e5
-[solid]
-z = [-6.4e-3, 0.0]
-r = [0.0, 6.4e-3]
-cells = [16, 16]
-levels = 3
-epsilon = 1e-3
-material = "structural-steel"
-[coupling]
-scheme = "riemann"
-"#;
-    let mut sides = Sides::of(&crate::harness::case(text));
+    let lines = |z| grid(z, 6.4e-3, [16, 16]) + "levels = 3\nepsilon = 1e-3\n";
+    let mut sides = Sides::of_parts(&[
+        "[time]\nend = 16e-6\n",
+        &water(&lines([0.0, 6.4e-3]), 1e7),
+        &bubble([1.5e-3, 0.0], 1e-3, AIR),
+        &steel(&lines([-6.4e-3, 0.0])),
+    ]);
     let (mut gas_at_the_wall, mut wall) = (0.0_f64, Peak::default());
     let mut gas = [f64::NAN; 2];
     sides.run(|fluid, _| {

@@ -1,43 +1,20 @@
 //! A column of water hits steel: the half-Riemann problem of liquid and elastic solid.
 
-use crate::harness::{Sides, case};
+use crate::fixture::{grid, steel, water};
+use crate::harness::Sides;
 
 /// p* and v* over the plateau: mean and largest deviation from the mean.
 fn plateau(speed: f64, star: &str) -> ([f64; 2], [f64; 2]) {
     // Solid cells four times as wide: about the same Courant number on both sides.
-    let text = format!(
-        r#"
-geometry = "planar"
-[time]
-end = 1e-3
-cfl = 0.8
-[fluid]
-z = [0.0, 0.0512]
-r = [0.0, 0.064]
-cells = [256, 16]
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 1e5
-velocity = [-{speed:?}, 0.0]
-[fluid.boundary]
-r_min = "wall"
-r_max = "wall"
-[solid]
-z = [-0.1024, 0.0]
-r = [0.0, 0.064]
-cells = [128, 16]
-material = "structural-steel"
-[solid.boundary]
-r_min = "symmetry"
-r_max = "symmetry"
-[coupling]
-star = "{star}"
-"#
-    );
-    let mut sides = Sides::of(&case(&text));
+    let mut sides = Sides::of_parts(&[
+        "geometry = \"planar\"\n[time]\nend = 1e-3\ncfl = 0.8\n",
+        &water(&grid([0.0, 0.0512], 0.064, [256, 16]), 1e5),
+        &format!("velocity = [-{speed:?}, 0.0]\n"),
+        "[fluid.boundary]\nr_min = \"wall\"\nr_max = \"wall\"\n",
+        &steel(&grid([-0.1024, 0.0], 0.064, [128, 16])),
+        "[solid.boundary]\nr_min = \"symmetry\"\nr_max = \"symmetry\"\n",
+        &format!("[coupling]\nstar = \"{star}\"\n"),
+    ]);
     let mut walls = Vec::new();
     for step in 0..140 {
         sides.round(|fluid, _| {

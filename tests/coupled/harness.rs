@@ -13,7 +13,7 @@ use coupler::{
 use fluid::{
     Boundary as FluidBoundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, StiffenedGas,
 };
-use mesh::{BLOCK, Domain, Geometry, Limiter};
+use mesh::{BLOCK, Domain, Geometry, Limiter, Mesh};
 use solid::{Boundary as SolidBoundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
 
 /// The fluid's solver as runs use it.
@@ -25,6 +25,16 @@ pub type Solid = SolidSolver<BLOCK>;
 pub const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 /// Structural steel: density, c1, c2.
 pub const STEEL: [f64; 3] = [7800.0, 5990.0, 3458.0];
+
+/// Lines of `[coupling]`: the paper's schemes, and in which order its media move.
+pub const PAPERS_SCHEMES: [&str; 6] = [
+    "scheme = \"explicit\"",
+    "scheme = \"weak\"",
+    "scheme = \"weak\"\nfirst = \"solid\"",
+    "scheme = \"weak\"\nkappa = \"jump\"",
+    "scheme = \"strong\"",
+    "scheme = \"strong\"\nfirst = \"solid\"",
+];
 
 /// The speed of sound in water of 1000 kg/m³.
 pub fn sound(pressure: f64) -> f64 {
@@ -55,6 +65,11 @@ impl Sides {
         let mut solid = SolidSide::new(case, solid, None).expect("the solid");
         solid.open(&mut to_fluid, &stop).expect("the solid opens");
         Self { fluid, solid, to_solid, to_fluid, stop }
+    }
+
+    /// [`Sides::of`] a case whose text is that of these parts.
+    pub fn of_parts(parts: &[&str]) -> Self {
+        Self::of(&case(&parts.concat()))
     }
 
     /// A round of turns; `look` sees both between their turns: at the same time.
@@ -253,24 +268,23 @@ pub fn extreme(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
 }
 
-/// All cells of a fluid: centre and state.
-pub fn fluid_cells(fluid: &Fluid) -> Vec<([f64; 2], Primitive)> {
+/// All cells of a mesh: centre and state.
+fn cells<T>(mesh: &Mesh<BLOCK>, state: impl Fn(usize, usize, usize) -> T) -> Vec<([f64; 2], T)> {
     let mut cells = Vec::new();
-    for (slot, id) in fluid.mesh().tree().leaves().iter().enumerate() {
+    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
         for j in 0..BLOCK {
-            cells.extend((0..BLOCK).map(|i| (fluid.mesh().centre(*id, i, j), fluid.cell(slot, i, j))));
+            cells.extend((0..BLOCK).map(|i| (mesh.centre(*id, i, j), state(slot, i, j))));
         }
     }
     cells
 }
 
+/// All cells of a fluid: centre and state.
+pub fn fluid_cells(fluid: &Fluid) -> Vec<([f64; 2], Primitive)> {
+    cells(fluid.mesh(), |slot, i, j| fluid.cell(slot, i, j))
+}
+
 /// All cells of a solid: centre and state.
 pub fn solid_cells(solid: &Solid) -> Vec<([f64; 2], ElasticState)> {
-    let mut cells = Vec::new();
-    for (slot, id) in solid.mesh().tree().leaves().iter().enumerate() {
-        for j in 0..BLOCK {
-            cells.extend((0..BLOCK).map(|i| (solid.mesh().centre(*id, i, j), solid.cell(slot, i, j))));
-        }
-    }
-    cells
+    cells(solid.mesh(), |slot, i, j| solid.cell(slot, i, j))
 }

@@ -1,65 +1,33 @@
 //! What one side gives the other gets; what a closed box has it keeps.
 
-use crate::harness::{Sides, case};
+use crate::fixture::{THIN_GAS, bubble, inner_sides, steel, water};
+use crate::harness::Sides;
 
 /// Cells of the fluid and of the solid, which do not match: 2:3 on equal levels.
-const UNIFORM: [&str; 2] = ["cells = [32, 32]", "cells = [32, 48]"];
+const UNIFORM: [&str; 2] = ["cells = [32, 32]\n", "cells = [32, 48]\n"];
 /// The same in levels that come and go, on either side as its own waves ask for.
 const ADAPTIVE: [&str; 2] = [
-    "cells = [8, 8]\nlevels = 4\nadapt_every = 3\nepsilon = 2e-1",
-    "cells = [16, 24]\nlevels = 4\nadapt_every = 4\nepsilon = 2e-2",
+    "cells = [8, 8]\nlevels = 4\nadapt_every = 3\nepsilon = 2e-1\n",
+    "cells = [16, 24]\nlevels = 4\nadapt_every = 4\nepsilon = 2e-2\n",
 ];
 
 /// A gas bubble that collapses in a closed box over steel.
 ///
 /// - `local`: whether levels step by themselves.
 fn closed_box(model: &str, geometry: &str, grids: [&str; 2], local: bool) -> Sides {
-    let (centre, sides) = match geometry {
-        "planar" => ("[0.004, 0.005]", ["r_min = \"wall\"", "r_min = \"symmetry\""]),
-        _ => ("[0.004, 0.0]", [""; 2]),
-    };
-    let text = format!(
-        r#"
-geometry = "{geometry}"
-[time]
-end = 8e-6
-local_steps = {local}
-[fluid]
-z = [0.0, 0.01]
-r = [0.0, 0.01]
-{}
-model = "{model}"
-limiter = "minmod"
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 5e7
-[[fluid.region]]
-shape = "sphere"
-centre = {centre}
-radius = 0.002
-phase = "gas"
-density = 0.0266
-pressure = 2118.0
-[fluid.boundary]
-{}
-z_max = "wall"
-r_max = "wall"
-[solid]
-z = [-0.01, 0.0]
-r = [0.0, 0.01]
-{}
-material = "structural-steel"
-[solid.boundary]
-{}
-z_min = "fixed"
-r_max = "symmetry"
-"#,
-        grids[0], sides[0], grids[1], sides[1]
-    );
-    Sides::of(&case(&text))
+    let centre = if geometry == "planar" { [0.004, 0.005] } else { [0.004, 0.0] };
+    let inner = inner_sides(geometry);
+    let lines = |z: [f64; 2], cells: &str| format!("z = {z:?}\nr = [0.0, 0.01]\n{cells}");
+    Sides::of_parts(&[
+        &format!("geometry = \"{geometry}\"\n[time]\nend = 8e-6\nlocal_steps = {local}\n"),
+        &water(&format!("{}model = \"{model}\"\nlimiter = \"minmod\"\n", lines([0.0, 0.01], grids[0])), 5e7),
+        &bubble(centre, 0.002, THIN_GAS),
+        "[fluid.boundary]\nz_max = \"wall\"\nr_max = \"wall\"\n",
+        inner[0],
+        &steel(&lines([-0.01, 0.0], grids[1])),
+        "[solid.boundary]\nz_min = \"fixed\"\nr_max = \"symmetry\"\n",
+        inner[1],
+    ])
 }
 
 /// Round-off of sums over some thousand cells and some hundred steps, relative to the sums of absolute values.

@@ -6,15 +6,13 @@ use cav::run::process::stop::Stop;
 use cav::run::side::fluid_side::Turn;
 use solid::ElasticState;
 
+use crate::fixture::{grid, solid};
 use crate::harness::{STEEL, case};
 
 /// Steel from −`depth` to 0 and to `width`, in square cells; `rest` are further tables.
 fn steel(end: f64, depth: f64, width: f64, cells: [usize; 2], rest: &str) -> String {
-    let [density, c1, c2] = STEEL;
-    format!(
-        "[time]\nend = {end:?}\n[solid]\nz = [-{depth:?}, 0.0]\nr = [0.0, {width:?}]\ncells = {cells:?}\nadapt = false\n\
-         material = {{ density = {density:?}, c1 = {c1:?}, c2 = {c2:?} }}\n{rest}"
-    )
+    let body = solid(&grid([-depth, 0.0], width, cells), STEEL);
+    format!("[time]\nend = {end:?}\n{body}adapt = false\n{rest}")
 }
 
 /// Runs a case of a solid alone; `look` sees it after every step.

@@ -3,6 +3,8 @@
 mod adaptive_pulse;
 mod collapse;
 mod exchange;
+#[path = "../fixture/mod.rs"]
+mod fixture;
 mod hammer;
 mod harness;
 mod ledgers;

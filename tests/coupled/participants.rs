@@ -9,6 +9,7 @@ use cav::run::side::fluid_side::Turn;
 use cav::run::side::solid_side::SolidSide;
 use coupler::{FlowParticipant, FlowTrace, direct_pair};
 
+use crate::fixture::{grid, steel};
 use crate::harness::{case, solid_cells};
 
 #[path = "../../examples/spring_mass_wall.rs"]
@@ -25,25 +26,14 @@ fn a_mass_on_a_spring_moves_as_its_equation_says() {
 
 /// A planar strip of steel, the upper end of which is `coupling`'s.
 fn strip(coupling: &str) -> String {
-    format!(
-        r#"
-geometry = "planar"
-[time]
-end = 2e-6
-[solid]
-z = [-0.0128, 0.0]
-r = [0.0, 0.0016]
-cells = [128, 16]
-adapt = false
-material = "structural-steel"
-initial_stress = "hydrostatic"
-[solid.boundary]
-r_min = "symmetry"
-r_max = "symmetry"
-[coupling]
-{coupling}
-"#
-    )
+    let text = [
+        "geometry = \"planar\"\n[time]\nend = 2e-6\n",
+        &steel(&grid([-0.0128, 0.0], 0.0016, [128, 16])),
+        "adapt = false\ninitial_stress = \"hydrostatic\"\n",
+        "[solid.boundary]\nr_min = \"symmetry\"\nr_max = \"symmetry\"\n",
+        &format!("[coupling]\n{coupling}\n"),
+    ];
+    text.concat()
 }
 
 #[test]

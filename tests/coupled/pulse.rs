@@ -3,9 +3,8 @@
 
 use mesh::Limiter;
 
-use crate::harness::{
-    Pair, STEEL, Sides, WATER, case, elastic, extreme, fluid_cells, solid_cells, sound, strip, water,
-};
+use crate::fixture::{self, grid, inner_sides, solid};
+use crate::harness::{Pair, STEEL, Sides, elastic, extreme, fluid_cells, solid_cells, sound, strip, water};
 
 /// Pascal; so weak that the liquid answers linearly: A/(ρc²) is 5e-6.
 pub const AMPLITUDE: f64 = 1e4;
@@ -74,17 +73,7 @@ impl Incidence<'_> {
     }
 
     pub fn run(&self) -> Outcome {
-        let Self {
-            cells,
-            amplitude,
-            pressure,
-            material: [density, c1, c2],
-            geometry,
-            stretch,
-            limiter,
-            cfl,
-            ..
-        } = *self;
+        let Self { cells, amplitude, pressure, material, geometry, stretch, limiter, cfl, .. } = *self;
         let [across_fluid, across_solid] = self.across;
         let h = WIDTH / cells as f64;
         let (height, depth, wide) = (8.0 * WIDTH, 4.0 * WIDTH * stretch, 160.0 * h);
@@ -92,53 +81,22 @@ impl Incidence<'_> {
         let centre = 4.0 * WIDTH;
         let speed = sound(pressure);
         let end = 7.0 * WIDTH / speed;
-        let r_min = if geometry == "planar" { ["r_min = \"wall\"", "r_min = \"symmetry\""] } else { [""; 2] };
-        let text = format!(
-            r#"
-geometry = "{geometry}"
-[time]
-end = {end:?}
-cfl = {cfl}
-[fluid]
-z = [0.0, {height:?}]
-r = [0.0, {wide:?}]
-cells = [{along_fluid}, {across_fluid}]
-limiter = "{limiter}"
-[fluid.liquid]
-gamma = {gamma:?}
-pi = {pi:?}
-[fluid.ambient]
-density = 1000.0
-pressure = {pressure:?}
-[[fluid.pulse]]
-shape = "plane"
-centre = {centre:?}
-direction = [-1.0, 0.0]
-width = {WIDTH:?}
-amplitude = {amplitude:?}
-[fluid.boundary]
-{}
-r_max = "wall"
-[solid]
-z = [-{depth:?}, 0.0]
-r = [0.0, {wide:?}]
-cells = [{along_solid}, {across_solid}]
-limiter = "{limiter}"
-material = {{ density = {density:?}, c1 = {c1:?}, c2 = {c2:?} }}
-initial_stress = "hydrostatic"
-[solid.boundary]
-{}
-r_max = "symmetry"
-[coupling]
-{}
-"#,
-            r_min[0],
-            r_min[1],
-            self.coupling,
-            gamma = WATER.gamma,
-            pi = WATER.pi,
-        );
-        let mut sides = Sides::of(&case(&text));
+        let inner = inner_sides(geometry);
+        let lines = |z, cells| grid(z, wide, cells) + &format!("limiter = \"{limiter}\"\n");
+        let mut sides = Sides::of_parts(&[
+            &format!("geometry = \"{geometry}\"\n[time]\nend = {end:?}\ncfl = {cfl}\n"),
+            &fixture::water(&lines([0.0, height], [along_fluid, across_fluid]), pressure),
+            &format!(
+                "[[fluid.pulse]]\nshape = \"plane\"\ncentre = {centre:?}\ndirection = [-1.0, 0.0]\n\
+                 width = {WIDTH:?}\namplitude = {amplitude:?}\n"
+            ),
+            "[fluid.boundary]\nr_max = \"wall\"\n",
+            inner[0],
+            &solid(&lines([-depth, 0.0], [along_solid, across_solid]), material),
+            "initial_stress = \"hydrostatic\"\n[solid.boundary]\nr_max = \"symmetry\"\n",
+            inner[1],
+            &format!("[coupling]\n{}\n", self.coupling),
+        ]);
         // A cell's centre, so that the cell's mean is what is read.
         let below = [-(2.0 * cells as f64 + 0.5) * h * stretch, 0.3 * wide];
         let (slot, i, j) = sides.solid.solver().mesh().locate(below).expect("within the solid");

@@ -2,7 +2,8 @@
 //!
 //! Ten cells per width of the pulse, half of what `docs/verification.md` has its table at.
 
-use crate::harness::{Sides, case};
+use crate::fixture::{grid, pulse, solid, water};
+use crate::harness::{STEEL, Sides, case};
 
 /// What the pressure and the stresses change by at the receivers of [`RECEIVERS`], over time.
 const EXACT: &str = include_str!("data/pulse_above_steel.csv");
@@ -30,34 +31,17 @@ const RECEIVERS: [([f64; 2], Reads, f64); 8] = [
 const HEAD: usize = 3;
 
 /// Until the direct wave comes to the receiver [`HEAD`] nothing has come back from the sides.
-const CASE: &str = r#"
-geometry = "axisymmetric"
-[time]
-end = 4.78e-6
-[fluid]
-z = [0.0, 7.68e-3]
-r = [0.0, 19.2e-3]
-cells = [32, 80]
-levels = 3
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 1e5
-[[fluid.pulse]]
-shape = "sphere"
-centre = [2e-3, 0.0]
-width = 3e-4
-amplitude = 1e4
-[solid]
-z = [-15.36e-3, 0.0]
-r = [0.0, 19.2e-3]
-cells = [64, 80]
-levels = 3
-initial_stress = "hydrostatic"
-material = { density = 7800.0, c1 = 5990.0, c2 = 3458.0 }
-"#;
+fn text() -> String {
+    let lines = |z, along| grid(z, 19.2e-3, [along, 80]) + "levels = 3\n";
+    let text = [
+        "[time]\nend = 4.78e-6\n",
+        &water(&lines([0.0, 7.68e-3], 32), 1e5),
+        &pulse(2e-3),
+        &solid(&lines([-15.36e-3, 0.0], 64), STEEL),
+        "initial_stress = \"hydrostatic\"\n",
+    ];
+    text.concat()
+}
 
 /// Times, and a series for each receiver.
 type Record = (Vec<f64>, Vec<Vec<f64>>);
@@ -123,7 +107,7 @@ fn arrival((times, values): (&[f64], &[f64])) -> f64 {
 
 #[test]
 fn a_spherical_pulse_above_steel_is_the_exact_one() {
-    let (exact, ours) = (exact(), recorded(CASE));
+    let (exact, ours) = (exact(), recorded(&text()));
     for (k, ([r, z], _, most)) in RECEIVERS.into_iter().enumerate() {
         let off = misfit((&ours.0, &ours.1[k]), (&exact.0, &exact.1[k]));
         eprintln!("({r}, {z}) mm: {:.2} %", 100.0 * off);

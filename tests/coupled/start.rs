@@ -1,39 +1,18 @@
 //! A run that begins with Rayleigh's pressure begins with both media in equilibrium on the wall.
 
-use crate::harness::{Sides, case, solid_cells};
+use crate::fixture::{AIR, bubble, grid, steel, water};
+use crate::harness::{Sides, solid_cells};
 
 /// A bubble of 2 mm, 16 cells, two radii above steel.
-fn bubble(stress: &str) -> Sides {
-    Sides::of(&case(&format!(
-        r#"
-[time]
-end = 1e-3
-[fluid]
-z = [0.0, 0.008]
-r = [0.0, 0.008]
-cells = [64, 64]
-initial_pressure = "rayleigh"
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 1e6
-[[fluid.region]]
-shape = "sphere"
-centre = [0.004, 0.0]
-radius = 0.002
-phase = "gas"
-density = 1.2
-pressure = 1e5
-[solid]
-z = [-0.008, 0.0]
-r = [0.0, 0.008]
-cells = [64, 64]
-material = "structural-steel"
-initial_stress = "{stress}"
-"#
-    )))
+fn at_start(stress: &str) -> Sides {
+    let lines = |z| grid(z, 0.008, [64, 64]);
+    Sides::of_parts(&[
+        "[time]\nend = 1e-3\n",
+        &water(&(lines([0.0, 0.008]) + "initial_pressure = \"rayleigh\"\n"), 1e6),
+        &bubble([0.004, 0.0], 0.002, AIR),
+        &steel(&lines([-0.008, 0.0])),
+        &format!("initial_stress = \"{stress}\"\n"),
+    ])
 }
 
 /// On the axis the pressure of the start is 0.70 MPa below the ambient one. A solid under the latter would be thrown
@@ -42,7 +21,7 @@ initial_stress = "{stress}"
 fn the_solid_carries_the_pressure_of_the_start() {
     let thrown = 0.7e6 / (7800.0 * 5990.0);
     for stress in ["uniaxial", "hydrostatic"] {
-        let mut sides = bubble(stress);
+        let mut sides = at_start(stress);
         let off = |sides: &Sides| {
             let cells = solid_cells(sides.solid.solver());
             cells.iter().fold(0.0_f64, |most, (_, w)| most.max(w.v_z.abs()).max(w.v_r.abs()))

@@ -1,41 +1,37 @@
 //! Tiny cases that have every table and every number between them.
 
+use crate::fixture::{AIR, bubble, grid, probe, water};
+
 /// Coupled, adaptive, with local steps.
-const FULL: &str = r#"
-geometry = "axisymmetric"
-[time]
-end = 4e-8
-cfl = 0.4
-local_steps = true
-snapshots = [1e-8, 2e-8]
-[fluid]
-z = [0.0, 0.01]
-r = [0.0, 0.01]
-cells = [16, 16]
-levels = 1
-epsilon = 1e-3
-adapt_every = 2
-scale_pressure = 1e6
-scale_density = 1e3
-gravity = -9.81
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
+fn full() -> String {
+    let fluid = grid([0.0, 0.01], 0.01, [16, 16])
+        + "levels = 1\nepsilon = 1e-3\nadapt_every = 2\nscale_pressure = 1e6\nscale_density = 1e3\ngravity = -9.81\n";
+    let solid = grid([-0.01, 0.0], 0.01, [16, 16])
+        + "levels = 1\nepsilon = 1e-3\nadapt_every = 2\nscale_stress = 1e6\n";
+    let at_rest = "velocity = [0.0, 0.0]\n";
+    let text = [
+        "[time]\nend = 4e-8\ncfl = 0.4\nlocal_steps = true\nsnapshots = [1e-8, 2e-8]\n",
+        &water(&fluid, 1e6),
+        at_rest,
+        &bubble([0.004, 0.0], 0.002, AIR),
+        at_rest,
+        IN_FLUID,
+        "[solid]\n",
+        &solid,
+        IN_SOLID,
+        "[coupling]\nscheme = \"riemann\"\nstep_ratio = 16\nconnect_timeout = 10.0\npatience = 20.0\n",
+        &probe("wall", [0.0, 0.0], "fluid"),
+        &probe("steel", [-0.002, 0.001], "solid"),
+        "[output]\ncompression = 4\ninterface_cells = 32\ninterface_every = 1e-8\n",
+    ];
+    text.concat()
+}
+
+/// What else there is in its fluid.
+const IN_FLUID: &str = r#"
 [fluid.gas]
 gamma = 1.4
 pi = 0.0
-[fluid.ambient]
-density = 1000.0
-pressure = 1e6
-velocity = [0.0, 0.0]
-[[fluid.region]]
-shape = "sphere"
-centre = [0.004, 0.0]
-radius = 0.002
-phase = "gas"
-density = 1.2
-pressure = 1e5
-velocity = [0.0, 0.0]
 [[fluid.region]]
 shape = "box"
 z = [0.008, 0.009]
@@ -71,14 +67,10 @@ radius = 0.004
 z_max = "inflow"
 [fluid.inflow]
 pressure = [[0.0, 1e6], [1e-7, 1.2e6]]
-[solid]
-z = [-0.01, 0.0]
-r = [0.0, 0.01]
-cells = [16, 16]
-levels = 1
-epsilon = 1e-3
-adapt_every = 2
-scale_stress = 1e6
+"#;
+
+/// What there is in its solid.
+const IN_SOLID: &str = r#"
 [solid.material]
 density = 7800.0
 young = 2e11
@@ -97,130 +89,53 @@ at_most = 1
 [[solid.refine]]
 shape = "interface"
 at_least = 1
-[coupling]
-scheme = "riemann"
-step_ratio = 16
-connect_timeout = 10.0
-patience = 20.0
-[[probe]]
-name = "wall"
-position = [0.0, 0.0]
-medium = "fluid"
-[[probe]]
-name = "steel"
-position = [-0.002, 0.001]
-medium = "solid"
-[output]
-compression = 4
-interface_cells = 32
-interface_every = 1e-8
 "#;
 
 /// The paper's mixture under the strong scheme.
-const STRONG: &str = r#"
-[time]
-end = 1e-7
-snapshot_every = 6e-8
-[fluid]
-z = [0.0, 0.01]
-r = [0.0, 0.01]
-cells = [16, 16]
-model = "saurel-abgrall"
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 1e6
-[[fluid.region]]
-shape = "sphere"
-centre = [0.004, 0.0]
-radius = 0.002
-phase = "gas"
-density = 1.2
-pressure = 1e5
-[solid]
-z = [-0.01, 0.0]
-r = [0.0, 0.01]
-cells = [16, 16]
-[solid.material]
-density = 7800.0
-lambda = 1e11
-mu = 8e10
-[coupling]
-scheme = "strong"
-tolerance = 1e-5
-max_iterations = 20
-"#;
+fn strong() -> String {
+    let text = [
+        "[time]\nend = 1e-7\nsnapshot_every = 6e-8\n",
+        &water(&(grid([0.0, 0.01], 0.01, [16, 16]) + "model = \"saurel-abgrall\"\n"), 1e6),
+        &bubble([0.004, 0.0], 0.002, AIR),
+        "[solid]\n",
+        &grid([-0.01, 0.0], 0.01, [16, 16]),
+        "[solid.material]\ndensity = 7800.0\nlambda = 1e11\nmu = 8e10\n",
+        "[coupling]\nscheme = \"strong\"\ntolerance = 1e-5\nmax_iterations = 20\n",
+    ];
+    text.concat()
+}
 
 /// A solid alone under a load, in plane strain.
-const LOAD: &str = r#"
-geometry = "planar"
-[time]
-end = 2e-7
-[solid]
-z = [-0.01, 0.0]
-r = [0.0, 0.01]
-cells = [16, 16]
-levels = 1
-[solid.material]
-density = 7800.0
-c1 = 5900.0
-c2 = 3200.0
-[coupling]
-scheme = "load"
-[coupling.load]
-amplitude = 1e6
-radius = 2e-3
-history = [[0.0, 0.0], [1e-7, 1.0]]
-[[probe]]
-name = "steel"
-position = [-0.002, 0.001]
-medium = "solid"
-"#;
+fn load() -> String {
+    let text = [
+        "geometry = \"planar\"\n[time]\nend = 2e-7\n[solid]\n",
+        &grid([-0.01, 0.0], 0.01, [16, 16]),
+        "levels = 1\n[solid.material]\ndensity = 7800.0\nc1 = 5900.0\nc2 = 3200.0\n",
+        "[coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = 1e6\nradius = 2e-3\n",
+        "history = [[0.0, 0.0], [1e-7, 1.0]]\n",
+        &probe("steel", [-0.002, 0.001], "solid"),
+    ];
+    text.concat()
+}
 
 /// Bubbles above a rigid wall, adaptive, with the pressure of the start that is not uniform.
-const RAYLEIGH: &str = r#"
-[time]
-end = 2e-7
-local_steps = true
-[fluid]
-z = [0.0, 0.02]
-r = [0.0, 0.02]
-cells = [16, 16]
-levels = 1
-initial_pressure = "rayleigh"
-[fluid.liquid]
-gamma = 7.15
-pi = 3e8
-[fluid.ambient]
-density = 1000.0
-pressure = 1e6
-[[fluid.region]]
-shape = "sphere"
-centre = [0.004, 0.0]
-radius = 0.002
-phase = "gas"
-density = 1.2
-pressure = 1e5
-[[fluid.region]]
-shape = "sphere"
-centre = [0.01, 0.0]
-radius = 0.002
-phase = "gas"
-density = 1.2
-pressure = 1e5
-[coupling]
-scheme = "rigid"
-[[probe]]
-name = "water"
-position = [0.002, 0.001]
-medium = "fluid"
-"#;
+fn rayleigh() -> String {
+    let lines = grid([0.0, 0.02], 0.02, [16, 16]) + "levels = 1\ninitial_pressure = \"rayleigh\"\n";
+    let text = [
+        "[time]\nend = 2e-7\nlocal_steps = true\n",
+        &water(&lines, 1e6),
+        &bubble([0.004, 0.0], 0.002, AIR),
+        &bubble([0.01, 0.0], 0.002, AIR),
+        "[coupling]\nscheme = \"rigid\"\n",
+        &probe("water", [0.002, 0.001], "fluid"),
+    ];
+    text.concat()
+}
 
 /// The numbers of its `[coupling]` are tried in two processes.
 pub const IN_TWO: &str = "full";
 
 /// By name.
-pub const ALL: [(&str, &str); 4] =
-    [("full", FULL), ("strong", STRONG), ("load", LOAD), ("rayleigh", RAYLEIGH)];
+pub fn all() -> [(&'static str, String); 4] {
+    [("full", full()), ("strong", strong()), ("load", load()), ("rayleigh", rayleigh())]
+}

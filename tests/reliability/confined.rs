@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cases::COUPLED;
+use crate::cases::coupled;
 use crate::processes::{Workshop, alone, text};
 
 /// All files and directories below a place but those below `except`, and what is in them.
@@ -29,21 +29,27 @@ fn below(place: &Path, except: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     found
 }
 
+/// A workshop, and in it a directory with somebody else's file.
+fn beside_a_file(name: &str) -> (Workshop, PathBuf) {
+    let workshop = Workshop::with("");
+    let elsewhere = workshop.file("elsewhere");
+    fs::create_dir(&elsewhere).unwrap();
+    fs::write(elsewhere.join(name), "mine").unwrap();
+    (workshop, elsewhere)
+}
+
 /// Names that lead elsewhere where they are taken for paths: of probes, of the material.
 #[test]
 fn names_lead_nowhere() {
     let _turn = alone();
-    let workshop = Workshop::with("");
-    let elsewhere = workshop.file("elsewhere");
-    fs::create_dir(&elsewhere).unwrap();
-    fs::write(elsewhere.join("fluid.h5"), "mine").unwrap();
+    let (workshop, elsewhere) = beside_a_file("fluid.h5");
     let absolute = elsewhere.join("fluid.h5").to_string_lossy().into_owned();
     let mut accepted = 0;
     for name in
         ["../elsewhere/new", "../../elsewhere/fluid.h5", &absolute, "..", "/", "a/../../b", "new\\u0000.h5"]
     {
-        let probe = COUPLED.replace("name = \"wall\"", &format!("name = \"{name}\""));
-        let material = COUPLED.replace("structural-steel", name);
+        let probe = coupled().replace("name = \"wall\"", &format!("name = \"{name}\""));
+        let material = coupled().replace("structural-steel", name);
         for case in [probe, material] {
             assert!(case.contains(name));
             fs::write(workshop.file("case.toml"), case).unwrap();
@@ -66,7 +72,7 @@ fn names_lead_nowhere() {
 #[test]
 fn a_case_files_own_name_leads_nowhere() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let (elsewhere, runs) = (workshop.file("elsewhere"), workshop.file("elsewhere/runs"));
     fs::create_dir(&elsewhere).unwrap();
     for (number, name) in ["..toml", "...toml", "....toml"].into_iter().enumerate() {
@@ -86,11 +92,8 @@ fn a_case_files_own_name_leads_nowhere() {
 #[test]
 fn an_output_directory_with_other_files_is_refused() {
     let _turn = alone();
-    let workshop = Workshop::with("");
-    let elsewhere = workshop.file("elsewhere");
-    fs::create_dir(&elsewhere).unwrap();
-    fs::write(elsewhere.join("letter.txt"), "mine").unwrap();
-    let case = format!("{COUPLED}[output]\ndirectory = {:?}\n", elsewhere.to_string_lossy());
+    let (workshop, elsewhere) = beside_a_file("letter.txt");
+    let case = format!("{}[output]\ndirectory = {:?}\n", coupled(), elsewhere.to_string_lossy());
     fs::write(workshop.file("case.toml"), case).unwrap();
     let before = below(&workshop.file(""), &workshop.file("out"));
     // As any other input that is no good.

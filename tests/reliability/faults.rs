@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use crate::cases::COUPLED;
+use crate::cases::coupled;
 use crate::compare::{assert_same, summary};
 use crate::processes::{
     Workshop, alone, assert_tidy, checkpoints, process_of, processes_of, segments, signal, text,
@@ -24,7 +24,7 @@ fn longer() -> Vec<&'static str> {
         ["--set", "fluid.levels=5", "--set", "solid.levels=5", "--set", "time.local_steps=true"];
     const END_OF_TRIAL: f64 = 1e-5;
     let end = END.get_or_init(|| {
-        let workshop = Workshop::with(COUPLED);
+        let workshop = Workshop::with(&coupled());
         let trial = format!("time.end={END_OF_TRIAL:e}");
         let begin = Instant::now();
         workshop.done("trial", &[&GRID[..], &["--set", &trial, "-q"]].concat());
@@ -41,7 +41,7 @@ const ENDLESS: [&str; 4] = ["--set", "time.end=1e-2", "--set", "time.snapshot_ev
 #[test]
 fn what_happens_to_runs() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     workshop.done("whole", &[&longer()[..], &["-q"]].concat());
     in_other_processes_under_other_numbers_of_threads(&workshop);
     killed_at_any_time(&workshop);
@@ -173,7 +173,7 @@ fn a_stopped_side_is_waited_for(workshop: &Workshop) {
 }
 
 fn a_side_that_stays_stopped_is_given_up() {
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let out = workshop.file("stopped");
     let more = ["--checkpoint-every", "0", "--set", "coupling.patience=1.5"];
     let mut run = workshop.cav("stopped", &[&ENDLESS[..], &more].concat()).spawn().unwrap();
@@ -254,7 +254,7 @@ fn a_small_disk_fills_up(workshop: &Workshop) {
 }
 
 fn the_directory_is_removed() {
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let out = workshop.file("removed");
     let mut run =
         workshop.cav("removed", &[&ENDLESS[..], &["--checkpoint-every", "0"]].concat()).spawn().unwrap();
@@ -279,7 +279,7 @@ fn may_mount() -> bool {
 }
 
 fn no_room_in_shared_memory() {
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     if !may_mount() {
         return not_tested("shared memory of another size");
     }
@@ -298,7 +298,7 @@ fn no_room_in_shared_memory() {
 }
 
 fn what_dead_runs_left_goes_and_what_living_ones_have_stays() {
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let mut living = workshop.cav("living", &[&longer()[..], &["-q"]].concat()).spawn().unwrap();
     let mut dead =
         workshop.cav("dead", &[&ENDLESS[..], &["-q", "--checkpoint-every", "0"]].concat()).spawn().unwrap();

@@ -13,7 +13,7 @@ use cav::run::process::stop::Stop;
 use cav::run::record::conclusion::conclude;
 use cav::run::side::fluid_side::Turn;
 
-use crate::cases::{COUPLED, LOADED, SECOND_BUBBLE, SOLID, fluid_alone};
+use crate::cases::{coupled, fluid_alone, loaded, second_bubble, solid};
 use crate::compare::{assert_same, datasets};
 use crate::processes::without_processes;
 
@@ -90,14 +90,14 @@ fn check(what: &str, text: &str, sets: &[&str], piece: usize) {
 #[test]
 fn the_riemann_scheme() {
     let _turn = without_processes();
-    check("riemann", COUPLED, &[], 31);
-    check("short pieces", COUPLED, &["time.end=1e-5"], 7);
+    check("riemann", &coupled(), &[], 31);
+    check("short pieces", &coupled(), &["time.end=1e-5"], 7);
 }
 
 #[test]
 fn the_five_equation_model() {
     let _turn = without_processes();
-    check("five-equation", COUPLED, &["fluid.model=five-equation"], 37);
+    check("five-equation", &coupled(), &["fluid.model=five-equation"], 37);
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn the_weak_scheme() {
     let _turn = without_processes();
     for kappa in ["off", "printed", "jump"] {
         let sets = ["coupling.scheme=weak", &format!("coupling.kappa={kappa}"), "time.end=2e-5"];
-        check(&format!("weak, {kappa}"), COUPLED, &sets, 41);
+        check(&format!("weak, {kappa}"), &coupled(), &sets, 41);
     }
 }
 
@@ -122,7 +122,7 @@ fn the_papers_other_schemes() {
                 sets.push(format!("coupling.first={first}"));
             }
             let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-            check(&format!("{scheme}, {first} first"), COUPLED, &sets, 29);
+            check(&format!("{scheme}, {first} first"), &coupled(), &sets, 29);
         }
     }
 }
@@ -130,27 +130,27 @@ fn the_papers_other_schemes() {
 #[test]
 fn steps_that_are_the_same_on_both_sides() {
     let _turn = without_processes();
-    check("one step", COUPLED, &["coupling.step_ratio=1", "time.end=2e-5"], 41);
+    check("one step", &coupled(), &["coupling.step_ratio=1", "time.end=2e-5"], 41);
 }
 
 #[test]
 fn local_steps_where_the_fluids_are_the_longer() {
     let _turn = without_processes();
-    check("local", COUPLED, &["time.local_steps=true"], 13);
+    check("local", &coupled(), &["time.local_steps=true"], 13);
 }
 
 #[test]
 fn local_steps_where_the_solids_are_the_longer() {
     let _turn = without_processes();
     let soft = "solid.material={ density = 1100.0, c1 = 1550.0, c2 = 20.0 }";
-    check("soft", COUPLED, &[soft, "time.local_steps=true", "time.end=2e-5"], 5);
-    check("soft, common", COUPLED, &[soft, "time.end=2e-5"], 9);
+    check("soft", &coupled(), &[soft, "time.local_steps=true", "time.end=2e-5"], 5);
+    check("soft, common", &coupled(), &[soft, "time.end=2e-5"], 9);
 }
 
 #[test]
 fn several_bubbles() {
     let _turn = without_processes();
-    check("bubbles", &format!("{COUPLED}{SECOND_BUBBLE}"), &["time.end=2e-5"], 23);
+    check("bubbles", &(coupled() + &second_bubble()), &["time.end=2e-5"], 23);
 }
 
 #[test]
@@ -163,22 +163,22 @@ fn a_fluid_alone() {
 #[test]
 fn a_solid_under_a_load() {
     let _turn = without_processes();
-    check("load", LOADED, &[], 7);
-    check("load, local", LOADED, &["time.local_steps=true"], 5);
+    check("load", &loaded(), &[], 7);
+    check("load, local", &loaded(), &["time.local_steps=true"], 5);
 }
 
 #[test]
 fn a_solid_alone() {
     let _turn = without_processes();
-    check("solid", SOLID, &[], 11);
-    check("solid, local", SOLID, &["time.local_steps=true"], 5);
+    check("solid", &solid(), &[], 11);
+    check("solid, local", &solid(), &["time.local_steps=true"], 5);
 }
 
 /// The comparison sees a number that is off by one bit.
 #[test]
 fn one_bit_would_be_seen() {
     let _turn = without_processes();
-    let case = Case::from_toml(SOLID, "bit", &[]).unwrap();
+    let case = Case::from_toml(&solid(), "bit", &[]).unwrap();
     let workshop = tempfile::tempdir().unwrap();
     undisturbed(&case, &workshop.path().join("one"));
     undisturbed(&case, &workshop.path().join("other"));

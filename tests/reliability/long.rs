@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime};
 
-use crate::cases::COUPLED;
+use crate::cases::coupled;
 use crate::compare::{assert_same, summary};
 use crate::faults::victim_of;
 use crate::processes::{Workshop, alone, assert_tidy, processes_of, segments, signal, text};
@@ -115,7 +115,7 @@ fn held(pids: [u32; 2]) -> Option<Held> {
 #[ignore = "minutes"]
 fn a_long_coupled_run_holds_no_more_and_more() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let out = workshop.file("soak");
     let steps = number("CAV_STEPS", 200_000);
     // A fluid at rest: steps of one length, cells of one number.

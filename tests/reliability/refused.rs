@@ -12,7 +12,7 @@ use cav::run::process::session::{Session, Solvers};
 use cav::run::process::stop::Stop;
 use sha2::{Digest, Sha256};
 
-use crate::cases::COUPLED;
+use crate::cases::coupled;
 use crate::compare::{assert_same, summary};
 use crate::processes::{Workshop, alone, checkpoints, text};
 
@@ -65,7 +65,7 @@ fn damage(directory: &Path, name: &str, how: impl FnOnce(&mut Vec<u8>)) {
 #[test]
 fn the_last_two_checkpoints_are_kept_and_a_damaged_one_is_passed_over() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     type Change = fn(&mut Vec<u8>);
     let cut: [(&str, Change); 4] = [
         ("a flipped bit", |bytes| bytes[5000] ^= 1),
@@ -88,7 +88,7 @@ fn the_last_two_checkpoints_are_kept_and_a_damaged_one_is_passed_over() {
 #[test]
 fn half_a_checkpoint_does_not_count() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let directory = cut_off(&workshop, "half", 9);
     let all = checkpoints(&directory);
     fs::remove_file(directory.join("checkpoints").join(&all[3])).unwrap();
@@ -98,33 +98,35 @@ fn half_a_checkpoint_does_not_count() {
     assert!(!directory.join("fluid.vtkhdf.tmp").exists());
 }
 
-#[test]
-fn with_nothing_but_damaged_checkpoints_a_run_says_so() {
+/// The same change in all checkpoints of a run.
+fn is_refused_with_all_damaged(change: impl Fn(&mut Vec<u8>), words: &[&str]) {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let directory = cut_off(&workshop, "lost", 9);
     for name in checkpoints(&directory) {
-        damage(&directory, &name, |bytes| bytes[100] ^= 4);
+        damage(&directory, &name, &change);
     }
-    is_refused(&workshop, "lost", &["none of its checkpoints can be used", "checksum"]);
+    is_refused(&workshop, "lost", words);
+}
+
+#[test]
+fn with_nothing_but_damaged_checkpoints_a_run_says_so() {
+    is_refused_with_all_damaged(
+        |bytes| bytes[100] ^= 4,
+        &["none of its checkpoints can be used", "checksum"],
+    );
 }
 
 #[test]
 fn a_checkpoint_of_another_format_is_named() {
-    let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
-    let directory = cut_off(&workshop, "newer", 9);
-    for name in checkpoints(&directory) {
-        damage(&directory, &name, |bytes| bytes[8] = 77);
-    }
-    is_refused(&workshop, "newer", &["its format is 77"]);
+    is_refused_with_all_damaged(|bytes| bytes[8] = 77, &["its format is 77"]);
 }
 
 /// A program whose state has other fields has written it, and nobody has counted up the format.
 #[test]
 fn a_checkpoint_of_another_layout_is_refused_and_not_decoded() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let directory = cut_off(&workshop, "other", 9);
     for name in checkpoints(&directory) {
         damage(&directory, &name, |bytes| {
@@ -145,7 +147,7 @@ fn a_checkpoint_of_another_layout_is_refused_and_not_decoded() {
 #[test]
 fn a_changed_case_is_refused_whatever_has_changed() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let directory = cut_off(&workshop, "changed", 9);
     let case = fs::read_to_string(directory.join("case.toml")).unwrap();
     for (from, to) in [("cfl = ", "cfl = 0.1 # "), ("compression = ", "compression = 2 # ")] {
@@ -163,7 +165,7 @@ fn a_changed_case_is_refused_whatever_has_changed() {
 #[test]
 fn a_run_without_any_checkpoint_begins_again() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     cut_off(&workshop, "early", 1);
     assert!(checkpoints(&workshop.file("early")).is_empty());
     goes_on_right(&workshop, "early", &["no checkpoint yet", "begins again"]);
@@ -172,7 +174,7 @@ fn a_run_without_any_checkpoint_begins_again() {
 #[test]
 fn a_finished_run_is_left_as_it_is() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     workshop.done("finished", &[&SHORT[..], &["--in-process"]].concat());
     let before = fs::metadata(workshop.file("finished/fluid.h5")).unwrap().modified().unwrap();
     let output = go_on(&workshop, "finished");
@@ -184,7 +186,7 @@ fn a_finished_run_is_left_as_it_is() {
 #[test]
 fn only_directories_of_runs_are_taken_up() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     is_refused(&workshop, "nowhere", &["holds no case.toml"]);
     fs::create_dir(workshop.file("empty")).unwrap();
     is_refused(&workshop, "empty", &["holds no case.toml"]);
@@ -199,7 +201,7 @@ fn only_directories_of_runs_are_taken_up() {
 #[test]
 fn without_checkpoints_none_are_kept() {
     let _turn = alone();
-    let workshop = Workshop::with(COUPLED);
+    let workshop = Workshop::with(&coupled());
     let case = Case::load(&workshop.file("case.toml"), &["time.end=4e-6".to_owned()]).unwrap();
     let options = Options { out: Some(workshop.file("off")), ..Options::default() };
     let directory = prepare(&case, &options).unwrap();

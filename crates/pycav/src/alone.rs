@@ -3,57 +3,126 @@
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
 use cav::run::process::launch::thread_pool;
-use cav::run::setup::{fluid_solver, solid_solver};
-use coupler::{
-    FluidTrace, SolidTrace, fluid_at_moving_wall, fluid_under_pressure, solid_moved, solid_under_pressure,
-};
 use mesh::{BLOCK, FaceState};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::ThreadPool;
-use solid::SurfaceTrace;
 
 use crate::case::Case;
-use crate::error::{Failure, guarded};
+use crate::error::guarded;
 use crate::fields;
 use crate::given::Given;
-use crate::initial::{fluid_from, solid_from};
+use crate::medium::Medium;
+
+/// A new array.
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+/// An array that may be left out.
+type MaybeArray<'py> = Option<PyReadonlyArray1<'py, f64>>;
 
 /// A solver with the threads that its scratch memory is made for.
-struct Alone<S> {
-    solver: S,
+struct Parts<M> {
+    solver: M,
     pool: ThreadPool,
     cfl: f64,
 }
 
-impl<S: Send> Alone<S> {
-    /// With as many threads as asked for, in which `make` makes the solver.
-    fn new(
-        py: Python<'_>,
-        case: &cav::case::Case,
-        threads: Option<usize>,
-        make: impl FnOnce() -> Result<S, Failure> + Send,
-    ) -> PyResult<Mutex<Self>> {
-        let alone = py.detach(|| {
-            guarded(|| {
-                let pool = thread_pool(threads)?;
-                let solver = pool.install(make)?;
-                Ok(Self { solver, pool, cfl: case.time.cfl })
-            })
-        })?;
-        Ok(Mutex::new(alone))
+impl<M: Medium> Parts<M> {
+    fn has_surface(&self) -> bool {
+        self.solver.interface().faces() > 0
+    }
+
+    fn traces(&self, dt: f64) -> Vec<M::Trace> {
+        if self.has_surface() { self.solver.traces(dt) } else { Vec::new() }
     }
 }
 
-fn locked<T>(alone: &Mutex<T>) -> PyResult<MutexGuard<'_, T>> {
-    match alone.try_lock() {
-        Ok(alone) => Ok(alone),
-        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-        Err(TryLockError::WouldBlock) => {
-            Err(PyRuntimeError::new_err("the solver is computing in another thread"))
+/// A medium's solver without the other medium.
+struct Alone<M>(Mutex<Parts<M>>);
+
+impl<M: Medium> Alone<M> {
+    /// With as many threads as asked for, in which the solver is made.
+    fn new(
+        py: Python<'_>,
+        case: &Case,
+        initial: Option<&Py<PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Self> {
+        let case = case.case();
+        let parts = py.detach(|| {
+            guarded(|| {
+                let pool = thread_pool(threads)?;
+                let solver = pool.install(|| M::of_case(case, initial))?;
+                Ok(Parts { solver, pool, cfl: case.time.cfl })
+            })
+        })?;
+        Ok(Self(Mutex::new(parts)))
+    }
+
+    fn parts(&self) -> PyResult<MutexGuard<'_, Parts<M>>> {
+        match self.0.try_lock() {
+            Ok(parts) => Ok(parts),
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => {
+                Err(PyRuntimeError::new_err("the solver is computing in another thread"))
+            }
         }
+    }
+
+    fn time_step_limit(&self) -> PyResult<f64> {
+        let parts = self.parts()?;
+        Ok(parts.solver.time_step_limit(parts.cfl))
+    }
+
+    fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        let parts = self.parts()?;
+        let edges = if parts.has_surface() { parts.solver.interface_edges() } else { Vec::new() };
+        Ok(edges.into_pyarray(py))
+    }
+
+    fn trace<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyDict>> {
+        checked(dt)?;
+        let traces = self.parts()?.traces(dt);
+        let found = PyDict::new(py);
+        for (name, of) in M::COLUMNS {
+            found.set_item(name, traces.iter().map(of).collect::<Vec<f64>>().into_pyarray(py))?;
+        }
+        Ok(found)
+    }
+
+    fn step(
+        &self,
+        py: Python<'_>,
+        dt: f64,
+        [pressure, velocity, power]: [MaybeArray<'_>; 3],
+    ) -> PyResult<()> {
+        checked(dt)?;
+        let mut parts = self.parts()?;
+        let given = Given::new(parts.solver.interface().faces(), pressure, velocity, power)?;
+        let parts = &mut *parts;
+        py.detach(|| {
+            guarded(|| {
+                let traces = parts.traces(dt);
+                parts.solver.interface_mut().set_all(|face| {
+                    let trace = &traces[face];
+                    let [pressure, velocity, power] = given.state(
+                        face,
+                        |pressure| M::under(trace, pressure),
+                        |velocity| M::moved(trace, velocity),
+                    );
+                    FaceState { pressure, velocity, power }
+                });
+                let Parts { solver, pool, .. } = parts;
+                pool.install(|| solver.advance(dt))
+            })
+        })?;
+        py.check_signals()
+    }
+
+    /// A number of each face's state in the last step.
+    fn surface<'py>(&self, py: Python<'py>, of: impl Fn(&FaceState) -> f64) -> PyResult<Array<'py>> {
+        Ok(self.parts()?.solver.interface().states().iter().map(of).collect::<Vec<f64>>().into_pyarray(py))
     }
 }
 
@@ -66,17 +135,7 @@ fn checked(dt: f64) -> PyResult<()> {
 
 /// The fluid of a case without its solid.
 #[pyclass(frozen, module = "pycav._pycav")]
-pub struct FluidSolver {
-    alone: Mutex<Alone<fluid::FluidSolver<BLOCK>>>,
-}
-
-fn wall_traces(solver: &fluid::FluidSolver<BLOCK>, dt: f64) -> Vec<FluidTrace> {
-    let mut traces = Vec::new();
-    if solver.interface().faces() > 0 {
-        solver.traces_at_mid_step(dt, &mut traces);
-    }
-    traces
-}
+pub struct FluidSolver(Alone<fluid::FluidSolver<BLOCK>>);
 
 #[pymethods]
 impl FluidSolver {
@@ -88,54 +147,33 @@ impl FluidSolver {
         initial: Option<Py<PyAny>>,
         threads: Option<usize>,
     ) -> PyResult<Self> {
-        let case = case.case();
-        let Some(fluid) = &case.fluid else { return Err(PyValueError::new_err("the case has no fluid")) };
-        let make = || match &initial {
-            Some(function) => fluid_from(case, function),
-            None => Ok(fluid_solver(case, fluid)?),
-        };
-        Ok(Self { alone: Alone::new(py, case, threads, make)? })
+        Alone::new(py, case, initial.as_ref(), threads).map(Self)
     }
 
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        Ok(locked(&self.alone)?.solver.time())
+        Ok(self.0.parts()?.solver.time())
     }
 
     #[getter]
     fn steps(&self) -> PyResult<u64> {
-        Ok(locked(&self.alone)?.solver.steps())
+        Ok(self.0.parts()?.solver.steps())
     }
 
     /// The longest step that the case's Courant number allows, s.
     fn time_step_limit(&self) -> PyResult<f64> {
-        let alone = locked(&self.alone)?;
-        Ok(alone.solver.time_step_limit(alone.cfl))
+        self.0.time_step_limit()
     }
 
     /// Outer radii of the faces of the wall, m, shape (faces,); empty where the case has no solid.
     #[getter]
-    fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let alone = locked(&self.alone)?;
-        let has_interface = alone.solver.interface().faces() > 0;
-        Ok(if has_interface { alone.solver.interface_edges() } else { Vec::new() }.into_pyarray(py))
+    fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        self.0.surface_edges(py)
     }
 
     /// The fluid's own state on the wall in the middle of a step of length `dt`, arrays of shape (faces,).
     fn trace<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyDict>> {
-        checked(dt)?;
-        let alone = locked(&self.alone)?;
-        let traces = wall_traces(&alone.solver, dt);
-        let found = PyDict::new(py);
-        let column =
-            |of: fn(&FluidTrace) -> f64| traces.iter().map(of).collect::<Vec<f64>>().into_pyarray(py);
-        found.set_item("pressure", column(|t| t.pressure))?;
-        found.set_item("velocity", column(|t| t.velocity))?;
-        found.set_item("density", column(|t| t.density))?;
-        found.set_item("gamma", column(|t| t.gamma))?;
-        found.set_item("pi", column(|t| t.pi))?;
-        found.set_item("impedance", column(FluidTrace::impedance))?;
-        Ok(found)
+        self.0.trace(py, dt)
     }
 
     /// Makes a step of length `dt` with the surface as given.
@@ -144,56 +182,27 @@ impl FluidSolver {
         &self,
         py: Python<'_>,
         dt: f64,
-        pressure: Option<PyReadonlyArray1<'_, f64>>,
-        velocity: Option<PyReadonlyArray1<'_, f64>>,
-        power: Option<PyReadonlyArray1<'_, f64>>,
+        pressure: MaybeArray<'_>,
+        velocity: MaybeArray<'_>,
+        power: MaybeArray<'_>,
     ) -> PyResult<()> {
-        checked(dt)?;
-        let mut alone = locked(&self.alone)?;
-        let given = Given::new(alone.solver.interface().faces(), pressure, velocity, power)?;
-        let Alone { solver, pool, .. } = &mut *alone;
-        py.detach(|| {
-            guarded(|| {
-                let traces = wall_traces(solver, dt);
-                solver.interface_mut().set_all(|face| {
-                    let trace = &traces[face];
-                    let under = |pressure| fluid_under_pressure(trace, pressure);
-                    let moved = |velocity| fluid_at_moving_wall(trace, velocity);
-                    let [pressure, velocity, power] = given.state(face, under, moved);
-                    FaceState { pressure, velocity, power }
-                });
-                pool.install(|| {
-                    solver.step(dt)?;
-                    solver.adapt_if_due(dt, 1);
-                    Ok(())
-                })
-            })
-        })?;
-        py.check_signals()
+        self.0.step(py, dt, [pressure, velocity, power])
     }
 
     /// Mean pressure of the last step on the faces, Pa.
     #[getter]
-    fn surface_pressure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let alone = locked(&self.alone)?;
-        Ok(alone
-            .solver
-            .interface()
-            .states()
-            .iter()
-            .map(|wall| wall.pressure)
-            .collect::<Vec<f64>>()
-            .into_pyarray(py))
+    fn surface_pressure<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        self.0.surface(py, |wall| wall.pressure)
     }
 
     /// Equivalent radius of the gas, m.
     #[getter]
     fn equivalent_radius(&self) -> PyResult<f64> {
-        Ok(locked(&self.alone)?.solver.bubble().equivalent_radius)
+        Ok(self.0.parts()?.solver.bubble().equivalent_radius)
     }
 
     fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        fields::cells(py, &locked(&self.alone)?.solver)
+        fields::cells(py, &self.0.parts()?.solver)
     }
 
     fn sample<'py>(
@@ -202,23 +211,13 @@ impl FluidSolver {
         z: PyReadonlyArray1<'py, f64>,
         r: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        fields::sample(py, &locked(&self.alone)?.solver, &z, &r)
+        fields::sample(py, &self.0.parts()?.solver, &z, &r)
     }
 }
 
 /// The solid of a case without its fluid.
 #[pyclass(frozen, module = "pycav._pycav")]
-pub struct SolidSolver {
-    alone: Mutex<Alone<solid::SolidSolver<BLOCK>>>,
-}
-
-fn surface_traces(solver: &solid::SolidSolver<BLOCK>, dt: f64) -> Vec<SurfaceTrace> {
-    let mut traces = Vec::new();
-    if solver.interface().faces() > 0 {
-        solver.traces_at_mid_step(dt, &mut traces);
-    }
-    traces
-}
+pub struct SolidSolver(Alone<solid::SolidSolver<BLOCK>>);
 
 #[pymethods]
 impl SolidSolver {
@@ -230,53 +229,33 @@ impl SolidSolver {
         initial: Option<Py<PyAny>>,
         threads: Option<usize>,
     ) -> PyResult<Self> {
-        let case = case.case();
-        let Some(solid) = &case.solid else { return Err(PyValueError::new_err("the case has no solid")) };
-        let make = || match &initial {
-            Some(function) => solid_from(case, function),
-            None => Ok(solid_solver(case, solid)?),
-        };
-        Ok(Self { alone: Alone::new(py, case, threads, make)? })
+        Alone::new(py, case, initial.as_ref(), threads).map(Self)
     }
 
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        Ok(locked(&self.alone)?.solver.time())
+        Ok(self.0.parts()?.solver.time())
     }
 
     #[getter]
     fn steps(&self) -> PyResult<u64> {
-        Ok(locked(&self.alone)?.solver.steps())
+        Ok(self.0.parts()?.solver.steps())
     }
 
     /// The longest step that the case's Courant number allows, s.
     fn time_step_limit(&self) -> PyResult<f64> {
-        let alone = locked(&self.alone)?;
-        Ok(alone.solver.time_step_limit(alone.cfl))
+        self.0.time_step_limit()
     }
 
     /// Outer radii of the faces of the surface, m, shape (faces,); empty where the case has no fluid.
     #[getter]
-    fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let alone = locked(&self.alone)?;
-        let has_interface = alone.solver.interface().faces() > 0;
-        Ok(if has_interface { alone.solver.interface_edges() } else { Vec::new() }.into_pyarray(py))
+    fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        self.0.surface_edges(py)
     }
 
     /// The solid's own state on its surface in the middle of a step of length `dt`, arrays of shape (faces,).
     fn trace<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyDict>> {
-        checked(dt)?;
-        let alone = locked(&self.alone)?;
-        let traces = surface_traces(&alone.solver, dt);
-        let found = PyDict::new(py);
-        let column =
-            |of: fn(&SurfaceTrace) -> f64| traces.iter().map(of).collect::<Vec<f64>>().into_pyarray(py);
-        found.set_item("pressure", column(|t| t.pressure))?;
-        found.set_item("velocity", column(|t| t.velocity))?;
-        found.set_item("shear", column(|t| t.shear))?;
-        let impedance = vec![alone.solver.setup().speeds.z1(); traces.len()];
-        found.set_item("impedance", impedance.into_pyarray(py))?;
-        Ok(found)
+        self.0.trace(py, dt)
     }
 
     /// Makes a step of length `dt` with the surface as given.
@@ -285,55 +264,21 @@ impl SolidSolver {
         &self,
         py: Python<'_>,
         dt: f64,
-        pressure: Option<PyReadonlyArray1<'_, f64>>,
-        velocity: Option<PyReadonlyArray1<'_, f64>>,
-        power: Option<PyReadonlyArray1<'_, f64>>,
+        pressure: MaybeArray<'_>,
+        velocity: MaybeArray<'_>,
+        power: MaybeArray<'_>,
     ) -> PyResult<()> {
-        checked(dt)?;
-        let mut alone = locked(&self.alone)?;
-        let given = Given::new(alone.solver.interface().faces(), pressure, velocity, power)?;
-        let Alone { solver, pool, .. } = &mut *alone;
-        py.detach(|| {
-            guarded(|| {
-                let traces = surface_traces(solver, dt);
-                let impedance = solver.setup().speeds.z1();
-                solver.interface_mut().set_all(|face| {
-                    let own = &traces[face];
-                    let trace = SolidTrace { pressure: own.pressure, velocity: own.velocity, impedance };
-                    let under = |pressure| solid_under_pressure(&trace, pressure);
-                    let moved = |velocity| solid_moved(&trace, velocity);
-                    let [pressure, velocity, power] = given.state(face, under, moved);
-                    FaceState { pressure, velocity, power }
-                });
-                pool.install(|| -> Result<(), Failure> {
-                    let adapts = solver.adaptation_follows(dt, 1);
-                    solver.step(dt)?;
-                    if adapts {
-                        solver.adapt(dt, 1);
-                    }
-                    Ok(())
-                })
-            })
-        })?;
-        py.check_signals()
+        self.0.step(py, dt, [pressure, velocity, power])
     }
 
     /// Mean velocity of the last step on the faces, m/s.
     #[getter]
-    fn surface_velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let alone = locked(&self.alone)?;
-        Ok(alone
-            .solver
-            .interface()
-            .states()
-            .iter()
-            .map(|face| face.velocity)
-            .collect::<Vec<f64>>()
-            .into_pyarray(py))
+    fn surface_velocity<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        self.0.surface(py, |face| face.velocity)
     }
 
     fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        fields::cells(py, &locked(&self.alone)?.solver)
+        fields::cells(py, &self.0.parts()?.solver)
     }
 
     fn sample<'py>(
@@ -342,6 +287,6 @@ impl SolidSolver {
         z: PyReadonlyArray1<'py, f64>,
         r: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        fields::sample(py, &locked(&self.alone)?.solver, &z, &r)
+        fields::sample(py, &self.0.parts()?.solver, &z, &r)
     }
 }

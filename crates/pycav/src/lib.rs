@@ -5,6 +5,7 @@
 //! | `case` | a case file, read and changed |
 //! | `simulation` | a run in this process, step by step |
 //! | `alone` | the fluid's and the solid's solver, each with its surface driven from Python |
+//! | `medium` | what of that is the fluid's or the solid's own |
 //! | `fields` | cells and samples of a solver as arrays |
 //! | `initial` | initial states that Python functions give |
 //! | `launch` | a run in two processes, and the command line |
@@ -21,6 +22,7 @@ mod given;
 mod initial;
 mod launch;
 mod log;
+mod medium;
 mod simulation;
 
 use pyo3::pymodule;

@@ -27,9 +27,7 @@ fn a_killed_peer_is_named_nothing_stays_and_the_run_id_works_again() {
         end.assert_refused(&[&format!("the {victim} (process {pid}) died at step")]);
         scene.assert_clean();
 
-        let (fluid, solid) = scene.start_pair("--steps 10");
-        fluid.end().assert_done();
-        solid.end().assert_done();
+        scene.run_pair("--steps 10");
         scene.assert_clean();
     }
 }
@@ -38,17 +36,13 @@ fn a_killed_peer_is_named_nothing_stays_and_the_run_id_works_again() {
 fn what_two_killed_participants_left_is_cleared_away_by_the_next_or_on_request() {
     let scene = Scene::new();
     for by_next_run in [true, false] {
-        let (mut fluid, mut solid) = scene.start_pair(ENDLESS);
-        fluid.connected();
-        solid.connected();
+        let (fluid, solid) = scene.connected_pair(ENDLESS);
         fluid.kill();
         // The solid may have cleared away the fluid's part by then.
         solid.kill();
         assert!(!scene.shared_objects().is_empty());
         if by_next_run {
-            let (fluid, solid) = scene.start_pair("--steps 10");
-            fluid.end().assert_done();
-            solid.end().assert_done();
+            scene.run_pair("--steps 10");
         } else {
             // How many it counts is open: the solid may have been killed while it was clearing away the fluid, and
             // what is half cleared away goes with the sweep. That all is gone is what counts.
@@ -64,9 +58,7 @@ fn a_participant_killed_while_it_waits_for_its_peer_does_not_hinder_the_next() {
     let first = scene.start("fluid", "");
     std::thread::sleep(Duration::from_millis(150));
     first.kill();
-    let (fluid, solid) = scene.start_pair("--steps 10");
-    fluid.end().assert_done();
-    solid.end().assert_done();
+    scene.run_pair("--steps 10");
     scene.assert_clean();
 }
 
@@ -79,9 +71,7 @@ fn participants_killed_at_any_moment_of_their_start_do_not_hinder_the_next() {
         fluid.kill();
         solid.kill();
     }
-    let (fluid, solid) = scene.start_pair("--steps 10");
-    fluid.end().assert_done();
-    solid.end().assert_done();
+    scene.run_pair("--steps 10");
     scene.assert_clean();
 }
 

@@ -55,6 +55,21 @@ impl Scene {
         (self.start("fluid", options), self.start("solid", options))
     }
 
+    /// Both, once they have met.
+    pub fn connected_pair(&self, options: &str) -> (Actor, Actor) {
+        let (mut fluid, mut solid) = self.start_pair(options);
+        fluid.connected();
+        solid.connected();
+        (fluid, solid)
+    }
+
+    /// Both to their end.
+    pub fn run_pair(&self, options: &str) {
+        let (fluid, solid) = self.start_pair(options);
+        fluid.end().assert_done();
+        solid.end().assert_done();
+    }
+
     /// What lies in shared memory.
     pub fn shared_objects(&self) -> Vec<String> {
         names(Path::new("/dev/shm")).filter(|name| name.starts_with(&self.domain.prefix)).collect()

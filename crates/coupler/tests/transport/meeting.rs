@@ -37,9 +37,7 @@ fn a_missing_peer_is_named_after_the_time_out() {
 #[test]
 fn a_second_fluid_is_refused_and_the_run_goes_on() {
     let scene = Scene::new();
-    let (mut fluid, mut solid) = scene.start_pair("--steps 100 --sleep-ms 5");
-    fluid.connected();
-    solid.connected();
+    let (fluid, solid) = scene.connected_pair("--steps 100 --sleep-ms 5");
     let pid = fluid.pid();
     scene.start("fluid", "").end().assert_refused(&["already has a fluid", &format!("(process {pid})")]);
     fluid.end().assert_done();

@@ -1,9 +1,6 @@
 //! Adaptive grids: what must be exact on them, and how little a level jump may be seen.
 
-use fluid::{
-    Boundary, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Primitive, Region, RiemannSolver,
-    Scales, Shape,
-};
+use fluid::{Boundary, FluidSetup, FluidSolver, Primitive, RiemannSolver, Scales};
 use mesh::{Adaptation, Domain, Geometry, LevelBound, Limiter, Zone};
 
 use crate::helpers::*;
@@ -49,16 +46,7 @@ fn carried(
         scales: Scales { pressure: 1e5, density: 1e3 },
         ..setup_of(kind, geometry, [32, 16], sides)
     };
-    let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [200.0, 0.0] };
-    let initial = InitialCondition {
-        ambient: state(Phase::Liquid, 1000.0),
-        pressure: fluid::InitialPressure::Uniform,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre: [1.0, 0.0], radius: 0.3 },
-            state: state(Phase::Gas, 1.2),
-        }],
-        pulses: vec![],
-    };
+    let initial = ball_of_gas(([1.0, 0.0], 0.3), 1e5, AIR, 200.0);
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
     let (changes, cells) = run_adaptively(&mut fluid, steps, local);
     let mut worst = [0.0_f64; 2];
@@ -125,29 +113,17 @@ fn what_is_in_a_closed_box_stays_there() {
 ///
 /// - `levels`: of adjacent strips, each as wide as a block of level 0, in the middle of the domain; behind the last
 ///   strip its level goes on.
-fn reflected(limiter: Limiter, strips: &[u8]) -> f64 {
+fn reflected(limiter: Limiter, levels: &[u8]) -> f64 {
     const AMPLITUDE: f64 = 1e3;
     // Lengths in coarse cells.
     let (cells, wavelength, start, middle) = (384.0, 20.0, 80.0, 192.0);
-    let everywhere = [-1.0, 999.0];
-    let bound = |z: [f64; 2], level: u8| LevelBound {
-        zone: Zone::Box { z, r: everywhere },
-        at_least: level,
-        at_most: level,
-    };
-    let mut bounds = vec![bound([-1.0, middle - 1e-3], 0)];
-    for (k, level) in strips.iter().enumerate() {
-        let begin = middle + 8.0 * k as f64 + 1e-3;
-        let end = if k + 1 == strips.len() { 999.0 } else { begin + 8.0 - 2e-3 };
-        bounds.push(bound([begin, end], *level));
-    }
     let sides = [Boundary::NonReflecting, Boundary::NonReflecting, Boundary::Periodic, Boundary::Periodic];
     let setup = FluidSetup {
         domain: Domain { geometry: PLANAR, z: [0.0, cells], r: [0.0, 8.0] },
-        levels: strips.iter().copied().max().unwrap_or(0),
+        levels: levels.iter().copied().max().unwrap_or(0),
         limiter,
         // No detail is significant: the bounds alone make the mesh.
-        adaptation: adaptation(0.99e9, bounds),
+        adaptation: adaptation(0.99e9, strips(levels, middle)),
         ..setup(PLANAR, [cells as usize, 8], sides)
     };
     let bulk_modulus = LIQUID.gamma * (1e5 + LIQUID.pi);
@@ -162,7 +138,7 @@ fn reflected(limiter: Limiter, strips: &[u8]) -> f64 {
         }
     };
     let mut fluid = FluidSolver::<8>::from_fn(&setup, state).unwrap();
-    let levels = |side: f64| {
+    let on_side = |side: f64| {
         let mesh = fluid.mesh();
         let mut found: Vec<u8> = (mesh.tree().leaves().iter())
             .filter(|id| (mesh.origin(**id)[0] - middle + 1e-6) * side > 0.0)
@@ -171,8 +147,8 @@ fn reflected(limiter: Limiter, strips: &[u8]) -> f64 {
         found.dedup();
         found
     };
-    assert_eq!(levels(-1.0), [0]);
-    assert_eq!(levels(1.0), if strips.is_empty() { vec![0] } else { strips.to_vec() }, "in Morton order");
+    assert_eq!(on_side(-1.0), [0]);
+    assert_eq!(on_side(1.0), if levels.is_empty() { vec![0] } else { levels.to_vec() }, "in Morton order");
     // The packet ends up 200 cells farther; what runs back is then at least 90 cells from it.
     run_to(&mut fluid, 200.0 / (bulk_modulus / 1000.0).sqrt());
     let mut back = 0.0_f64;
@@ -208,16 +184,7 @@ fn the_interface_is_on_the_finest_level_beside_an_open_side_too() {
         scales: Scales { pressure: 1e5, density: 1e3 },
         ..setup(AXIAL, [32, 16], [open, open, Boundary::Axis, open])
     };
-    let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [200.0, 0.0] };
-    let initial = InitialCondition {
-        ambient: state(Phase::Liquid, 1000.0),
-        pressure: fluid::InitialPressure::Uniform,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre: [1.72, 0.0], radius: 0.25 },
-            state: state(Phase::Gas, 1.2),
-        }],
-        pulses: vec![],
-    };
+    let initial = ball_of_gas(([1.72, 0.0], 0.25), 1e5, AIR, 200.0);
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
     let mut beside = 0;
     for _ in 0..30 {

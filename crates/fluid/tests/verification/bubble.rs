@@ -1,8 +1,6 @@
 //! A free bubble collapses alike in all directions.
 
-use fluid::{
-    Boundary, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Primitive, Region, Shape,
-};
+use fluid::{Boundary, FluidSetup, FluidSolver, Primitive};
 use mesh::{Domain, Limiter};
 
 use crate::helpers::*;
@@ -16,17 +14,7 @@ fn half_bubble(kind: Kind, limiter: Limiter) -> FluidSolver<16> {
         limiter,
         ..setup_of(kind, AXIAL, [128, 128], boundaries)
     };
-    let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
-    let initial = InitialCondition {
-        ambient: state(Phase::Liquid, 1000.0, 5e7),
-        pressure: fluid::InitialPressure::Uniform,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre: [0.0, 0.0], radius: 1.0 },
-            state: state(Phase::Gas, 0.0266, 2118.0),
-        }],
-        pulses: vec![],
-    };
-    FluidSolver::new(&setup, &initial).unwrap()
+    FluidSolver::new(&setup, &ball_of_gas(([0.0, 0.0], 1.0), 5e7, THIN_GAS, 0.0)).unwrap()
 }
 
 #[test]

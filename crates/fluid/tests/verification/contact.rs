@@ -1,8 +1,6 @@
 //! Uniform pressure and velocity stay uniform across moving interfaces (Abgrall's condition).
 
-use fluid::{
-    Boundary, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Region, RiemannSolver, Shape,
-};
+use fluid::{Boundary, FluidSetup, FluidSolver, RiemannSolver};
 use mesh::{Domain, Geometry, Limiter};
 
 use crate::helpers::*;
@@ -30,16 +28,7 @@ fn carried(
         riemann,
         ..setup_of(kind, geometry, [32, 16], [Boundary::Periodic, Boundary::Periodic, axis, Boundary::Wall])
     };
-    let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [200.0, 0.0] };
-    let initial = InitialCondition {
-        ambient: state(Phase::Liquid, 1000.0),
-        pressure: fluid::InitialPressure::Uniform,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre: [1.0, centre_r], radius: 0.3 },
-            state: state(Phase::Gas, density),
-        }],
-        pulses: vec![],
-    };
+    let initial = ball_of_gas(([1.0, centre_r], 0.3), 1e5, [density, 1e5], 200.0);
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
     let mut phi = [0.0_f64, 1.0_f64];
     for step in 0..steps {

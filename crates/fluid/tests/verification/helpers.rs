@@ -1,6 +1,9 @@
 //! What the tests share: media, grids, norms, orders of convergence, Bessel functions.
 
-use fluid::{Boundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, Sharpening, StiffenedGas};
+use fluid::{
+    Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState,
+    Primitive, Region, RiemannSolver, Shape, Sharpening, StiffenedGas,
+};
 use mesh::{Domain, Geometry, Limiter};
 
 pub const LIQUID: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
@@ -56,6 +59,27 @@ pub fn setup_of(
         tracer: None,
     }
 }
+
+/// A ball of gas in liquid of 1000 kg/m³.
+///
+/// - `place`: its centre and radius, m.
+/// - `pressure`: of the liquid, Pa; `gas`: density and pressure of the gas; `velocity`: of both, along z.
+pub fn ball_of_gas(place: ([f64; 2], f64), pressure: f64, gas: [f64; 2], velocity: f64) -> InitialCondition {
+    let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [velocity, 0.0] };
+    InitialCondition {
+        ambient: state(Phase::Liquid, 1000.0, pressure),
+        pressure: InitialPressure::Uniform,
+        regions: vec![Region {
+            shape: Shape::Sphere { centre: place.0, radius: place.1 },
+            state: state(Phase::Gas, gas[0], gas[1]),
+        }],
+        pulses: vec![],
+    }
+}
+
+/// Density and pressure of air, and of the gas in the bubble of the figures' case.
+pub const AIR: [f64; 2] = [1.2, 1e5];
+pub const THIN_GAS: [f64; 2] = [0.0266, 2118.0];
 
 /// Liquid of 1000 kg/m³ at rest.
 pub fn still(pressure: f64) -> Primitive {
@@ -145,53 +169,7 @@ pub fn l1<const N: usize, const K: usize>(
     error / norm
 }
 
-/// Errors on grids each twice as fine as the one before; prints them and returns the order between the last two.
-pub fn order(what: &str, errors: &[f64]) -> f64 {
-    let orders: Vec<f64> = errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
-    eprintln!("{what:58} errors {} orders {orders:.2?}", scientific(errors));
-    orders[orders.len() - 1]
-}
+#[path = "../../../../tests/fixture/verification.rs"]
+mod shared;
 
-/// Numbers with three digits each.
-pub fn scientific(numbers: &[f64]) -> String {
-    numbers.iter().map(|number| format!("{number:.2e} ")).collect()
-}
-
-/// J0 by its power series; 13 digits for |x| < 10.
-pub fn j0(x: f64) -> f64 {
-    series(x, 0)
-}
-
-/// J1, likewise.
-pub fn j1(x: f64) -> f64 {
-    0.5 * x * series(x, 1)
-}
-
-/// Zeros of J1.
-pub const J1_ZEROS: [f64; 2] = [3.831_705_970_207_512, 7.015_586_669_815_619];
-
-/// Σ (−x²/4)^k / (k! (k + n)!) for n = 0, 1.
-fn series(x: f64, n: u32) -> f64 {
-    let q = -0.25 * x * x;
-    let (mut term, mut sum) = (1.0, 1.0);
-    for k in 1..60 {
-        term *= q / (f64::from(k) * f64::from(k + n));
-        sum += term;
-    }
-    sum
-}
-
-#[test]
-fn bessel_functions_at_tabulated_points() {
-    // Abramowitz & Stegun, tables 9.1 and 9.5.
-    for (got, want) in [
-        (j0(1.0), 0.765_197_686_557_966_6),
-        (j1(1.0), 0.440_050_585_744_933_5),
-        (j0(7.0), 0.300_079_270_519_555_6),
-        (j1(7.0), -0.004_682_823_482_345_8),
-        (j1(J1_ZEROS[0]), 0.0),
-        (j1(J1_ZEROS[1]), 0.0),
-    ] {
-        assert!((got - want).abs() < 1e-13, "{got} {want}");
-    }
-}
+pub use shared::{J1_ZEROS, j0, j1, order, scientific, strips};

@@ -1,9 +1,6 @@
 //! Totals change by what the ledger says came in, to round-off.
 
-use fluid::{
-    Boundary, FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, PressureHistory, Primitive,
-    Region, Shape,
-};
+use fluid::{Boundary, FluidSetup, FluidSolver, InitialCondition, PressureHistory, Primitive};
 use mesh::Side;
 
 use crate::helpers::*;
@@ -45,16 +42,7 @@ fn check(imbalance: &[f64]) {
 
 /// A gas bubble of radius 0.3 in liquid of 5e6 Pa.
 fn bubble(centre: [f64; 2]) -> InitialCondition {
-    let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
-    InitialCondition {
-        ambient: state(Phase::Liquid, 1000.0, 5e6),
-        pressure: fluid::InitialPressure::Uniform,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre, radius: 0.3 },
-            state: state(Phase::Gas, 1.2, 1e5),
-        }],
-        pulses: vec![],
-    }
+    ball_of_gas((centre, 0.3), 5e6, AIR, 0.0)
 }
 
 #[test]

@@ -1,9 +1,6 @@
 //! A bubble that starts in the harmonic pressure moves as Rayleigh has it, and no wave leaves it.
 
-use fluid::{
-    Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState, Region,
-    Shape, Sharpening,
-};
+use fluid::{Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Sharpening};
 use mesh::{Adaptation, Domain};
 
 use crate::helpers::*;
@@ -14,16 +11,7 @@ const GAS_PRESSURE: f64 = 2118.0;
 const SOUND: f64 = 1464.8;
 
 fn bubble(pressure: InitialPressure) -> InitialCondition {
-    let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
-    InitialCondition {
-        ambient: state(Phase::Liquid, 1000.0, FAR),
-        pressure,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre: [0.0, 0.0], radius: 1.0 },
-            state: state(Phase::Gas, 0.0266, GAS_PRESSURE),
-        }],
-        pulses: vec![],
-    }
+    InitialCondition { pressure, ..ball_of_gas(([0.0, 0.0], 1.0), FAR, [0.0266, GAS_PRESSURE], 0.0) }
 }
 
 /// A free bubble of radius 1 m, 20 cells, in 6.4 m of water.

@@ -1,9 +1,6 @@
 //! The same start, seen in a mirror, turned, cut into other blocks or computed by more threads.
 
-use fluid::{
-    FluidSetup, FluidSolver, InitialCondition, Model, Phase, PhaseState, Primitive, Region, RiemannSolver,
-    Shape,
-};
+use fluid::{FluidSetup, FluidSolver, Model, Primitive, RiemannSolver};
 use mesh::{Geometry, Limiter};
 
 use crate::helpers::*;
@@ -114,16 +111,7 @@ fn blocks_of_any_size_give_the_same_bitwise() {
 #[test]
 fn a_bubble_at_a_wall_is_the_same_in_blocks_of_any_size() {
     fn collapsed<const N: usize>(kind: Kind, geometry: Geometry) -> Vec<Vec<[f64; 6]>> {
-        let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
-        let initial = InitialCondition {
-            ambient: state(Phase::Liquid, 1000.0, 5e7),
-            pressure: fluid::InitialPressure::Uniform,
-            regions: vec![Region {
-                shape: Shape::Sphere { centre: [0.35, 0.0], radius: 0.2 },
-                state: state(Phase::Gas, 0.0266, 2118.0),
-            }],
-            pulses: vec![],
-        };
+        let initial = ball_of_gas(([0.35, 0.0], 0.2), 5e7, THIN_GAS, 0.0);
         let setup =
             FluidSetup { coarsest: [64, 64], ..box_of(kind, geometry, Limiter::Minmod, RiemannSolver::Hllc) };
         let mut fluid = FluidSolver::<N>::new(&setup, &initial).unwrap();

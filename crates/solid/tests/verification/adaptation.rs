@@ -1,6 +1,6 @@
 //! Adaptive grids: what must be exact on them, and how little a level jump may be seen.
 
-use mesh::{Adaptation, Domain, LevelBound, Limiter, Zone};
+use mesh::{Adaptation, Domain, LevelBound, Limiter};
 use solid::{Boundary, ElasticState, SolidSetup, SolidSolver};
 
 use crate::helpers::*;
@@ -110,22 +110,11 @@ enum Wave {
 /// The largest amplitude of the wave that runs back when a packet of plane waves, 20 coarse cells a wavelength, has
 /// crossed level jumps, relative to the packet's.
 ///
-/// - `strips`: levels of adjacent strips, each as wide as a block of level 0, in the middle of the domain; behind
+/// - `levels`: of adjacent strips, each as wide as a block of level 0, in the middle of the domain; behind
 ///   the last one its level goes on.
-fn reflected(wave: Wave, limiter: Limiter, strips: &[u8]) -> f64 {
+fn reflected(wave: Wave, limiter: Limiter, levels: &[u8]) -> f64 {
     // Lengths in coarse cells.
     let (cells, wavelength, start, middle) = (384.0, 20.0, 80.0, 192.0);
-    let bound = |z: [f64; 2], level: u8| LevelBound {
-        zone: Zone::Box { z, r: [-1.0, 999.0] },
-        at_least: level,
-        at_most: level,
-    };
-    let mut bounds = vec![bound([-1.0, middle - 1e-3], 0)];
-    for (k, level) in strips.iter().enumerate() {
-        let begin = middle + 8.0 * k as f64 + 1e-3;
-        let end = if k + 1 == strips.len() { 999.0 } else { begin + 8.0 - 2e-3 };
-        bounds.push(bound([begin, end], *level));
-    }
     let sides = [Boundary::NonReflecting, Boundary::NonReflecting, Boundary::Periodic, Boundary::Periodic];
     let setup = SolidSetup {
         domain: Domain { geometry: PLANAR, z: [0.0, cells], r: [0.0, 8.0] },
@@ -133,9 +122,9 @@ fn reflected(wave: Wave, limiter: Limiter, strips: &[u8]) -> f64 {
         // No detail is significant: the bounds alone make the mesh.
         ..adaptive(
             setup(PLANAR, [cells as usize, 8], sides),
-            strips.iter().copied().max().unwrap_or(0),
+            levels.iter().copied().max().unwrap_or(0),
             0.99e9,
-            bounds,
+            strips(levels, middle),
         )
     };
     let (c, lambda) = match wave {
@@ -168,7 +157,7 @@ fn reflected(wave: Wave, limiter: Limiter, strips: &[u8]) -> f64 {
             }
             levels
         });
-    assert_eq!(behind, if strips.is_empty() { vec![0] } else { strips.to_vec() }, "in Morton order");
+    assert_eq!(behind, if levels.is_empty() { vec![0] } else { levels.to_vec() }, "in Morton order");
     // The packet ends up 200 cells farther; what runs back is then at least 90 cells from it.
     run_to(&mut solid, 200.0 / c);
     let mut back = 0.0_f64;

@@ -87,53 +87,7 @@ pub fn l1<const N: usize>(
     error / norm
 }
 
-/// Errors on grids each twice as fine as the one before; prints them and returns the order between the last two.
-pub fn order(what: &str, errors: &[f64]) -> f64 {
-    let orders: Vec<f64> = errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
-    let shown: String = errors.iter().map(|error| format!("{error:.2e} ")).collect();
-    eprintln!("{what:52} errors {shown} orders {orders:.2?}");
-    orders[orders.len() - 1]
-}
+#[path = "../../../../tests/fixture/verification.rs"]
+mod shared;
 
-/// J0 by its power series; 13 digits for |x| < 10.
-pub fn j0(x: f64) -> f64 {
-    series(x, 0)
-}
-
-/// J1, likewise.
-pub fn j1(x: f64) -> f64 {
-    0.5 * x * series(x, 1)
-}
-
-/// J1(x)/x, also at 0.
-pub fn j1_over(x: f64) -> f64 {
-    0.5 * series(x, 1)
-}
-
-/// The first zero of J1.
-pub const J1_ZERO: f64 = 3.831_705_970_207_512;
-
-/// Σ (−x²/4)^k / (k! (k + n)!) for n = 0, 1.
-fn series(x: f64, n: u32) -> f64 {
-    let q = -0.25 * x * x;
-    let (mut term, mut sum) = (1.0, 1.0);
-    for k in 1..60 {
-        term *= q / (f64::from(k) * f64::from(k + n));
-        sum += term;
-    }
-    sum
-}
-
-#[test]
-fn bessel_functions_at_tabulated_points() {
-    // Abramowitz & Stegun, tables 9.1 and 9.5.
-    for (got, want) in [
-        (j0(1.0), 0.765_197_686_557_966_6),
-        (j1(1.0), 0.440_050_585_744_933_5),
-        (j0(7.0), 0.300_079_270_519_555_6),
-        (j1(7.0), -0.004_682_823_482_345_8),
-        (j1(J1_ZERO), 0.0),
-    ] {
-        assert!((got - want).abs() < 1e-13, "{got} {want}");
-    }
-}
+pub use shared::{J1_ZEROS, j0, j1, j1_over, order, strips};

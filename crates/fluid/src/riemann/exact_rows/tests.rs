@@ -3,7 +3,7 @@
 use super::*;
 use crate::StiffenedGas;
 use crate::reconstruction::dispersion::{AlongFaces, Dispersion};
-use crate::riemann::exact_riemann::tests::{EXTREME, REFERENCE, Random};
+use crate::riemann::exact_riemann::tests::{Random, extreme, reference};
 use crate::riemann::exact_riemann::{Side, sample, star_state};
 use crate::riemann::hllc::Face;
 use crate::two_phase::FaceState;
@@ -66,7 +66,7 @@ fn compare(left: &Side, right: &Side, round_off: f64) -> bool {
 
 #[test]
 fn reference_and_extreme_states_are_the_scalar_solver_s() {
-    for case in REFERENCE.iter().chain(&EXTREME) {
+    for case in reference().iter().chain(&extreme()) {
         let solved = compare(&case.left, &case.right, 4.0 * f64::EPSILON);
         eprintln!("{:28} {}", case.name, if solved { "solved" } else { "left to the scalar solver" });
         let star = star_state(&case.left, &case.right);
