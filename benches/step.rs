@@ -13,7 +13,7 @@ use std::time::Instant;
 use calibration::Calibration;
 use fluid::{
     FluidError, FluidSetup, FluidSolver, InitialCondition, Model, Phase, PhaseState, Primitive, Region,
-    RiemannSolver, Shape, Sharpening, StiffenedGas,
+    RiemannSolver, Shape,
 };
 use mesh::{Domain, Geometry, Limiter};
 use solid::{ElasticState, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
@@ -276,25 +276,9 @@ fn fluid_near_a_wall<const N: usize>(cells: usize, scheme: Scheme) -> Result<Flu
 
 fn fluid_setup(cells: usize, scheme: Scheme, boundaries: [fluid::Boundary; 4]) -> FluidSetup {
     let Scheme { model, riemann, limiter } = scheme;
-    FluidSetup {
-        domain: Domain { geometry: Geometry::Axisymmetric, z: [0.01, 0.06], r: [0.0, 0.05] },
-        coarsest: [cells, cells],
-        levels: 0,
-        liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
-        gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
-        model,
-        // Without a say in the paper's mixture.
-        sharpening: Sharpening::Thinc,
-        riemann,
-        limiter,
-        boundaries,
-        inflow: None,
-        far_field: None,
-        adaptation: None,
-        scales: fluid::Scales { pressure: 1e6, density: 1e3 },
-        gravity: None,
-        tracer: None,
-    }
+    let domain = Domain { geometry: Geometry::Axisymmetric, z: [0.01, 0.06], r: [0.0, 0.05] };
+    // Sharpening has no say in the paper's mixture.
+    FluidSetup { model, riemann, limiter, ..FluidSetup::new(domain, [cells, cells], boundaries) }
 }
 
 /// The same fluids between walls in any state.

@@ -10,9 +10,7 @@ use coupler::{
     DirectLink, Link as _, LinkCounters, Meeting, Participant, RegisterRow, ShortStep, StarSolver, TraceRow,
     WallRegister, direct_pair,
 };
-use fluid::{
-    Boundary as FluidBoundary, FluidSetup, FluidSolver, Model, Primitive, RiemannSolver, StiffenedGas,
-};
+use fluid::{Boundary as FluidBoundary, FluidSetup, FluidSolver, Model, Primitive, StiffenedGas};
 use mesh::{BLOCK, Domain, Geometry, Limiter, Mesh};
 use solid::{Boundary as SolidBoundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
 
@@ -215,22 +213,10 @@ pub fn water(
     state: impl Fn([f64; 2]) -> Primitive + Sync,
 ) -> Fluid {
     let setup = FluidSetup {
-        domain,
-        coarsest: cells,
-        levels: 0,
-        liquid: WATER,
-        gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
         model: Model::SaurelAbgrall,
         sharpening: fluid::Sharpening::None,
-        riemann: RiemannSolver::Hllc,
         limiter,
-        boundaries,
-        inflow: None,
-        far_field: None,
-        adaptation: None,
-        scales: fluid::Scales { pressure: 1e6, density: 1e3 },
-        gravity: None,
-        tracer: None,
+        ..FluidSetup::new(domain, cells, boundaries)
     };
     Fluid::from_fn(&setup, state).expect("water")
 }

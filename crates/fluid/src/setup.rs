@@ -45,6 +45,29 @@ pub struct FluidSetup {
 }
 
 impl FluidSetup {
+    /// Water and air on one grid of `cells`, with the default of every choice; to be changed as a struct is: `FluidSetup { limiter,
+    /// ..FluidSetup::new(domain, cells, sides) }`.
+    pub fn new(domain: Domain, cells: [usize; 2], boundaries: [Boundary; 4]) -> Self {
+        Self {
+            domain,
+            coarsest: cells,
+            levels: 0,
+            liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
+            gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
+            model: Model::FiveEquation,
+            sharpening: Sharpening::Thinc,
+            riemann: RiemannSolver::Hllc,
+            limiter: Limiter::Mc,
+            boundaries,
+            inflow: None,
+            far_field: None,
+            adaptation: None,
+            scales: Scales { pressure: 1e6, density: 1e3 },
+            gravity: None,
+            tracer: None,
+        }
+    }
+
     /// Components of the field: the model's, and those that the mass carries besides.
     pub(crate) fn field_components(&self) -> usize {
         self.model.components() + crate::components::of(self).len()

@@ -141,10 +141,10 @@ fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) ->
 mod tests {
     use super::*;
     use crate::{
-        Boundary, FluidSetup, InitialCondition, InitialPressure, Model, Phase, PhaseState, Region,
-        RiemannSolver, Scales, Shape, Sharpening, StiffenedGas,
+        Boundary, FluidSetup, InitialCondition, InitialPressure, Model, Phase, PhaseState, Region, Scales,
+        Shape, Sharpening,
     };
-    use mesh::{Domain, Limiter};
+    use mesh::Domain;
 
     /// A column of 8 m with [`CELLS`] cells along z.
     const CELLS: usize = 128;
@@ -169,22 +169,14 @@ mod tests {
 
     fn fluid(spheres: &[[f64; 2]], velocity: f64, model: Model) -> FluidSolver<8> {
         let setup = FluidSetup {
-            domain: Domain { geometry: Geometry::Axisymmetric, z: [0.0, 8.0], r: [0.0, 1.0] },
-            coarsest: [CELLS, 16],
-            levels: 0,
-            liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
-            gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
             model,
             sharpening: Sharpening::None,
-            riemann: RiemannSolver::Hllc,
-            limiter: Limiter::Mc,
-            boundaries: [Boundary::Periodic, Boundary::Periodic, Boundary::Axis, Boundary::Wall],
-            inflow: None,
-            far_field: None,
-            adaptation: None,
             scales: Scales { pressure: 1e5, density: 1e3 },
-            gravity: None,
-            tracer: None,
+            ..FluidSetup::new(
+                Domain { geometry: Geometry::Axisymmetric, z: [0.0, 8.0], r: [0.0, 1.0] },
+                [CELLS, 16],
+                [Boundary::Periodic, Boundary::Periodic, Boundary::Axis, Boundary::Wall],
+            )
         };
         FluidSolver::new(&setup, &of_spheres(spheres, velocity)).expect("a fluid")
     }

@@ -204,28 +204,21 @@ mod tests {
 
     use crate::state::conserved::{GAS, PHI};
     use crate::{
-        Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState,
-        Region, RiemannSolver, Scales, Shape, Sharpening, StiffenedGas,
+        Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Phase, PhaseState, Region,
+        Scales, Shape,
     };
 
     fn collapsing_bubble() -> FluidSolver<8> {
         let setup = FluidSetup {
-            domain: Domain { geometry: Geometry::Axisymmetric, z: [0.0, 4.0], r: [0.0, 2.0] },
-            coarsest: [16, 8],
             levels: 3,
-            liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
-            gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
-            model: Model::FiveEquation,
-            sharpening: Sharpening::Thinc,
-            riemann: RiemannSolver::Hllc,
             limiter: Limiter::Minmod,
-            boundaries: [Boundary::Wall, Boundary::NonReflecting, Boundary::Axis, Boundary::NonReflecting],
-            inflow: None,
-            far_field: None,
             adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![] }),
             scales: Scales { pressure: 5e7, density: 1e3 },
-            gravity: None,
-            tracer: None,
+            ..FluidSetup::new(
+                Domain { geometry: Geometry::Axisymmetric, z: [0.0, 4.0], r: [0.0, 2.0] },
+                [16, 8],
+                [Boundary::Wall, Boundary::NonReflecting, Boundary::Axis, Boundary::NonReflecting],
+            )
         };
         let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0, 0.0] };
         let initial = InitialCondition {

@@ -40,24 +40,8 @@ pub fn setup_of(
     cells: [usize; 2],
     boundaries: [Boundary; 4],
 ) -> FluidSetup {
-    FluidSetup {
-        domain: Domain { geometry, z: [0.0, 1.0], r: [0.0, 1.0] },
-        coarsest: cells,
-        levels: 0,
-        liquid: LIQUID,
-        gas: GAS,
-        model,
-        sharpening,
-        riemann: RiemannSolver::Hllc,
-        limiter: Limiter::Mc,
-        boundaries,
-        inflow: None,
-        far_field: None,
-        adaptation: None,
-        scales: fluid::Scales { pressure: 1e6, density: 1e3 },
-        gravity: None,
-        tracer: None,
-    }
+    let domain = Domain { geometry, z: [0.0, 1.0], r: [0.0, 1.0] };
+    FluidSetup { model, sharpening, ..FluidSetup::new(domain, cells, boundaries) }
 }
 
 /// A ball of gas in liquid of 1000 kg/m³.
