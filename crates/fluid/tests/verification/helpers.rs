@@ -2,9 +2,9 @@
 
 use fluid::{
     Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState,
-    Primitive, Region, RiemannSolver, Shape, Sharpening, StiffenedGas,
+    Primitive, Region, Shape, Sharpening, StiffenedGas,
 };
-use mesh::{Domain, Geometry, Limiter};
+use mesh::{Domain, Geometry};
 
 pub const LIQUID: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 pub const GAS: StiffenedGas = StiffenedGas { gamma: 1.4, pi: 0.0 };
