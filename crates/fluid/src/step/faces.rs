@@ -10,7 +10,8 @@ use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
 use crate::reconstruction::dispersion::AlongFaces;
 use crate::riemann::exact_rows::exact_faces;
-use crate::state::conserved::COUNT;
+use crate::state::COUNT;
+use crate::state::primitive::{PRESSURE, V_R, V_Z};
 use crate::step::face_rows::{FaceRows, used_face};
 use crate::step::rows::{self};
 
@@ -30,7 +31,7 @@ impl<const N: usize> BlockStep<'_, N> {
             sound,
             with_gas: self.with_gas,
             dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
-            along_faces: AlongFaces::new([1, 3].map(|c| s_r.component(c)), stride),
+            along_faces: AlongFaces::new([V_Z, PRESSURE].map(|c| s_r.component(c)), stride),
         };
         let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         let wall = ctx.interface.states_of::<N>(self.slot);
@@ -48,7 +49,7 @@ impl<const N: usize> BlockStep<'_, N> {
             half: [rho, v_r, v_z, p, phi],
             differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
             dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 1),
-            along_faces: AlongFaces::new([2, 3].map(|c| s_z.component(c)), 1),
+            along_faces: AlongFaces::new([V_R, PRESSURE].map(|c| s_z.component(c)), 1),
             ..along_z
         };
         let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;

@@ -5,8 +5,9 @@ use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
 use crate::Mixture;
 use crate::components::carried::CarriedScratch;
 use crate::physics::FluidStep;
-use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
-use crate::state::primitive;
+use crate::state::COUNT;
+use crate::state::conserved::{ENERGY, GAS, PHI, RHO};
+use crate::state::primitive_of;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
 use crate::two_phase::{Compression, is_mixed};
@@ -117,7 +118,7 @@ fn expansion<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize, [i, j]: [usize
     let u: [f64; COUNT] = std::array::from_fn(|c| ctx.old.component(slot, c)[j * N + i]);
     match ctx.model.scheme.two_phase {
         Some(options) if is_mixed(u[PHI]) => {
-            let [_, _, _, p, phi] = primitive(u, &ctx.model.mixture);
+            let [_, _, _, p, phi] = primitive_of(u, &ctx.model.mixture);
             Compression::at(p, phi, &ctx.model.mixture, options.has_closure).expansion(phi)
         }
         _ => 0.0,
@@ -126,7 +127,7 @@ fn expansion<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize, [i, j]: [usize
 
 /// Applies the pressure floor to a corrected cell and takes its speeds into the report; returns the energy added.
 fn settle<const N: usize>(u: &mut [f64; COUNT], mixture: &Mixture, report: &mut BlockReport<N>) -> f64 {
-    let [rho, v_z, v_r, p, phi] = primitive(*u, mixture);
+    let [rho, v_z, v_r, p, phi] = primitive_of(*u, mixture);
     let lifted = p.max(mixture.pressure_floor(phi));
     let added = mixture.beta1(phi) * (lifted - p);
     u[ENERGY] += added;

@@ -3,6 +3,7 @@
 //! Nearly all cells are pure, and the kernels of `rows.rs` and `update.rs` serve them row by row. What is here walks
 //! lists of the others and puts their fluxes in the place of the kernels'.
 
+use crate::state::primitive::VELOCITY;
 use mesh::{GHOSTS, Padded, Side};
 
 use super::cells::{Cells, FaceState, RowKinds, find_interface};
@@ -307,7 +308,7 @@ fn turned(state: FaceState, axis: usize) -> FaceState {
 fn mirrored(states: [FaceState; 4], side: Side) -> [FaceState; 4] {
     let axis = if matches!(side, Side::ZMin | Side::ZMax) { 0 } else { 1 };
     let mut images = states.map(|mut state| {
-        state.w[1 + axis] = -state.w[1 + axis];
+        state.w[VELOCITY[axis]] = -state.w[VELOCITY[axis]];
         state
     });
     images.swap(2 * axis, 2 * axis + 1);

@@ -1,5 +1,6 @@
 //! Exact Riemann solutions at listed faces, wherever they lie.
 
+use crate::state::PrimitiveCell;
 use std::hint::select_unpredictable;
 
 use super::{Chunk, LANES, Lane, Sides, count, fluxes, solve};
@@ -77,7 +78,7 @@ fn one_by_one<L: ListedFaces>(face: &L::Face, faces: &L, mixture: &Mixture) -> (
 }
 
 #[inline(always)]
-fn take(sides: &mut Sides, k: usize, [rho, u, v, p, phi]: [f64; 5]) {
+fn take(sides: &mut Sides, k: usize, [rho, u, v, p, phi]: PrimitiveCell) {
     (sides.rho[k], sides.u[k], sides.v[k], sides.p[k], sides.phi[k]) = (rho, u, v, p, phi);
 }
 
