@@ -24,7 +24,6 @@ pub(crate) mod conserved {
     pub const ENERGY: usize = 3;
     /// Gas fraction φ (advected, not conserved).
     pub const PHI: usize = 4;
-    pub(crate) use super::COUNT;
     /// Mass of the gas per volume m_g = φρ_g.
     pub const GAS: usize = 5;
 }

@@ -6,15 +6,16 @@ use super::cells::Cells;
 use super::mixed::Outer;
 use super::reconstruction::CellRule;
 use super::scratch::GasScratch;
-use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
+use super::update::{OldCells, gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
 use crate::options::TwoPhaseOptions;
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
+use crate::state::COUNT;
 use crate::state::conserved::{GAS, PHI, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
-use crate::step::update::Metric;
+use crate::step::update::{Metric, NewCells};
 use crate::step::{BlockScratch, split_block};
 use crate::{Boundary, RiemannSolver};
 
@@ -38,6 +39,16 @@ pub(crate) struct GasBlock<'a, const N: usize> {
     slot: usize,
     options: TwoPhaseOptions,
     inverse_h: [f64; 2],
+}
+
+/// A block at the beginning of a step.
+pub(crate) struct Before<'a> {
+    /// Conserved components without ghosts.
+    pub old: &'a [f64],
+    /// Pressure and 1/r (or 0) of the padded cells.
+    pub pressure: &'a [f64],
+    /// See `pressure`.
+    pub inverse_r: &'a [f64],
 }
 
 impl<'a, const N: usize> GasBlock<'a, N> {
@@ -73,7 +84,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     /// Finds and reconstructs the mixed cells; `scratch` holds the assembled block and its predicted states.
     pub fn collect(&self, scratch: &mut BlockScratch<N>) {
         let BlockScratch { cells, gas, half, keep, inverse_r, .. } = scratch;
-        let rows = cells.split::<6>();
+        let rows = cells.split::<{ COUNT + 1 }>();
         gas_shares(rows[GAS], rows[RHO], &mut gas.shares);
         self.impose_outer_shares(&mut gas.shares);
         gas.mixed.clear();
@@ -150,34 +161,24 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     pub fn update(
         &self,
         gas: &mut GasScratch,
-        old: &[f64],
-        pressure: &[f64],
+        before: Before<'_>,
         faces: [&FaceRows; 2],
         metric: &Metric<'_>,
-        inverse_r: &[f64],
         new: &mut [f64],
-        speeds: &mut [&mut [f64]; 3],
+        speeds: [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
+        let Before { old, pressure, inverse_r } = before;
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
-        update_gas::<N>(old_gas, faces[0], faces[1], self.ctx.dt, metric, new_gas);
-        let mut rows = split_block::<N>(first);
-        let mut clipped = update_mixed::<N>(
-            &gas.mixed,
-            old_rows,
-            pressure,
-            [old_gas, new_gas],
-            faces,
-            metric,
-            &self.rule(inverse_r),
-            &mut rows,
-            speeds,
-            &mut gas.marked,
-        );
+        update_gas::<N>(old_gas, faces, metric, new_gas);
+        let mut cells = NewCells { conserved: split_block::<N>(first), speeds };
+        let old = OldCells { conserved: old_rows, pressure, gas: [old_gas, new_gas] };
+        let (windows, rule) = (gas.mixed.mixed(), &self.rule(inverse_r));
+        let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
-        let [density, _, _, _, phi] = rows;
+        let [density, _, _, _, phi] = cells.conserved;
         let settled = settle_gas(phi, density, new_gas);
         clipped += settled.clipped;
         let (clips, dropped) = gas.mixed.clips();

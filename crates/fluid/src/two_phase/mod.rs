@@ -22,7 +22,7 @@ mod windows;
 pub(crate) use cells::{Cells, FaceState};
 pub(crate) use closure::{Compression, is_compliant, is_mixed};
 pub(crate) use face_states::FaceStates;
-pub(crate) use gas_block::{GasBlock, may_have_gas};
+pub(crate) use gas_block::{Before, GasBlock, may_have_gas};
 pub(crate) use reconstruction::{CellRule, face_states};
 pub(crate) use scratch::GasScratch;
 pub(crate) use update::missing_mass;
