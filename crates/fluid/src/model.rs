@@ -11,7 +11,7 @@ use crate::boundary::far_field::{SideImpulses, SourceHistory};
 use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
 use crate::state::COUNT;
-use crate::state::conserved::{GAS, PHI};
+use crate::state::conserved::PHI;
 use crate::step::clips::{CountedAnalysis, SharedCount};
 use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::BlockReport;
@@ -105,11 +105,9 @@ impl<const N: usize> Model<N> for Fluid {
             extremes.speed_z = extremes.speed_z.max(speed(w.v_z));
             extremes.speed_r = extremes.speed_r.max(speed(w.v_r));
         }
-        let component = |c: usize| &block[c * N * N..(c + 1) * N * N];
-        extremes.phi = maximum(component(PHI));
+        extremes.phi = maximum(&block[PHI * N * N..(PHI + 1) * N * N]);
         report.extremes = extremes;
-        let has_any = |c: usize| component(c).iter().any(|value| *value != 0.0);
-        report.has_gas = self.scheme.two_phase.is_some() && (has_any(PHI) || has_any(GAS));
+        report.has_gas = self.scheme.phases.has_gas::<N>(block);
     }
 
     fn signal_speeds(&self, report: &BlockReport<N>) -> [f64; 2] {

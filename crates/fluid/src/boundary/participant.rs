@@ -4,13 +4,12 @@ use coupler::{FluidTrace, TraceRow};
 use mesh::{GroupStep, Padded};
 
 use crate::boundary::wall_trace::Trace;
-use crate::physics::Scheme;
 use crate::reconstruction::at;
 use crate::state::PrimitiveCell;
 use crate::state::primitive::{PHI, PRESSURE, RHO, V_R, V_Z};
 use crate::step::rows::{half_step, rates};
 use crate::step::{BlockScratch, reconstruct};
-use crate::two_phase::{CellRule, Cells, FaceStates, Window, face_states};
+use crate::two_phase::{Cells, FaceStates, Window, face_states};
 use crate::{FluidSolver, Mixture, TRACE_GAS};
 
 impl<const N: usize> FluidSolver<N> {
@@ -134,13 +133,9 @@ impl<const N: usize> FluidSolver<N> {
         k: usize,
         dt: f64,
     ) -> Option<PrimitiveCell> {
-        let Scheme { limiter, two_phase, .. } = self.model().scheme;
-        let options = two_phase?;
+        let rule = self.model().mixed_cell_rule(inverse_h, inverse_r, dt)?;
         let cells = Cells { rows: cells.split(), stride: Padded::<N>::STRIDE };
-        let mixture = self.mixture();
-        let velocity_gain = self.model().terms.velocity_gain(0.5 * dt);
-        let rule = CellRule { limiter, inverse_h, inverse_r, dt, mixture, options, velocity_gain };
-        cells.is_at_interface(k, mixture).then(|| {
+        cells.is_at_interface(k, rule.mixture).then(|| {
             let mut states = FaceStates::default();
             face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &rule, &mut states);
             states.of(0, 0).w

@@ -29,7 +29,7 @@ impl<const N: usize> BlockStep<'_, N> {
             differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
             keep,
             sound,
-            with_gas: self.with_gas,
+            with_gas: self.gas.is_present(),
             dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
             along_faces: AlongFaces::new([V_Z, PRESSURE].map(|c| s_r.component(c)), stride),
         };
@@ -37,7 +37,7 @@ impl<const N: usize> BlockStep<'_, N> {
         let wall = ctx.interface.states_of::<N>(self.slot);
         let replaced = wall.map(|_| mesh::GHOSTS - 1);
         self.clipped_roots = faces(ctx, &along_z, 1, z_range, replaced, z_faces);
-        if let Some(block) = &self.gas {
+        if let Some(block) = self.gas.phases() {
             block.solve_faces(0, &along_z, inverse_r, gas, z_faces);
         }
         if let Some(wall) = wall {
@@ -54,7 +54,7 @@ impl<const N: usize> BlockStep<'_, N> {
         };
         let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         self.clipped_roots += faces(ctx, &along_r, stride, r_range, None, r_faces);
-        if let Some(block) = &self.gas {
+        if let Some(block) = self.gas.phases() {
             block.solve_faces(1, &along_r, inverse_r, gas, r_faces);
             block.gas_fluxes(gas, [z_faces, r_faces]);
         }

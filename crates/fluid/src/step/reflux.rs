@@ -6,11 +6,10 @@ use crate::Mixture;
 use crate::components::carried::CarriedScratch;
 use crate::physics::FluidStep;
 use crate::state::COUNT;
-use crate::state::conserved::{ENERGY, GAS, PHI, RHO};
+use crate::state::conserved::{ENERGY, GAS, PHI};
 use crate::state::primitive_of;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
-use crate::two_phase::{Compression, is_mixed};
 
 /// What is registered of a face: mass flux, normal momentum it carries, pressure, tangential momentum flux, energy
 /// flux, velocity u_f of the face, u_f φ_f, mass flux of the gas.
@@ -63,6 +62,7 @@ pub(crate) fn correct<const N: usize>(
     new: &mut [f64],
     report: &mut BlockReport<N>,
 ) {
+    let phases = ctx.model.scheme.phases;
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let (dt_z, dt_r) = (ctx.dt / h_z, ctx.dt / h_r);
@@ -76,7 +76,8 @@ pub(crate) fn correct<const N: usize>(
         let CorrectedFace { side, outward, cell: [i, j], difference } = face;
         let [mass, carried, pressure, shear, energy, velocity, velocity_phi, gas] = difference;
         let cell = |c: usize| (c * N + j) * N + i;
-        let phi = velocity_phi - velocity * (ctx.old.block(slot)[cell(PHI)] + expansion(ctx, slot, [i, j]));
+        let old = std::array::from_fn(|c| ctx.old.block(slot)[cell(c)]);
+        let phi = velocity_phi - velocity * (old[PHI] + phases.expansion(old, &ctx.model.mixture));
         let changes = if matches!(side, Side::ZMin | Side::ZMax) {
             [mass, carried + pressure, shear, energy, phi, gas].map(|change| outward * dt_z * change)
         } else {
@@ -94,11 +95,7 @@ pub(crate) fn correct<const N: usize>(
         for (c, value) in u.into_iter().enumerate() {
             new[cell(c)] = value;
         }
-        if ctx.model.scheme.two_phase.is_some() {
-            new[cell(GAS)] -= changes[GAS];
-            report.lift_phase(new[cell(RHO)], &mut new[cell(GAS)], ctx.mesh.volume(id, j));
-            report.has_gas |= new[cell(GAS)] != 0.0 || new[cell(PHI)] != 0.0;
-        }
+        phases.correct_gas(new, j * N + i, changes[GAS], ctx.mesh.volume(id, j), report);
     });
     let first = ctx.old.components() - ctx.model.carried.len();
     for number in 0..ctx.model.carried.len() {
@@ -108,20 +105,6 @@ pub(crate) fn correct<const N: usize>(
             let change = if is_along_z { dt_z * flux } else { dt_r * weight(side, j) * flux };
             new[((first + number) * N + j) * N + i] -= outward * change;
         });
-    }
-}
-
-/// What the closure adds to the gas fraction of a mixed cell per change of its volume, see
-/// [`Compression::expansion`]. (Where the interface is on the finest level, as adaptation keeps it, no such cell is
-/// corrected.)
-fn expansion<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize, [i, j]: [usize; 2]) -> f64 {
-    let u: [f64; COUNT] = std::array::from_fn(|c| ctx.old.component(slot, c)[j * N + i]);
-    match ctx.model.scheme.two_phase {
-        Some(options) if is_mixed(u[PHI]) => {
-            let [_, _, _, p, phi] = primitive_of(u, &ctx.model.mixture);
-            Compression::at(p, phi, &ctx.model.mixture, options.has_closure).expansion(phi)
-        }
-        _ => 0.0,
     }
 }
 

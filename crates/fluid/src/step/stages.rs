@@ -16,7 +16,7 @@ use crate::step::report::{BlockReport, boundary_inflow, count_kept, far_field_ga
 use crate::step::rows;
 use crate::step::update::{Extremes, Metric, NewCells, update};
 use crate::terms::TermBlock;
-use crate::two_phase::{Before, GasBlock, may_have_gas};
+use crate::two_phase::{Before, BlockGas, may_have_gas};
 
 /// Assembles a block with its ghosts: primitive variables in `cells`.
 ///
@@ -84,12 +84,11 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         }
         let may_have_gas = may_have_gas(ctx, slot);
         let limited_predictions = assemble(ctx, slot, may_have_gas, scratch);
-        let gas = if may_have_gas { GasBlock::of(ctx, slot, &scratch.cells) } else { None };
-        let with_gas = ctx.model.scheme.two_phase.is_none() || gas.is_some();
-        if !with_gas {
+        let gas = BlockGas::of(ctx, slot, may_have_gas, &scratch.cells);
+        if !gas.is_present() {
             scratch.without_gas();
         }
-        Self { ctx, slot, id, inverse_h, gas, with_gas, limited_predictions, clipped_roots: 0 }
+        Self { ctx, slot, id, inverse_h, gas, limited_predictions, clipped_roots: 0 }
     }
 
     /// - `face_weight`, `inverse_weight`: as [`BlockStep::assemble`] has left them.
@@ -115,8 +114,8 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             inverse_r: &scratch.inverse_r,
             half_dt: 0.5 * self.ctx.dt,
             mixture: self.ctx.model.mixture,
-            with_gas: self.with_gas,
-            with_mixed: scheme.two_phase.is_none(),
+            with_gas: self.gas.is_present(),
+            with_mixed: self.gas.is_of_kernels(),
         };
         let out = Predicted {
             s_z: scratch.s_z.split_mut(),
@@ -146,7 +145,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
 
     /// Cells with gas and liquid in them, which have face states of their own.
     pub(super) fn collect_mixed_cells(&self, scratch: &mut BlockScratch<N>) {
-        if let Some(gas) = &self.gas {
+        if let Some(gas) = self.gas.phases() {
             gas.collect(scratch);
         }
     }
@@ -204,11 +203,11 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         let mut speeds = speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
         let rows =
             NewCells { conserved: split_block::<N>(new), speeds: speeds.each_mut().map(|row| &mut **row) };
-        update::<N>(old_rows, faces, &metric, self.with_gas, &ctx.model.mixture, rows);
-        if let Some(block) = &self.gas {
+        update::<N>(old_rows, faces, &metric, self.gas.is_present(), &ctx.model.mixture, rows);
+        if let Some(block) = self.gas.phases() {
             let before = Before { old, pressure: cells.component(PRESSURE), inverse_r };
             block.update(gas, before, faces, &metric, new, speeds, report);
-        } else if !self.with_gas {
+        } else if !self.gas.is_present() {
             new[PHI * N * N..].fill(0.0);
         }
         let first = ctx.old.components() - carried.len();

@@ -4,6 +4,7 @@ use mesh::{Padded, Side};
 
 use super::cells::Cells;
 use super::mixed::Outer;
+use super::phase_model::PhaseModel;
 use super::reconstruction::CellRule;
 use super::scratch::GasScratch;
 use super::update::{OldCells, gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
@@ -26,14 +27,56 @@ const NOT_THEIRS: f64 = -0.0;
 /// are nearly everywhere.
 pub(crate) fn may_have_gas<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> bool {
     let has_gas = |slot: &usize| ctx.model.has_gas[*slot];
-    ctx.model.scheme.two_phase.is_none()
+    matches!(ctx.model.scheme.phases, PhaseModel::Mixture)
         || has_gas(&slot)
         || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
         || (ctx.mesh.tree().neighbours(slot).iter())
             .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot)))
 }
 
-/// A block of the five-equation model with gas in its padded cells.
+/// What a block's step has to do about gas: decided once per block.
+pub(crate) enum BlockGas<'a, const N: usize> {
+    /// The paper's mixture: the kernels carry the gas fraction, in all cells.
+    Fraction,
+    /// The five-equation model with no gas in the padded cells.
+    Absent,
+    /// The five-equation model with gas in them.
+    Phases(GasBlock<'a, N>),
+}
+
+impl<'a, const N: usize> BlockGas<'a, N> {
+    /// - `may_have_gas`: see [`may_have_gas`]; what a neighbour has may be farther away. `cells`: the padded cells, primitive.
+    pub fn of(ctx: &'a FluidStep<'a, N>, slot: usize, may_have_gas: bool, cells: &Padded<N>) -> Self {
+        let PhaseModel::FiveEquation(options) = ctx.model.scheme.phases else { return Self::Fraction };
+        let has_gas = || {
+            !ctx.marks.is_empty()
+                || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
+                || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)))
+        };
+        if !(may_have_gas && has_gas()) {
+            return Self::Absent;
+        }
+        let level = ctx.mesh.tree().leaves()[slot].level;
+        let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
+        Self::Phases(GasBlock { ctx, slot, options, inverse_h })
+    }
+
+    /// Whether the rows of the gas fraction count.
+    pub fn is_present(&self) -> bool {
+        !matches!(self, Self::Absent)
+    }
+
+    /// Whether the kernels serve mixed cells, too.
+    pub fn is_of_kernels(&self) -> bool {
+        matches!(self, Self::Fraction)
+    }
+
+    pub fn phases(&self) -> Option<&GasBlock<'a, N>> {
+        if let Self::Phases(block) = self { Some(block) } else { None }
+    }
+}
+
+/// A block of the five-equation model with gas in its padded cells, or with some that may come in through a side.
 pub(crate) struct GasBlock<'a, const N: usize> {
     ctx: &'a FluidStep<'a, N>,
     slot: usize,
@@ -52,33 +95,11 @@ pub(crate) struct Before<'a> {
 }
 
 impl<'a, const N: usize> GasBlock<'a, N> {
-    /// A block that [`may_have_gas`], if it has or if some may come in through a side: what a neighbour has may be farther
-    /// away. `None` for the paper's mixture.
-    ///
-    /// - `cells`: the padded cells, primitive.
-    pub fn of(ctx: &'a FluidStep<'a, N>, slot: usize, cells: &Padded<N>) -> Option<Self> {
-        let options = ctx.model.scheme.two_phase?;
-        let level = ctx.mesh.tree().leaves()[slot].level;
-        let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
-        let has_gas = !ctx.marks.is_empty()
-            || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
-            || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)));
-        has_gas.then_some(Self { ctx, slot, options, inverse_h })
-    }
-
     fn rule<'b>(&self, inverse_r: &'b [f64]) -> CellRule<'b>
     where
         'a: 'b,
     {
-        CellRule {
-            limiter: self.ctx.model.scheme.limiter,
-            inverse_h: self.inverse_h,
-            inverse_r,
-            dt: self.ctx.dt,
-            mixture: &self.ctx.model.mixture,
-            options: self.options,
-            velocity_gain: self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt),
-        }
+        self.ctx.model.rule_with(self.options, self.inverse_h, inverse_r, self.ctx.dt)
     }
 
     /// Finds and reconstructs the mixed cells; `scratch` holds the assembled block and its predicted states.
