@@ -1,5 +1,7 @@
 //! The numbers in a cell.
 
+pub(crate) mod finished;
+
 use crate::Mixture;
 
 /// How many variables all models have.

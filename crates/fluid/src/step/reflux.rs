@@ -2,12 +2,10 @@
 
 use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
 
-use crate::Mixture;
 use crate::components::carried::CarriedScratch;
 use crate::physics::FluidStep;
-use crate::state::COUNT;
-use crate::state::conserved::{ENERGY, GAS, PHI};
-use crate::state::primitive_of;
+use crate::state::conserved::{GAS, PHI};
+use crate::state::finished::finish_cell;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
 
@@ -87,12 +85,13 @@ pub(crate) fn correct<const N: usize>(
             [weight * mass, weight * shear, radial, weight * energy, weight * phi, weight * gas]
                 .map(|change| outward * dt_r * change)
         };
-        let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
-        let added = settle(&mut u, &ctx.model.mixture, report);
-        if added > 0.0 {
-            report.lift_pressure(added, ctx.mesh.volume(id, j));
+        let u = std::array::from_fn(|c| new[cell(c)] - changes[c]);
+        let finished = finish_cell(u, &ctx.model.mixture);
+        report.extremes.add(&finished);
+        if finished.floor > 0.0 {
+            report.lift_pressure(finished.floor, ctx.mesh.volume(id, j));
         }
-        for (c, value) in u.into_iter().enumerate() {
+        for (c, value) in finished.conserved.into_iter().enumerate() {
             new[cell(c)] = value;
         }
         phases.correct_gas(new, j * N + i, changes[GAS], ctx.mesh.volume(id, j), report);
@@ -106,20 +105,4 @@ pub(crate) fn correct<const N: usize>(
             new[((first + number) * N + j) * N + i] -= outward * change;
         });
     }
-}
-
-/// Applies the pressure floor to a corrected cell and takes its speeds into the report; returns the energy added.
-fn settle<const N: usize>(u: &mut [f64; COUNT], mixture: &Mixture, report: &mut BlockReport<N>) -> f64 {
-    let [rho, v_z, v_r, p, phi] = primitive_of(*u, mixture);
-    let lifted = p.max(mixture.pressure_floor(phi));
-    let added = mixture.beta1(phi) * (lifted - p);
-    u[ENERGY] += added;
-    let sound = (mixture.bulk_modulus(lifted, phi) / rho).sqrt();
-    let sane = (rho > 0.0) & (sound < f64::MAX);
-    let extremes = &mut report.extremes;
-    let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
-    extremes.speed_z = extremes.speed_z.max(speed(v_z));
-    extremes.speed_r = extremes.speed_r.max(speed(v_r));
-    extremes.phi = extremes.phi.max(phi);
-    added
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::Mixture;
 use crate::reconstruction::{Rows, RowsMut, fraction};
 use crate::state::conserved::PHI;
+use crate::state::finished::{FinishedCell, finish_cell};
 use crate::state::{COUNT, ConservedCell};
 use crate::step::face_rows::FaceRows;
 
@@ -24,6 +25,13 @@ pub(crate) struct Extremes {
 }
 
 impl Extremes {
+    /// Takes in one more cell.
+    pub fn add(&mut self, cell: &FinishedCell) {
+        self.speed_z = self.speed_z.max(cell.speed_z);
+        self.speed_r = self.speed_r.max(cell.speed_r);
+        self.phi = self.phi.max(cell.conserved[PHI]);
+    }
+
     /// Of the rows that [`update`] writes.
     pub fn of(phi: &[f64], [speed_z, speed_r, floor]: [&[f64]; 3]) -> Self {
         Self {
@@ -239,41 +247,6 @@ pub(crate) fn balance(
     ]
 }
 
-/// A cell that holds the pressure floor, and what the next time step needs to know of it.
-#[derive(Clone, Copy)]
-pub(crate) struct SettledCell {
-    pub conserved: ConservedCell,
-    /// |v_z| + c, |v_r| + c; infinite if the cell is not admissible.
-    pub speed_z: f64,
-    pub speed_r: f64,
-    /// Energy per volume that the floor added.
-    pub floor: f64,
-}
-
-/// Applies the pressure floor. As [`crate::state::primitive_of`], with one division for 1/ρ and one for 1/β₁, which the sound
-/// speed needs as well.
-#[inline(always)]
-pub(crate) fn settled([rho, mz, mr, energy, phi]: ConservedCell, mixture: &Mixture) -> SettledCell {
-    let inverse_rho = 1.0 / rho;
-    let (v_z, v_r) = (mz * inverse_rho, mr * inverse_rho);
-    let internal = energy - 0.5 * (mz * v_z + mr * v_r);
-    let (beta1, beta2) = (mixture.beta1(phi), mixture.beta2(phi));
-    let inverse_beta1 = 1.0 / beta1;
-    let p = (internal - beta2) * inverse_beta1;
-    let lowest = mixture.pressure_floor(phi);
-    let lifted = if p < lowest { lowest } else { p };
-    let added = beta1 * (lifted - p);
-    let sound = (((1.0 + beta1) * lifted + beta2) * (inverse_beta1 * inverse_rho)).sqrt();
-    let sane = (rho > 0.0) & (sound < f64::MAX);
-    let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
-    SettledCell {
-        conserved: [rho, mz, mr, energy + added, phi],
-        speed_z: speed(v_z),
-        speed_r: speed(v_r),
-        floor: added,
-    }
-}
-
 #[inline(always)]
 fn update_row<const N: usize, const WITH_GAS: bool>(
     old: [&[f64; N]; COUNT],
@@ -295,7 +268,7 @@ fn update_row<const N: usize, const WITH_GAS: bool>(
         let before = [rho_0[k], mz_0[k], mr_0[k], energy_0[k], phi_0[k]];
         let mut after = balance(before, faces, metric);
         after[PHI] = fraction::<WITH_GAS>(after[PHI]);
-        let cell = settled(after, &mixture);
+        let cell = finish_cell(after, &mixture);
         [rho[k], mz[k], mr[k], energy[k], _] = cell.conserved;
         if WITH_GAS {
             phi[k] = cell.conserved[PHI];

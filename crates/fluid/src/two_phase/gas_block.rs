@@ -7,7 +7,7 @@ use super::mixed::Outer;
 use super::phase_model::PhaseModel;
 use super::reconstruction::CellRule;
 use super::scratch::GasScratch;
-use super::update::{OldCells, gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
+use super::update::{OldCells, bound_gas, gas_fluxes, gas_shares, is_zero, update_gas, update_mixed};
 use crate::options::TwoPhaseOptions;
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
@@ -200,13 +200,13 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
         let [density, _, _, _, phi] = cells.conserved;
-        let settled = settle_gas(phi, density, new_gas);
-        clipped += settled.clipped;
+        let bounded = bound_gas(phi, density, new_gas);
+        clipped += bounded.clipped;
         let (clips, dropped) = gas.mixed.clips();
-        report.clips += Clips { clipped_fractions: clipped, removed_traces: settled.removed, ..clips };
+        report.clips += Clips { clipped_fractions: clipped, removed_traces: bounded.removed, ..clips };
         report.fallbacks += dropped;
-        report.has_gas = settled.is_left;
-        if settled.has_missing {
+        report.has_gas = bounded.is_left;
+        if bounded.has_missing {
             self.lift_phases(density, new_gas, report);
         }
     }

@@ -9,9 +9,10 @@ use super::windows::{LANES, Lane, Window, bits, lanes};
 use crate::Mixture;
 use crate::reconstruction::Rows;
 use crate::state::conserved::{ENERGY, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
+use crate::state::finished::finish_cell;
 use crate::state::{COUNT, ConservedCell};
 use crate::step::face_rows::FaceRows;
-use crate::step::update::{FaceSlices, FaceValues, Metric, NewCells, balance, row, settled};
+use crate::step::update::{FaceSlices, FaceValues, Metric, NewCells, balance, row};
 
 /// The gas's mass fluxes of one direction: the mass flux times the gas's part of the mass in the cell it comes from.
 ///
@@ -61,9 +62,9 @@ pub(crate) fn update_gas<const N: usize>(
     }
 }
 
-/// What settling a block's gas came to.
+/// What bounding a block's gas came to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct SettledGas {
+pub(crate) struct BoundedGas {
     /// Whether any is left.
     pub is_left: bool,
     /// Gas fractions that were bounded.
@@ -78,17 +79,17 @@ pub(crate) struct SettledGas {
 ///
 /// - `density`: ρ; `gas`: m_g.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn settle_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> SettledGas {
+pub(crate) fn bound_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> BoundedGas {
     // Without an early end these are a few operations on whole lines.
     let (mut is_left, mut has_missing) = (false, false);
     let (mut clipped, mut removed) = (0, 0);
     for value in phi.iter_mut() {
         let kept = without_trace(*value);
-        let settled = bounded(kept);
+        let within = bounded(kept);
         removed += u64::from(kept != *value);
-        clipped += u64::from(settled != kept);
-        *value = settled;
-        is_left |= settled != 0.0;
+        clipped += u64::from(within != kept);
+        *value = within;
+        is_left |= within != 0.0;
     }
     for (value, density) in gas.iter_mut().zip(density) {
         let kept = without_trace(*value);
@@ -97,7 +98,7 @@ pub(crate) fn settle_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> S
         *value = kept;
         is_left |= kept != 0.0;
     }
-    SettledGas { is_left, clipped, removed, has_missing }
+    BoundedGas { is_left, clipped, removed, has_missing }
 }
 
 /// What the gas and the liquid of a cell lack of a mass of zero where one of them has fallen below its bound, kg/m³.
@@ -200,7 +201,7 @@ pub(crate) fn update_mixed<const N: usize>(
             cells.fraction.map(bounded)
         };
         let mut after = [[0.0; LANES]; COUNT + 3];
-        settle(eight, &u, mixture, &mut after);
+        finish_lanes(eight, &u, mixture, &mut after);
         let (mut is_marked, mut is_clipped) = ([false; LANES], [false; LANES]);
         for k in 0..LANES {
             // No other cell ends just there.
@@ -238,12 +239,12 @@ fn lane([rho, mz, mr, energy, phi]: &[&Lane; COUNT], k: usize) -> ConservedCell 
     [rho[k], mz[k], mr[k], energy[k], phi[k]]
 }
 
-/// [`settled`] of the first `n` lanes: what is conserved, and the two speeds and the floor's energy.
+/// [`finish_cell`] of the first `n` lanes: what is conserved, and the two speeds and the floor's energy.
 #[inline(always)]
-fn settle(n: usize, u: &[Lane; COUNT], mixture: &Mixture, after: &mut [Lane; COUNT + 3]) {
+fn finish_lanes(n: usize, u: &[Lane; COUNT], mixture: &Mixture, after: &mut [Lane; COUNT + 3]) {
     let [rho, mz, mr, energy, phi, speed_z, speed_r, floor] = after;
     for k in 0..n.min(LANES) {
-        let cell = settled(lane(&u.each_ref(), k), mixture);
+        let cell = finish_cell(lane(&u.each_ref(), k), mixture);
         [rho[k], mz[k], mr[k], energy[k], phi[k]] = cell.conserved;
         (speed_z[k], speed_r[k], floor[k]) = (cell.speed_z, cell.speed_r, cell.floor);
     }
