@@ -62,17 +62,17 @@ struct Sums {
 
 impl Sums {
     fn bubble(self, geometry: Geometry) -> Bubble {
-        let (turn, equivalent_radius) = match geometry {
+        let (angle, equivalent_radius) = match geometry {
             Geometry::Axisymmetric => (std::f64::consts::TAU, (1.5 * self.volume).cbrt()),
             Geometry::Planar => (1.0, (self.volume / std::f64::consts::PI).sqrt()),
         };
         Bubble {
-            volume: turn * self.volume,
-            trace_volume: turn * self.trace,
-            thin_volume: turn * self.thin,
+            volume: angle * self.volume,
+            trace_volume: angle * self.trace,
+            thin_volume: angle * self.thin,
             equivalent_radius,
             centroid_z: self.moment / self.volume,
-            gas_mass: turn * self.gas_mass,
+            gas_mass: angle * self.gas_mass,
         }
     }
 }

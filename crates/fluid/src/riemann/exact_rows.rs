@@ -220,10 +220,10 @@ fn prepare(
 
         let du = right.u[k] - left.u[k];
         let (z_l, z_r) = (left.rho[k] * c_l, right.rho[k] * c_r);
-        let turned = right.p[k] < left.p[k];
-        let low = if turned { right.p[k] } else { left.p[k] };
-        let high = if turned { left.p[k] } else { right.p[k] };
-        let z_low = if turned { z_r } else { z_l };
+        let right_is_lower = right.p[k] < left.p[k];
+        let low = if right_is_lower { right.p[k] } else { left.p[k] };
+        let high = if right_is_lower { left.p[k] } else { right.p[k] };
+        let z_low = if right_is_lower { z_r } else { z_l };
         let acoustic = low + (z_low * (high - low) - (z_l * z_r) * du) / (z_l + z_r);
         let fallback = if low > -lowest_pi { low } else { high };
         let guess = if acoustic + lowest_pi > 0.1 * (fallback + lowest_pi) { acoustic } else { fallback };

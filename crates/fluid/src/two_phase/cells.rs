@@ -74,7 +74,7 @@ pub(crate) fn find_interface(cells: &Cells<'_>, mixture: &Mixture, kinds: &mut [
     for j in 1..kinds.len() - 1 {
         let mut row = RowKinds::default();
         for start in (0..n).step_by(LANES).map(|start| start.min(n - LANES)) {
-            let found = kinds_of_eight(cells, j * stride + first + start, mixture);
+            let found = kinds_of_batch(cells, j * stride + first + start, mixture);
             row.at_interface |= found.at_interface << (first + start);
             row.mixed |= found.mixed << (first + start);
         }
@@ -96,7 +96,7 @@ fn is_pure(phi: &[f64]) -> bool {
 
 /// The kinds of the cells from `at` on, the first one's in the lowest bit.
 #[inline(always)]
-fn kinds_of_eight(cells: &Cells<'_>, at: usize, mixture: &Mixture) -> RowKinds {
+fn kinds_of_batch(cells: &Cells<'_>, at: usize, mixture: &Mixture) -> RowKinds {
     let load = |row: usize, at: usize| row_of::<LANES>(cells.rows[row], at);
     let (phi, west, east) = (load(PHI, at), load(PHI, at - 1), load(PHI, at + 1));
     let (south, north) = (load(PHI, at - cells.stride), load(PHI, at + cells.stride));

@@ -166,8 +166,8 @@ pub(crate) fn update_mixed<const N: usize>(
     marked.clear();
     let mut clipped = 0;
     let faces = faces.map(FaceRows::fluxes);
-    // A loop of eight that the compiler knows to be of eight it unrolls, and then finds no vectors in it.
-    let eight = std::hint::black_box(LANES);
+    // A loop over a SIMD batch of which the compiler knows the length it unrolls, and then finds no vectors in it.
+    let batch = std::hint::black_box(LANES);
     for window in windows {
         let k = window.first;
         let (i, j) = ((k - metric.origin) % metric.stride, (k - metric.origin) / metric.stride);
@@ -201,7 +201,7 @@ pub(crate) fn update_mixed<const N: usize>(
             cells.fraction.map(bounded)
         };
         let mut after = [[0.0; LANES]; COUNT + 3];
-        finish_lanes(eight, &u, mixture, &mut after);
+        finish_lanes(batch, &u, mixture, &mut after);
         let (mut is_marked, mut is_clipped) = ([false; LANES], [false; LANES]);
         for k in 0..LANES {
             // No other cell ends just there.
