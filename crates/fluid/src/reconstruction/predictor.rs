@@ -144,11 +144,13 @@ fn body<const WITH_GAS: bool>(
                 cut(&[&*z0, &*z1, &*z2, &*z3, &*z4], first, n),
                 cut(&[&*r0, &*r1, &*r2, &*r3, &*r4], first, n),
                 &p,
-                &mut h0[first..][..n],
-                &mut h1[first..][..n],
-                &mut h2[first..][..n],
-                &mut h3[first..][..n],
-                &mut h4[first..][..n],
+                [
+                    &mut h0[first..][..n],
+                    &mut h1[first..][..n],
+                    &mut h2[first..][..n],
+                    &mut h3[first..][..n],
+                    &mut h4[first..][..n],
+                ],
                 &mut keep[first..][..n],
             );
         }
@@ -156,6 +158,9 @@ fn body<const WITH_GAS: bool>(
     }
 }
 
+// A flat list of what is written: of slices in a struct or an array the compiler does not know that they are apart. With
+// `Predicted` here a step of 512 x 512 cells takes 64 instead of 43 ns per cell (1.5 times).
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
 fn differences_and_half<const WITH_GAS: bool>(
     n: usize,
@@ -210,11 +215,7 @@ fn half_again(
     s_z: Rows<'_>,
     s_r: Rows<'_>,
     p: &Predictor<'_>,
-    h0: &mut [f64],
-    h1: &mut [f64],
-    h2: &mut [f64],
-    h3: &mut [f64],
-    h4: &mut [f64],
+    [h0, h1, h2, h3, h4]: RowsMut<'_>,
     keep: &mut [f64],
 ) {
     for k in 0..keep.len() {

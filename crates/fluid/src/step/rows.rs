@@ -265,6 +265,9 @@ pub(crate) fn hllc_faces(
     }
 }
 
+// A flat list of what is written: of slices in a struct or an array the compiler does not know that they are apart. With
+// an array here a step of 512 x 512 cells takes 114 instead of 43 ns per cell (2.7 times).
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
 fn hllc_body<const WITH_GAS: bool>(
     n: usize,

@@ -205,8 +205,8 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             NewCells { conserved: split_block::<N>(new), speeds: speeds.each_mut().map(|row| &mut **row) };
         update::<N>(old_rows, faces, &metric, self.gas.is_present(), &ctx.model.mixture, rows);
         if let Some(block) = self.gas.phases() {
-            let before = Before { old, pressure: cells.component(PRESSURE), inverse_r };
-            block.update(gas, before, faces, &metric, new, speeds, report);
+            let before = Before { old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
+            block.update(gas, before, faces, new, speeds, report);
         } else if !self.gas.is_present() {
             new[PHI * N * N..].fill(0.0);
         }

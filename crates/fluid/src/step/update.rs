@@ -247,6 +247,9 @@ pub(crate) fn balance(
     ]
 }
 
+// A flat list of what is written: of slices in a struct or an array the compiler does not know that they are apart. With
+// two arrays here a step of 512 x 512 cells takes 57 instead of 43 ns per cell (1.3 times).
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
 fn update_row<const N: usize, const WITH_GAS: bool>(
     old: [&[f64; N]; COUNT],

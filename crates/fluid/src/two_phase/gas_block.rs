@@ -84,7 +84,7 @@ pub(crate) struct GasBlock<'a, const N: usize> {
     inverse_h: [f64; 2],
 }
 
-/// A block at the beginning of a step.
+/// A block at the beginning of a step, and its geometry.
 pub(crate) struct Before<'a> {
     /// Conserved components without ghosts.
     pub old: &'a [f64],
@@ -92,6 +92,7 @@ pub(crate) struct Before<'a> {
     pub pressure: &'a [f64],
     /// See `pressure`.
     pub inverse_r: &'a [f64],
+    pub metric: &'a Metric<'a>,
 }
 
 impl<'a, const N: usize> GasBlock<'a, N> {
@@ -184,12 +185,11 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         gas: &mut GasScratch,
         before: Before<'_>,
         faces: [&FaceRows; 2],
-        metric: &Metric<'_>,
         new: &mut [f64],
         speeds: [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
-        let Before { old, pressure, inverse_r } = before;
+        let Before { old, pressure, inverse_r, metric } = before;
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
