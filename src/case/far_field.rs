@@ -13,6 +13,7 @@ use super::{GridCase, Inflow};
 /// cannot be what the case calls them.
 ///
 /// - `named`: where the case names a side; `media`: the equations of state of liquid and gas, where known.
+#[expect(clippy::too_many_arguments, reason = "what a case says, no kernel")]
 pub(super) fn decide(
     boundary: &mut [Boundary; 4],
     named: &[Option<Given<()>>; 4],

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use mesh::{MOST_COMPONENTS, Multiresolution, Side};
 
-use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
-use crate::state::primitive;
+use crate::state::conserved::{ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
+use crate::state::{ConservedCell, primitive_of};
 use crate::two_phase::is_mixed;
 use crate::{Boundary, Mixture, Primitive};
 
@@ -42,7 +42,7 @@ const HARMLESS: f64 = 1e-2;
 
 impl Multiresolution for Analysis {
     fn parity(&self, side: Side, component: usize) -> Option<f64> {
-        let normal_momentum = if matches!(side, Side::ZMin | Side::ZMax) { 1 } else { 2 };
+        let normal_momentum = if matches!(side, Side::ZMin | Side::ZMax) { MOMENTUM_Z } else { MOMENTUM_R };
         match self.boundaries[side as usize] {
             Boundary::Axis | Boundary::Wall => Some(if component == normal_momentum { -1.0 } else { 1.0 }),
             _ => None,
@@ -101,7 +101,7 @@ impl Multiresolution for Analysis {
         }
         let above_floor = |d: &[f64; MOST_COMPONENTS]| {
             let at = |c: usize| mean[c] + share * d[c];
-            let [_, _, _, p, phi] = primitive([at(0), at(1), at(2), at(3), at(4)], &self.mixture);
+            let [_, _, _, p, phi] = primitive_of(std::array::from_fn(at), &self.mixture);
             let own = self.pressure(mean);
             let floor = self.mixture.pressure_floor(phi);
             p - floor > 0.2 * (own - self.mixture.pressure_floor(mean[PHI])).min(own - floor)
@@ -113,9 +113,8 @@ impl Multiresolution for Analysis {
     /// β₁ δp = δ(ρE) − v·δ(ρv) + ½v² δρ − (β₁'p + β₂') δφ and ρ δv = δ(ρv) − v δρ.
     #[inline(always)]
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
-        let u: [f64; COUNT] = [cell[0], cell[1], cell[2], cell[3], cell[4]];
-        let [rho, v_z, v_r, p, phi] = primitive(u, &self.mixture);
-        let [d_rho, d_mz, d_mr, d_energy, d_phi] = [detail[0], detail[1], detail[2], detail[3], detail[4]];
+        let [rho, v_z, v_r, p, phi] = primitive_of(leading(cell), &self.mixture);
+        let [d_rho, d_mz, d_mr, d_energy, d_phi] = leading(detail);
         let beta1 = self.mixture.beta1(phi);
         let per_phi = (self.mixture.beta1(1.0) - self.mixture.beta1(0.0)) * p + self.mixture.beta2(1.0)
             - self.mixture.beta2(0.0);
@@ -138,10 +137,15 @@ impl Multiresolution for Analysis {
     }
 }
 
+/// The variables that all models have.
+#[inline(always)]
+fn leading(cell: &[f64]) -> ConservedCell {
+    *cell.first_chunk().expect("all models have them")
+}
+
 impl Analysis {
     fn pressure(&self, mean: &[f64]) -> f64 {
-        let u: [f64; COUNT] = [mean[0], mean[1], mean[2], mean[3], mean[4]];
-        Primitive::from_conserved(u, &self.mixture).pressure
+        Primitive::from_conserved(leading(mean), &self.mixture).pressure
     }
 }
 
@@ -149,6 +153,7 @@ impl Analysis {
 mod tests {
     use super::*;
     use crate::StiffenedGas;
+    use crate::state::COUNT;
 
     fn analysis() -> Analysis {
         Analysis {
@@ -163,7 +168,7 @@ mod tests {
         }
     }
 
-    fn conserved(density: f64, velocity: f64, pressure: f64, phi: f64) -> [f64; 5] {
+    fn conserved(density: f64, velocity: f64, pressure: f64, phi: f64) -> ConservedCell {
         let mixture = analysis().mixture;
         Primitive { density, v_z: velocity, v_r: 0.0, pressure, phi }.to_conserved(&mixture)
     }
@@ -189,14 +194,14 @@ mod tests {
         let (gas, liquid) = (conserved(0.0266, 0.0, 2118.0, 1.0), conserved(1000.0, 0.0, 5e7, 0.0));
         let mut deviations = [[0.0; MOST_COMPONENTS]; 4];
         for (child, d) in deviations.iter_mut().enumerate() {
-            for c in 0..5 {
+            for c in 0..COUNT {
                 d[c] = if child % 2 == 0 { -0.125 } else { 0.125 } * (liquid[c] - gas[c]);
             }
         }
         for mean in [gas, liquid] {
             let share = analysis().share(&mean, &deviations);
             for d in &deviations {
-                let child: [f64; 5] = std::array::from_fn(|c| mean[c] + share * d[c]);
+                let child: ConservedCell = std::array::from_fn(|c| mean[c] + share * d[c]);
                 let w = Primitive::from_conserved(child, &analysis().mixture);
                 assert!(w.density > 0.0 && w.pressure > 100.0, "{w:?}");
                 assert!((-1e-6..=1.0 + 1e-6).contains(&w.phi), "{w:?}");

@@ -2,7 +2,7 @@
 
 use mesh::{
     Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Side, StageTimer, maximum,
+    ScratchPool, Side, StageTimer,
 };
 use serde::{Deserialize, Serialize};
 
@@ -10,13 +10,13 @@ use crate::analysis::Analysis;
 use crate::boundary::far_field::{SideImpulses, SourceHistory};
 use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
-use crate::state::conserved::{COUNT, GAS, PHI};
+use crate::state::finished::{FinishedCell, measure_cell};
 use crate::step::clips::{CountedAnalysis, SharedCount};
 use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::BlockReport;
 use crate::step::update::Extremes;
 use crate::step::{BlockScratch, STAGES, step_block};
-use crate::{Boundary, BoundaryLedger, Fixups, FluidError, Primitive};
+use crate::{Boundary, BoundaryLedger, Fixups, FluidError};
 
 /// What of a fluid changes in time besides its cells.
 #[derive(Serialize, Deserialize)]
@@ -28,13 +28,14 @@ pub struct FluidMemory {
 }
 
 impl Fluid {
-    /// The conserved variables of a cell that is not physical.
-    fn failed_state<const N: usize>(&self, block: &[f64], cell: usize) -> Option<[f64; COUNT]> {
-        let u: [f64; COUNT] = std::array::from_fn(|c| block[c * N * N + cell]);
-        let w = Primitive::from_conserved(u, &self.mixture);
-        let bulk_modulus = self.mixture.bulk_modulus(w.pressure, w.phi);
-        let is_physical = w.density > 0.0 && bulk_modulus >= 0.0 && (bulk_modulus / w.density).is_finite();
-        (!is_physical).then_some(u)
+    /// A cell of a block as it is.
+    fn measured<const N: usize>(&self, block: &[f64], cell: usize) -> FinishedCell {
+        measure_cell(std::array::from_fn(|c| block[c * N * N + cell]), &self.mixture)
+    }
+
+    /// The cells of a block that are not physical.
+    fn failed_cells<const N: usize>(&self, block: &[f64]) -> impl Iterator<Item = usize> {
+        (0..N * N).filter(|cell| !self.measured::<N>(block, *cell).is_admissible())
     }
 }
 
@@ -95,20 +96,9 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn measure(&self, _: &Mesh<N>, _: usize, block: &[f64], report: &mut BlockReport<N>) {
         let mut extremes = Extremes::default();
-        for k in 0..N * N {
-            let u: [f64; COUNT] = std::array::from_fn(|c| block[c * N * N + k]);
-            let w = Primitive::from_conserved(u, &self.mixture);
-            let sound = (self.mixture.bulk_modulus(w.pressure, w.phi) / w.density).sqrt();
-            let sane = w.density > 0.0 && sound < f64::MAX;
-            let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
-            extremes.speed_z = extremes.speed_z.max(speed(w.v_z));
-            extremes.speed_r = extremes.speed_r.max(speed(w.v_r));
-        }
-        let component = |c: usize| &block[c * N * N..(c + 1) * N * N];
-        extremes.phi = maximum(component(PHI));
+        (0..N * N).for_each(|cell| extremes.add(&self.measured::<N>(block, cell)));
         report.extremes = extremes;
-        let has_any = |c: usize| component(c).iter().any(|value| *value != 0.0);
-        report.has_gas = self.scheme.two_phase.is_some() && (has_any(PHI) || has_any(GAS));
+        report.has_gas = self.scheme.phases.has_gas::<N>(block);
     }
 
     fn signal_speeds(&self, report: &BlockReport<N>) -> [f64; 2] {
@@ -123,7 +113,7 @@ impl<const N: usize> Model<N> for Fluid {
         if is_sane(report) {
             return None;
         }
-        (0..N * N).find(|cell| self.failed_state::<N>(block, *cell).is_some())
+        self.failed_cells::<N>(block).next()
     }
 
     fn error(&self, block: &[f64], cell: usize, Place { z, r, time, step }: Place) -> FluidError {
@@ -139,7 +129,7 @@ impl<const N: usize> Model<N> for Fluid {
         }
         let mut cells: Vec<usize> = report.marked.cells().collect();
         if !is_sane(report) {
-            cells.extend((0..N * N).filter(|cell| self.failed_state::<N>(block, *cell).is_some()));
+            cells.extend(self.failed_cells::<N>(block));
         }
         cells
     }

@@ -52,16 +52,6 @@ pub(crate) struct TwoPhaseOptions {
 }
 
 impl TwoPhaseOptions {
-    /// `None` for the paper's mixture, which has no phases of their own densities.
-    pub fn of(model: Model, sharpening: Sharpening) -> Option<Self> {
-        let is_sharp = sharpening == Sharpening::Thinc;
-        match model {
-            Model::SaurelAbgrall => None,
-            Model::Allaire => Some(Self { has_closure: false, is_sharp }),
-            Model::FiveEquation => Some(Self { has_closure: true, is_sharp }),
-        }
-    }
-
     /// The limiter of the gas fraction's slopes where there is no step, beside `limiter` for all else.
     ///
     /// A sharp interface is THINC's business, whatever serves the waves: what `minmod` adds in the cells next to a step are

@@ -6,10 +6,10 @@ use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::far_field::{Moment, SideImpulses, SourceHistory};
 use crate::components::Component;
-use crate::options::TwoPhaseOptions;
 use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
 use crate::terms::Terms;
+use crate::two_phase::PhaseModel;
 use crate::{BoundaryLedger, Fixups, Mixture, RiemannSolver};
 
 /// A fluid of two phases: what its cells obey, and what bounds them.
@@ -37,14 +37,13 @@ pub struct Fluid {
 pub(crate) struct Scheme {
     pub limiter: Limiter,
     pub riemann: RiemannSolver,
-    /// What the five-equation model does in mixed cells; `None` for the paper's mixture.
-    pub two_phase: Option<TwoPhaseOptions>,
+    pub phases: PhaseModel,
 }
 
 impl Scheme {
     /// The limiter of the gas fraction's slopes.
     pub fn fraction_limiter(&self) -> Limiter {
-        self.two_phase.map_or(self.limiter, |options| options.fraction_limiter(self.limiter))
+        self.phases.fraction_limiter(self.limiter)
     }
 }
 

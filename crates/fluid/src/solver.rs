@@ -9,14 +9,14 @@ use crate::boundary::Boundaries;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::initial::fill;
 use crate::model::FluidMemory;
-use crate::options::TwoPhaseOptions;
 use crate::physics::{Fluid, Scheme, Tally};
 use crate::setup::{AsksForFiner, InitialState};
+use crate::state::COUNT;
 use crate::state::Contents;
-use crate::state::conserved::COUNT;
 use crate::step::BlockScratch;
 use crate::step::report::BlockReport;
 use crate::terms::Terms;
+use crate::two_phase::PhaseModel;
 use crate::{
     Boundary, BoundaryLedger, Fixups, FluidError, FluidSetup, InitialCondition, Mixture, Primitive,
     RayleighField, components,
@@ -95,7 +95,7 @@ impl<const N: usize> FluidSolver<N> {
             scheme: Scheme {
                 limiter: setup.limiter,
                 riemann: setup.riemann,
-                two_phase: TwoPhaseOptions::of(setup.model, setup.sharpening),
+                phases: PhaseModel::of(setup.model, setup.sharpening),
             },
             boundaries,
             terms: Terms::of(setup),

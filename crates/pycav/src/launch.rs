@@ -21,6 +21,7 @@ const SAY: Duration = Duration::from_millis(50);
 /// Runs a case in two processes and leaves a run directory; returns its path.
 ///
 /// - `case_path`: a file with the case's text, for the processes; `program`: the command that starts one.
+#[expect(clippy::too_many_arguments, reason = "those of the Python function")]
 #[pyfunction]
 #[pyo3(signature = (case, case_path, program, out=None, force=false, threads=None, progress=false))]
 pub fn run_in_processes(

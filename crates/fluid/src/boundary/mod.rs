@@ -5,6 +5,8 @@ pub(crate) mod outer_states;
 pub(crate) mod participant;
 pub(crate) mod wall_trace;
 
+use crate::state::PrimitiveCell;
+use crate::state::primitive::VELOCITY;
 use mesh::{Domain, FaceState, Mesh, Padded, Side, SideStates};
 
 use crate::boundary::far_field::{FarField, Inner, SideImpulses, SourceHistory};
@@ -167,7 +169,7 @@ impl Boundaries {
 }
 
 /// The flux through a wall that moves with `wall.velocity`, see [`Boundaries::impose_wall`].
-fn wall_face(trace: [f64; 5], wall: FaceState, mixture: &Mixture) -> Face {
+fn wall_face(trace: PrimitiveCell, wall: FaceState, mixture: &Mixture) -> Face {
     let [density, v_n, v_t, pressure, phi] = trace;
     // As in the trace that the other side got: on the wall the reconstruction may leave the unit interval.
     let phi = phi.clamp(0.0, 1.0);
@@ -188,9 +190,19 @@ fn wall_face(trace: [f64; 5], wall: FaceState, mixture: &Mixture) -> Face {
     }
 }
 
-/// Component of the velocity normal to a side: 1 (v_z) or 2 (v_r).
+/// The axis normal to a side: 0 (z) or 1 (r).
+pub(crate) fn axis(side: Side) -> usize {
+    if matches!(side, Side::ZMin | Side::ZMax) { 0 } else { 1 }
+}
+
+/// Component of the velocity, or of the momentum, normal to a side.
 pub(crate) fn normal(side: Side) -> usize {
-    if matches!(side, Side::ZMin | Side::ZMax) { 1 } else { 2 }
+    VELOCITY[axis(side)]
+}
+
+/// Component of the velocity, or of the momentum, along a side.
+pub(crate) fn tangential(side: Side) -> usize {
+    VELOCITY[1 - axis(side)]
 }
 
 /// The cell next to a side, `along` cells from its beginning, and the ghost beyond.

@@ -1,9 +1,11 @@
 //! The states beyond the sides of the domain at mid-step.
 
+use crate::state::COUNT;
+use crate::state::primitive::PRESSURE;
 use mesh::{Padded, Side};
 
 use crate::boundary::far_field::{FarField, Inner, face_centre};
-use crate::boundary::{Boundaries, beside, normal};
+use crate::boundary::{Boundaries, axis, beside, normal};
 use crate::physics::FluidStep;
 use crate::{Boundary, Mixture, Primitive, TRACE_GAS};
 
@@ -27,8 +29,8 @@ impl Boundaries {
             let inflow = match self.kind(side) {
                 Boundary::Wall | Boundary::Axis if mesh.touches(slot, side) => {
                     mirror::<N>(side, half, keep);
-                    if ctx.model.terms.acceleration()[normal(side) - 1] != 0.0 {
-                        meet_on_face::<N>(side, slopes[normal(side) - 1], half, keep);
+                    if ctx.model.terms.acceleration()[axis(side)] != 0.0 {
+                        meet_on_face::<N>(side, slopes[axis(side)], half, keep);
                     }
                     continue;
                 }
@@ -45,10 +47,10 @@ impl Boundaries {
                 let (mut state, _) = *self.initial.at(side, id.level, first + along);
                 // What is kept is the state of the cell: half a width on, the pressure is that of liquid at rest there.
                 let outwards = if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 };
-                let axis = normal(side) - 1;
-                let acceleration = ctx.model.terms.acceleration()[axis];
+                let acceleration = ctx.model.terms.acceleration()[axis(side)];
                 if acceleration != 0.0 {
-                    state.pressure += outwards * state.density * acceleration * mesh.widths(id.level)[axis];
+                    let width = mesh.widths(id.level)[axis(side)];
+                    state.pressure += outwards * state.density * acceleration * width;
                 }
                 let [inner, k] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
                 if let Some(history) = inflow {
@@ -57,9 +59,9 @@ impl Boundaries {
                 if let Some(far_field) = far_field {
                     let reach =
                         if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 } * keep[inner];
-                    let across = slopes[normal(side) - 1];
+                    let across = slopes[axis(side)];
                     let on_face = |c: usize| half.component(c)[inner] + reach * across.component(c)[inner];
-                    let trace = Primitive::from_array([0, 1, 2, 3, 4].map(on_face));
+                    let trace = Primitive::from_array(std::array::from_fn(on_face));
                     let face = (side, id.level, first + along);
                     state = far_state(far_field, ctx, face, trace, state).unwrap_or(state);
                 }
@@ -97,7 +99,7 @@ fn far_state<const N: usize>(
     let density = mixture.liquid.isentropic_density(initial.density, initial.pressure, pressure);
     let velocity = if matches!(side, Side::ZMin | Side::RMin) { -outer.velocity } else { outer.velocity };
     let state = Primitive { density, pressure, phi: 0.0, ..trace };
-    Some(if normal(side) == 1 {
+    Some(if axis(side) == 0 {
         Primitive { v_z: velocity, ..state }
     } else {
         Primitive { v_r: velocity, ..state }
@@ -115,7 +117,7 @@ fn entering(initial: Primitive, side: Side, p: f64, mixture: &Mixture) -> Primit
     let jump = 2.0 / (at.gamma - 1.0) * (sound(p, density) - sound(initial.pressure, initial.density));
     let inwards = if matches!(side, Side::ZMin | Side::RMin) { jump } else { -jump };
     let (mut v_z, mut v_r) = (initial.v_z, initial.v_r);
-    if normal(side) == 1 {
+    if axis(side) == 0 {
         v_z += inwards;
     } else {
         v_r += inwards;
@@ -127,7 +129,7 @@ fn entering(initial: Primitive, side: Side, p: f64, mixture: &Mixture) -> Primit
 fn mirror<const N: usize>(side: Side, half: &mut Padded<N>, keep: &mut [f64]) {
     for along in 0..N {
         let [from, to] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
-        for component in 0..5 {
+        for component in 0..COUNT {
             let row = half.component_mut(component);
             row[to] = if component == normal(side) { -row[from] } else { row[from] };
         }
@@ -147,9 +149,6 @@ fn meet_on_face<const N: usize>(side: Side, slopes: &Padded<N>, half: &mut Padde
         pressure[to] = pressure[from] + towards_face * keep[from] * (slopes[from] + slopes[to]);
     }
 }
-
-/// Place of the pressure among the primitive variables.
-const PRESSURE: usize = 3;
 
 #[cfg(test)]
 mod tests {

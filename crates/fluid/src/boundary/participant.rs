@@ -4,10 +4,12 @@ use coupler::{FluidTrace, TraceRow};
 use mesh::{GroupStep, Padded};
 
 use crate::boundary::wall_trace::Trace;
-use crate::physics::Scheme;
+use crate::reconstruction::at;
+use crate::state::PrimitiveCell;
+use crate::state::primitive::{PHI, PRESSURE, RHO, V_R, V_Z};
 use crate::step::rows::{half_step, rates};
 use crate::step::{BlockScratch, reconstruct};
-use crate::two_phase::{CellRule, Cells, FaceStates, Window, face_states};
+use crate::two_phase::{Cells, FaceStates, Window, face_states};
 use crate::{FluidSolver, Mixture, TRACE_GAS};
 
 impl<const N: usize> FluidSolver<N> {
@@ -50,9 +52,7 @@ impl<const N: usize> FluidSolver<N> {
                         put_rows(Trace::steady(state), self.mixture(), first + j, &mut put);
                         continue;
                     }
-                    let w: [f64; 5] = std::array::from_fn(|c| cells.component(c)[k]);
-                    let d_z: [f64; 5] = std::array::from_fn(|c| s_z.component(c)[k]);
-                    let d_r: [f64; 5] = std::array::from_fn(|c| s_r.component(c)[k]);
+                    let [w, d_z, d_r] = [cells, s_z, s_r].map(|rows| at(&rows.split(), k));
                     let (_, keep) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, self.mixture());
                     let slope = d_r.map(|d| keep * d * inverse_h[1]);
                     let mut rate = rates(
@@ -64,29 +64,30 @@ impl<const N: usize> FluidSolver<N> {
                     )
                     .map(|rate| keep * rate);
                     if let Some([gain_z, gain_r]) = self.model().terms.velocity_gain(1.0) {
-                        rate[1] += gain_z;
-                        rate[2] += gain_r;
+                        rate[V_Z] += gain_z;
+                        rate[V_R] += gain_r;
                     }
-                    let mut state: [f64; 5] = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
+                    let mut state: PrimitiveCell = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
                     let dispersion = context.model.dispersion(context.mesh, dt, id.level, 0);
                     let more = |c: usize, component: usize| {
                         let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
                         let stride = Padded::<N>::STRIDE;
                         let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
-                        let sound = (self.mixture().bulk_modulus(w[3], w[4]) / w[0]).sqrt();
-                        let speed = w[1].abs() + sound;
-                        keep * dispersion.on_wall(c, [w[3], w[4], d_z[3]], speed, across, along)
+                        let sound = (self.mixture().bulk_modulus(w[PRESSURE], w[PHI]) / w[RHO]).sqrt();
+                        let speed = w[V_Z].abs() + sound;
+                        let cell = [w[PRESSURE], w[PHI], d_z[PRESSURE]];
+                        keep * dispersion.on_wall(c, cell, speed, across, along)
                     };
-                    state[1] += more(0, 1);
-                    state[3] += more(1, 3);
+                    state[V_Z] += more(0, V_Z);
+                    state[PRESSURE] += more(1, PRESSURE);
                     // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
                     // mixture's β₁ soon has the wrong sign, and γ with it.
-                    let phi = state[4];
-                    state[4] = phi.clamp(0.0, 1.0);
+                    let phi = state[PHI];
+                    state[PHI] = phi.clamp(0.0, 1.0);
                     let whole = Trace { state, rate, slope };
                     let reach = [0.5 * dt, 0.5 / inverse_h[1]];
                     let trace = whole.admissible(w, reach, self.mixture());
-                    let is_bounded = (phi - state[4]).abs() > TRACE_GAS;
+                    let is_bounded = (phi - state[PHI]).abs() > TRACE_GAS;
                     scaled += u64::from(is_bounded || trace != whole);
                     put_rows(trace, self.mixture(), first + j, &mut put);
                 }
@@ -131,14 +132,10 @@ impl<const N: usize> FluidSolver<N> {
         inverse_h: [f64; 2],
         k: usize,
         dt: f64,
-    ) -> Option<[f64; 5]> {
-        let Scheme { limiter, two_phase, .. } = self.model().scheme;
-        let options = two_phase?;
-        let cells = Cells { rows: cells.split::<6>(), stride: Padded::<N>::STRIDE };
-        let mixture = self.mixture();
-        let velocity_gain = self.model().terms.velocity_gain(0.5 * dt);
-        let rule = CellRule { limiter, inverse_h, inverse_r, dt, mixture, options, velocity_gain };
-        cells.is_at_interface(k, mixture).then(|| {
+    ) -> Option<PrimitiveCell> {
+        let rule = self.model().mixed_cell_rule(inverse_h, inverse_r, dt)?;
+        let cells = Cells { rows: cells.split(), stride: Padded::<N>::STRIDE };
+        cells.is_at_interface(k, rule.mixture).then(|| {
             let mut states = FaceStates::default();
             face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &rule, &mut states);
             states.of(0, 0).w
@@ -170,16 +167,16 @@ fn put_rows(trace: Trace, mixture: &Mixture, face: usize, put: &mut impl FnMut(T
         (TraceRow::TangentialVelocity, v_r),
         (TraceRow::Pressure, p),
         (TraceRow::Shear, 0.0),
-        (TraceRow::DensityRate, rate[0]),
-        (TraceRow::NormalVelocityRate, rate[1]),
-        (TraceRow::TangentialVelocityRate, rate[2]),
-        (TraceRow::PressureRate, rate[3]),
+        (TraceRow::DensityRate, rate[RHO]),
+        (TraceRow::NormalVelocityRate, rate[V_Z]),
+        (TraceRow::TangentialVelocityRate, rate[V_R]),
+        (TraceRow::PressureRate, rate[PRESSURE]),
         (TraceRow::Gamma, at.gamma),
         (TraceRow::Pi, at.pi),
         (TraceRow::Impedance, impedance),
-        (TraceRow::DensitySlope, slope[0]),
-        (TraceRow::NormalVelocitySlope, slope[1]),
-        (TraceRow::PressureSlope, slope[3]),
+        (TraceRow::DensitySlope, slope[RHO]),
+        (TraceRow::NormalVelocitySlope, slope[V_Z]),
+        (TraceRow::PressureSlope, slope[PRESSURE]),
     ] {
         put(row, face, value);
     }

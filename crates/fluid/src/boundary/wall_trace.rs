@@ -1,6 +1,8 @@
 //! What the fluid shows of itself on a face of the wall to the solid.
 
 use crate::Mixture;
+use crate::state::primitive::{PHI, PRESSURE, RHO, V_R, V_Z};
+use crate::state::{COUNT, PrimitiveCell};
 
 /// The least that a trace may have of its cell's density and p + π: what the predictor asks of face states, see
 /// [`crate::step::rows::half_step`].
@@ -9,15 +11,15 @@ const LEAST_SHARE: f64 = 1e-3;
 /// The state ρ, v_z, v_r, p, φ on a face at the beginning of a step, its rate of change, and its slope along the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Trace {
-    pub state: [f64; 5],
-    pub rate: [f64; 5],
-    pub slope: [f64; 5],
+    pub state: PrimitiveCell,
+    pub rate: PrimitiveCell,
+    pub slope: PrimitiveCell,
 }
 
 impl Trace {
     /// One that stays as it is through the step and along the face.
-    pub fn steady(state: [f64; 5]) -> Self {
-        Self { state, rate: [0.0; 5], slope: [0.0; 5] }
+    pub fn steady(state: PrimitiveCell) -> Self {
+        Self { state, rate: [0.0; COUNT], slope: [0.0; COUNT] }
     }
 
     /// The trace with as much of its rates and slopes as leaves it a state at all times of the step and on all of the face.
@@ -31,22 +33,22 @@ impl Trace {
     /// - `cell`: the cell's own state; `reach`: half of the step, s, and of the face's width, m.
     /// - returns: the trace itself, to the last bit, where all of it is a state. errors: none.
     /// - tested by: a jet through gas on the wall; share 1 where nothing comes near.
-    pub fn admissible(self, cell: [f64; 5], [half_dt, half_width]: [f64; 2], mixture: &Mixture) -> Self {
-        let pi = mixture.at(self.state[4]).pi;
-        let cell_pi = mixture.at(cell[4].clamp(0.0, 1.0)).pi;
+    pub fn admissible(self, cell: PrimitiveCell, [half_dt, half_width]: [f64; 2], mixture: &Mixture) -> Self {
+        let pi = mixture.at(self.state[PHI]).pi;
+        let cell_pi = mixture.at(cell[PHI].clamp(0.0, 1.0)).pi;
         let room = |c: usize, pi: f64, cell_pi: f64| {
             let middle = self.state[c] + half_dt * self.rate[c] + pi;
             let swing = half_dt * self.rate[c].abs() + half_width * self.slope[c].abs();
             let least = LEAST_SHARE * middle.min(cell[c] + cell_pi);
             if middle - swing >= least { 1.0 } else { ((middle - least) / swing).max(0.0) }
         };
-        let share = room(0, 0.0, 0.0).min(room(3, pi, cell_pi));
+        let share = room(RHO, 0.0, 0.0).min(room(PRESSURE, pi, cell_pi));
         if share == 1.0 {
             return self;
         }
         let moved = |c: usize| self.state[c] + (1.0 - share) * half_dt * self.rate[c];
         Self {
-            state: [moved(0), moved(1), moved(2), moved(3), self.state[4]],
+            state: [moved(RHO), moved(V_Z), moved(V_R), moved(PRESSURE), self.state[PHI]],
             rate: self.rate.map(|rate| share * rate),
             slope: self.slope.map(|slope| share * slope),
         }
@@ -64,13 +66,13 @@ mod tests {
 
     /// ρ and p + π where and when the solid may ask for them: on both ends of the face and of the step.
     fn extremes(trace: &Trace, [half_dt, half_width]: [f64; 2]) -> Vec<[f64; 2]> {
-        let pi = mixture().at(trace.state[4]).pi;
+        let pi = mixture().at(trace.state[PHI]).pi;
         let at = |c: usize, after: f64, offset: f64| {
             trace.state[c] + after * trace.rate[c] + offset * trace.slope[c]
         };
         let corners =
             [0.0, 2.0 * half_dt].map(|after| [-half_width, half_width].map(|offset| [after, offset]));
-        corners.concat().into_iter().map(|[t, r]| [at(0, t, r), at(3, t, r) + pi]).collect()
+        corners.concat().into_iter().map(|[t, r]| [at(RHO, t, r), at(PRESSURE, t, r) + pi]).collect()
     }
 
     /// Seen below a bubble on the wall: at mid-step 1 kPa, at the beginning of the step less than nothing.
@@ -88,7 +90,7 @@ mod tests {
         for [density, pressure] in extremes(&scaled, reach) {
             assert!(density > 0.9e-3 * 0.038 && pressure > 0.9e-3 * 995.0, "{density} {pressure}");
         }
-        for c in 0..4 {
+        for c in [RHO, V_Z, V_R, PRESSURE] {
             let middle = |trace: &Trace| trace.state[c] + reach[0] * trace.rate[c];
             approx::assert_relative_eq!(middle(&scaled), middle(&trace), max_relative = 1e-12);
         }

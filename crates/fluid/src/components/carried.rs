@@ -14,6 +14,18 @@ pub(crate) struct CarriedScratch {
     pub fluxes: [AlignedRow; 2],
 }
 
+/// Padded cells at the beginning of the step.
+pub(crate) struct CarriedCells<'a> {
+    /// Y of the component.
+    pub fraction: &'a [f64],
+    /// v_z, v_r.
+    pub velocity: [&'a [f64]; 2],
+    /// Distance between cells that neighbour each other along r.
+    pub stride: usize,
+    /// 1/h_z, 1/h_r.
+    pub inverse_h: [f64; 2],
+}
+
 impl CarriedScratch {
     pub fn new<const N: usize>() -> Self {
         let row = || AlignedRow::zeros(Padded::<N>::LEN, Padded::<N>::STRIDE);
@@ -24,17 +36,9 @@ impl CarriedScratch {
     ///
     /// MUSCL-Hancock for Y,t + v·∇Y = 0. What has one mass fraction everywhere keeps it to round-off: its flux is that of the mass.
     ///
-    /// - `fraction`, `velocity`: padded Y and v_z, v_r at the beginning of the step; `inverse_h`: 1/h_z, 1/h_r.
-    pub fn carry(
-        &mut self,
-        limiter: Limiter,
-        fraction: &[f64],
-        velocity: [&[f64]; 2],
-        inverse_h: [f64; 2],
-        dt: f64,
-        faces: [&FaceRows; 2],
-        stride: usize,
-    ) {
+    /// - `faces`: the mass fluxes along z and r.
+    pub fn carry(&mut self, cells: &CarriedCells<'_>, limiter: Limiter, dt: f64, faces: [&FaceRows; 2]) {
+        let CarriedCells { fraction, velocity, stride, inverse_h } = *cells;
         limited_differences(limiter, fraction, stride, &mut self.s_z, &mut self.s_r);
         let half_dt = 0.5 * dt;
         for (k, half) in self.half.iter_mut().enumerate() {
@@ -59,10 +63,10 @@ impl CarriedScratch {
     }
 
     /// The component's new cells: ρY of the beginning less what has left through the faces.
-    pub fn update<const N: usize>(&self, old: &[f64], metric: &Metric<'_>, dt: f64, new: &mut [f64]) {
+    pub fn update<const N: usize>(&self, old: &[f64], metric: &Metric<'_>, new: &mut [f64]) {
         let [z, r] = &self.fluxes;
         for j in 0..N {
-            let row = metric.row(j, dt);
+            let row = metric.row(j);
             for i in 0..N {
                 let (cell, k) = (j * N + i, metric.origin + j * metric.stride + i);
                 new[cell] = old[cell] - (row.axial(z[k], z[k - 1]) + row.radial(r[k], r[k - metric.stride]));

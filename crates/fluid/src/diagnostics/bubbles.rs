@@ -3,7 +3,7 @@
 use mesh::{BlockSolver, Geometry};
 
 use crate::physics::Fluid;
-use crate::state::conserved::{GAS, PHI};
+use crate::state::conserved::PHI;
 use crate::{Bubble, BubbleCuts, FluidSolver, TRACE_GAS};
 
 /// Below this gas fraction gas does not belong to an interface.
@@ -62,17 +62,17 @@ struct Sums {
 
 impl Sums {
     fn bubble(self, geometry: Geometry) -> Bubble {
-        let (turn, equivalent_radius) = match geometry {
+        let (angle, equivalent_radius) = match geometry {
             Geometry::Axisymmetric => (std::f64::consts::TAU, (1.5 * self.volume).cbrt()),
             Geometry::Planar => (1.0, (self.volume / std::f64::consts::PI).sqrt()),
         };
         Bubble {
-            volume: turn * self.volume,
-            trace_volume: turn * self.trace,
-            thin_volume: turn * self.thin,
+            volume: angle * self.volume,
+            trace_volume: angle * self.trace,
+            thin_volume: angle * self.thin,
             equivalent_radius,
             centroid_z: self.moment / self.volume,
-            gas_mass: turn * self.gas_mass,
+            gas_mass: angle * self.gas_mass,
         }
     }
 }
@@ -108,8 +108,8 @@ pub(crate) fn follow_sources<const N: usize>(fluid: &mut BlockSolver<Fluid, N>) 
 fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> Vec<Sums> {
     let (mesh, state, model) = (fluid.mesh(), fluid.state(), fluid.model());
     let mut all = vec![Sums::default(); cuts.bubbles()];
-    let has_masses = model.scheme.two_phase.is_some();
-    if !has_masses {
+    let gas_mass = model.scheme.phases.gas_component();
+    if gas_mass.is_none() {
         all.iter_mut().for_each(|sums| sums.gas_mass = f64::NAN);
     }
     for (slot, id) in mesh.tree().leaves().iter().enumerate() {
@@ -128,8 +128,8 @@ fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) ->
                 } else {
                     sums.trace += phi.max(0.0) * cell;
                 }
-                if has_masses {
-                    sums.gas_mass += state.component(slot, GAS)[j * N + i] * cell;
+                if let Some(component) = gas_mass {
+                    sums.gas_mass += state.component(slot, component)[j * N + i] * cell;
                 }
             }
         }

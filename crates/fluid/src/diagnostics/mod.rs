@@ -4,10 +4,12 @@ pub(crate) mod bubble_cuts;
 pub(crate) mod bubbles;
 pub(crate) mod ledger;
 
+use crate::state::primitive::{PRESSURE, V_R, V_Z};
 use mesh::{Field, GHOSTS, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
-use crate::state::conserved::{COUNT, ENERGY, MOMENTUM_Z, PHI, RHO};
+use crate::state::COUNT;
+use crate::state::conserved::{ENERGY, MOMENTUM_Z, PHI, RHO};
 use crate::step::{BlockScratch, reconstruct};
 use crate::{FluidSolver, Primitive};
 
@@ -195,19 +197,19 @@ impl<const N: usize> FluidSolver<N> {
                 let BlockScratch { cells, s_z, s_r, .. } = scratch;
                 limited_differences(
                     mesh::Limiter::None,
-                    cells.component(0),
+                    cells.component(RHO),
                     Padded::<N>::STRIDE,
-                    s_z.component_mut(0),
-                    s_r.component_mut(0),
+                    s_z.component_mut(RHO),
+                    s_r.component_mut(RHO),
                 );
                 for j in GHOSTS..GHOSTS + N {
                     for k in j * Padded::<N>::STRIDE + GHOSTS..j * Padded::<N>::STRIDE + GHOSTS + N {
                         let at = |c: usize| cells.component(c)[k];
-                        snapshot.density.push(at(0));
-                        snapshot.velocity.extend([at(1), at(2), 0.0]);
-                        snapshot.pressure.push(at(3));
-                        snapshot.gas_fraction.push(at(4));
-                        let gradient = [s_z.component(0)[k] / h_z, s_r.component(0)[k] / h_r];
+                        snapshot.density.push(at(RHO));
+                        snapshot.velocity.extend([at(V_Z), at(V_R), 0.0]);
+                        snapshot.pressure.push(at(PRESSURE));
+                        snapshot.gas_fraction.push(at(PHI));
+                        let gradient = [s_z.component(RHO)[k] / h_z, s_r.component(RHO)[k] / h_r];
                         snapshot.schlieren.push(gradient[0].hypot(gradient[1]));
                         snapshot.level.push(f64::from(id.level));
                         for (number, carried) in self.model().carried.iter().enumerate() {

@@ -3,14 +3,12 @@
 use mesh::{Padded, Side};
 
 use crate::Boundary;
-use crate::boundary::{beside, normal};
+use crate::boundary::{axis, beside, tangential};
 use crate::physics::FluidStep;
-use crate::state::conserved::{PHI, RHO};
+use crate::reconstruction::at;
+use crate::state::primitive::{PHI, PRESSURE, RHO};
 use crate::step::BlockScratch;
 use crate::step::rows::half_step;
-
-/// Place of the pressure among the primitive variables.
-const PRESSURE: usize = 3;
 
 /// Gas fractions of two cells may differ by this much where slopes are made.
 const ONE_PHASE: f64 = 1e-6;
@@ -33,7 +31,7 @@ pub(crate) fn even_slopes<const N: usize>(
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     let phi = cells.component(PHI);
     for side in mirrors(ctx, slot) {
-        let axis = normal(side) - 1;
+        let axis = axis(side);
         let slopes = if axis == 0 { &mut *s_z } else { &mut *s_r };
         let acceleration = ctx.model.terms.acceleration()[axis];
         let width = ctx.mesh.widths(ctx.mesh.tree().leaves()[slot].level)[axis];
@@ -42,7 +40,7 @@ pub(crate) fn even_slopes<const N: usize>(
             if (phi[next] - phi[inner]).abs() > ONE_PHASE {
                 continue;
             }
-            for component in [RHO, 3 - normal(side), PRESSURE] {
+            for component in [RHO, tangential(side), PRESSURE] {
                 let row = cells.component(component);
                 let towards_next = 0.5 * (row[next] - row[inner]);
                 let slope = if next > inner { towards_next } else { -towards_next };
@@ -69,7 +67,7 @@ pub(crate) fn predict_beside_mirrors<const N: usize>(
     let BlockScratch { cells, s_z, s_r, half, keep, inverse_r, .. } = scratch;
     for side in mirrors(ctx, slot) {
         for [k, _] in along_mirror::<N>(side) {
-            let of = |rows: &Padded<N>| [0, 1, 2, 3, 4].map(|c| rows.component(c)[k]);
+            let of = |rows: &Padded<N>| at(&rows.split(), k);
             let (w, s_z, s_r) = (of(cells), of(s_z), of(s_r));
             let (state, kept) =
                 half_step(w, s_z, s_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, &ctx.model.mixture);

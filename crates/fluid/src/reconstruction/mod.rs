@@ -7,9 +7,14 @@ pub(crate) mod predictor;
 use std::ops::Range;
 
 use crate::reconstruction::dispersion::{AlongFaces, Dispersion, Shares};
+use crate::state::primitive::{PHI, PRESSURE, RHO, V_N, V_T};
+use crate::state::{COUNT, PrimitiveCell};
 
-/// Slices of the five primitive variables ρ, v_z, v_r, p, φ.
-pub(crate) type Rows<'a> = [&'a [f64]; 5];
+/// Slices of the variables of cells, one after the other, as `state` names them.
+pub(crate) type Rows<'a> = [&'a [f64]; COUNT];
+
+/// [`Rows`] to be written.
+pub(crate) type RowsMut<'a> = [&'a mut [f64]; COUNT];
 
 /// A gas fraction, or that of the liquid where there is no gas: a constant there, from which the compiler makes kernels that
 /// neither read nor carry it.
@@ -23,6 +28,13 @@ pub(crate) fn fraction<const WITH_GAS: bool>(phi: f64) -> f64 {
 pub(crate) fn cut<'a>(rows: &Rows<'a>, at: usize, n: usize) -> Rows<'a> {
     let [a, b, c, d, e] = rows;
     [&a[at..][..n], &b[at..][..n], &c[at..][..n], &d[at..][..n], &e[at..][..n]]
+}
+
+/// The variables of cell `k`.
+#[inline(always)]
+pub(crate) fn at(rows: &Rows<'_>, k: usize) -> [f64; COUNT] {
+    let [a, b, c, d, e] = rows;
+    [a[k], b[k], c[k], d[k], e[k]]
 }
 
 /// The reconstructed cells on whose faces Riemann problems are solved.
@@ -64,10 +76,10 @@ impl<'a> Reconstruction<'a> {
 
     /// The state on the lower (`sign` = −1) or upper (+1) face of cell `k`.
     #[inline(always)]
-    pub fn face_state(&self, k: usize, sign: f64) -> [f64; 5] {
+    pub fn face_state(&self, k: usize, sign: f64) -> PrimitiveCell {
         let weight = 0.5 * sign * self.keep[k];
         let at = |c: usize| self.half[c][k] + weight * self.differences[c][k];
-        [at(0), at(1), at(2), at(3), at(4)]
+        [at(RHO), at(V_N), at(V_T), at(PRESSURE), at(PHI)]
     }
 }
 
@@ -82,7 +94,7 @@ fn left_out(
     shares: Shares,
     kept: [f64; 2],
 ) -> f64 {
-    let row = [1, 3][component];
+    let row = [V_N, PRESSURE][component];
     let across = upper.differences[row][k] - lower.differences[row][k];
     let low = lower.along_faces.second_difference(component, k);
     let high = upper.along_faces.second_difference(component, k);
@@ -97,15 +109,16 @@ pub(crate) fn states_at_face<const WITH_GAS: bool>(
     lower: &Reconstruction<'_>,
     upper: &Reconstruction<'_>,
     k: usize,
-) -> [[f64; 5]; 2] {
+) -> [PrimitiveCell; 2] {
     let dispersion = lower.dispersion;
     let takes = |cells: &Reconstruction<'_>| {
-        dispersion.takes(cells.half[3][k], fraction::<WITH_GAS>(cells.half[4][k]), cells.differences[3][k])
+        let (p, phi) = (cells.half[PRESSURE][k], fraction::<WITH_GAS>(cells.half[PHI][k]));
+        dispersion.takes(p, phi, cells.differences[PRESSURE][k])
     };
     let (low, high) = (takes(lower), takes(upper));
     let keep = lower.keep[k] * upper.keep[k];
     let kept = [if low[0] & high[0] { keep } else { 0.0 }, if low[1] & high[1] { keep } else { 0.0 }];
-    let speed = |cells: &Reconstruction<'_>| cells.half[1][k].abs() + cells.sound[k];
+    let speed = |cells: &Reconstruction<'_>| cells.half[V_N][k].abs() + cells.sound[k];
     let shares = dispersion.shares(0.5 * (speed(lower) + speed(upper)));
     let velocity = left_out(lower, upper, 0, k, shares, kept);
     let pressure = left_out(lower, upper, 1, k, shares, kept);

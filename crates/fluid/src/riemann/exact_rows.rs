@@ -175,11 +175,10 @@ fn take(n: usize, lower: Reconstruction<'_>, upper: Reconstruction<'_>, left: &m
 /// From the states in a chunk to the pressures and velocity changes of its faces.
 #[inline(always)]
 fn solve(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
-    let Chunk { left, right, pi, p, shifted, f_left, f_right, done } = chunk;
-    prepare(n, left, right, mixture, pi, p, shifted, done);
+    prepare(n, chunk, mixture);
     for _ in 0..MOST_STEPS {
-        advance(n, left, right, pi, p, shifted, f_left, f_right, done);
-        if count(done, n) == n {
+        advance(n, chunk);
+        if count(&chunk.done, n) == n {
             break;
         }
     }
@@ -187,16 +186,8 @@ fn solve(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
 
 /// The wave curves and the first guess, see `first_guess` of the scalar solver.
 #[inline(always)]
-fn prepare(
-    n: usize,
-    left: &mut Sides,
-    right: &mut Sides,
-    mixture: &Mixture,
-    pi: &mut Lane,
-    p: &mut Lane,
-    shifted: &mut Lane,
-    done: &mut Lane,
-) {
+fn prepare(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
+    let Chunk { left, right, pi, p, shifted, done, .. } = chunk;
     for k in 0..n.min(LANES) {
         // (m, π, c) of one side: γ = (1 + β₁)/β₁, π = β₂/(1 + β₁).
         let law = |rho: f64, p: f64, phi: f64| {
@@ -220,10 +211,10 @@ fn prepare(
 
         let du = right.u[k] - left.u[k];
         let (z_l, z_r) = (left.rho[k] * c_l, right.rho[k] * c_r);
-        let turned = right.p[k] < left.p[k];
-        let low = if turned { right.p[k] } else { left.p[k] };
-        let high = if turned { left.p[k] } else { right.p[k] };
-        let z_low = if turned { z_r } else { z_l };
+        let right_is_lower = right.p[k] < left.p[k];
+        let low = if right_is_lower { right.p[k] } else { left.p[k] };
+        let high = if right_is_lower { left.p[k] } else { right.p[k] };
+        let z_low = if right_is_lower { z_r } else { z_l };
         let acoustic = low + (z_low * (high - low) - (z_l * z_r) * du) / (z_l + z_r);
         let fallback = if low > -lowest_pi { low } else { high };
         let guess = if acoustic + lowest_pi > 0.1 * (fallback + lowest_pi) { acoustic } else { fallback };
@@ -266,17 +257,8 @@ fn curve(s: &Sides, k: usize, p: f64, shifted: f64) -> [f64; 3] {
 /// Halley's step in P. Where P is far too low it is Newton's, which ends below the root; where it is far too high,
 /// one that stays above Newton's in ln P, which ends above it.
 #[inline(always)]
-fn advance(
-    n: usize,
-    left: &Sides,
-    right: &Sides,
-    pi: &Lane,
-    p: &mut Lane,
-    shifted: &mut Lane,
-    f_left: &mut Lane,
-    f_right: &mut Lane,
-    done: &mut Lane,
-) {
+fn advance(n: usize, chunk: &mut Chunk) {
+    let Chunk { left, right, pi, p, shifted, f_left, f_right, done } = chunk;
     for k in 0..n.min(LANES) {
         let (p_old, shifted_old) = (p[k], shifted[k]);
         let [f_l, slope_l, curvature_l] = curve(left, k, p_old, shifted_old);
@@ -316,6 +298,8 @@ fn advance(
 }
 
 /// The fluxes at x/t = 0, and 1 in `solved` where they are right: see `sample` of the scalar solver.
+// A flat list of what is written, as in `step/rows.rs`.
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
 fn fluxes(
     n: usize,

@@ -3,6 +3,7 @@
 use crate::Mixture;
 use crate::riemann::exact_riemann::{Side, sample, star_state};
 use crate::riemann::hllc::Face;
+use crate::state::PrimitiveCell;
 
 /// The flux of the exact Riemann solution between two mixtures, each of which behaves as the stiffened gas of
 /// its gas fraction.
@@ -13,8 +14,8 @@ use crate::riemann::hllc::Face;
 /// - returns: the [`Face`] per unit area.
 /// - valid for ρ > 0 and p + π(φ) > 0 on both sides. errors: none.
 /// - tested by: agreement with HLLC at contacts and in smooth flow, shock tubes against the exact profiles.
-pub fn flux_exact(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
-    let side = |[rho, u, _, p, phi]: [f64; 5]| {
+pub fn flux_exact(left: PrimitiveCell, right: PrimitiveCell, mixture: &Mixture) -> Face {
+    let side = |[rho, u, _, p, phi]: PrimitiveCell| {
         let law = mixture.at(phi);
         Side { rho, u, p, gamma: law.gamma, pi: law.pi }
     };

@@ -1,6 +1,7 @@
 //! The HLLC Riemann solver at one face.
 
 use crate::Mixture;
+use crate::state::PrimitiveCell;
 
 /// What one face passes on, per unit area. Normal velocity, pressure and gas fraction stand beside the
 /// fluxes because the geometric source and the gas fraction's update need them by themselves.
@@ -34,14 +35,14 @@ pub struct Face {
 /// - valid for: ρ > 0 and ρc² > 0 on both sides, otherwise not finite. errors: none.
 /// - exact for isolated contacts; tested by: consistency, mirror symmetry, supersonic upwinding, contact at rest.
 #[inline(always)]
-pub fn flux_hllc(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> Face {
+pub fn flux_hllc(left: PrimitiveCell, right: PrimitiveCell, mixture: &Mixture) -> Face {
     flux_and_roots(left, right, mixture).0
 }
 
 /// [`flux_hllc`], and whether both sides have a sound speed; one that has none counts as if it were 0. Of what has no density
 /// either, as beyond the corners of a block, that is not said.
 #[inline(always)]
-pub(crate) fn flux_and_roots(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> (Face, bool) {
+pub(crate) fn flux_and_roots(left: PrimitiveCell, right: PrimitiveCell, mixture: &Mixture) -> (Face, bool) {
     let [rho_l, u_l, v_l, p_l, phi_l] = left;
     let [rho_r, u_r, v_r, p_r, phi_r] = right;
     // c² = ((1 + β₁) p + β₂)/(β₁ρ): one division serves both sides, and two square roots wait for it.
@@ -109,12 +110,13 @@ fn larger(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::StiffenedGas;
+    use crate::state::primitive::{PHI, PRESSURE, RHO, V_N, V_T};
 
     fn mixture() -> Mixture {
         Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
     }
 
-    fn physical(w: [f64; 5]) -> Face {
+    fn physical(w: PrimitiveCell) -> Face {
         let [rho, u, v, p, phi] = w;
         let m = mixture();
         let energy = m.beta1(phi) * p + m.beta2(phi) + 0.5 * rho * (u * u + v * v);
@@ -160,13 +162,13 @@ mod tests {
     #[test]
     fn mirrored_states_give_the_mirrored_flux_bitwise() {
         let (l, r) = ([998.0, 13.0, 5.0, 3e6, 0.01], [700.0, -41.0, 2.0, 8e5, 0.4]);
-        let mirror = |w: [f64; 5]| [w[0], -w[1], w[2], w[3], w[4]];
+        let mirror = |w: PrimitiveCell| [w[RHO], -w[V_N], w[V_T], w[PRESSURE], w[PHI]];
         let (a, b) = (flux_hllc(l, r, &mixture()), flux_hllc(mirror(r), mirror(l), &mixture()));
         assert_eq!((a.mass, a.velocity, a.energy, a.shear), (-b.mass, -b.velocity, -b.energy, -b.shear));
         assert_eq!((a.pressure, a.phi), (b.pressure, b.phi));
         let wall = flux_hllc(l, mirror(l), &mixture());
         assert_eq!((wall.mass, wall.velocity, wall.energy), (0.0, 0.0, 0.0));
-        assert!(wall.pressure > l[3]);
+        assert!(wall.pressure > l[PRESSURE]);
     }
 
     #[test]

@@ -10,7 +10,8 @@ use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
 use crate::reconstruction::dispersion::AlongFaces;
 use crate::riemann::exact_rows::exact_faces;
-use crate::state::conserved::COUNT;
+use crate::state::COUNT;
+use crate::state::primitive::{PRESSURE, V_R, V_Z};
 use crate::step::face_rows::{FaceRows, used_face};
 use crate::step::rows::{self};
 
@@ -28,15 +29,15 @@ impl<const N: usize> BlockStep<'_, N> {
             differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
             keep,
             sound,
-            with_gas: self.with_gas,
+            with_gas: self.gas.is_present(),
             dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
-            along_faces: AlongFaces::new([1, 3].map(|c| s_r.component(c)), stride),
+            along_faces: AlongFaces::new([V_Z, PRESSURE].map(|c| s_r.component(c)), stride),
         };
         let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         let wall = ctx.interface.states_of::<N>(self.slot);
         let replaced = wall.map(|_| mesh::GHOSTS - 1);
         self.clipped_roots = faces(ctx, &along_z, 1, z_range, replaced, z_faces);
-        if let Some(block) = &self.gas {
+        if let Some(block) = self.gas.phases() {
             block.solve_faces(0, &along_z, inverse_r, gas, z_faces);
         }
         if let Some(wall) = wall {
@@ -48,12 +49,12 @@ impl<const N: usize> BlockStep<'_, N> {
             half: [rho, v_r, v_z, p, phi],
             differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
             dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 1),
-            along_faces: AlongFaces::new([2, 3].map(|c| s_z.component(c)), 1),
+            along_faces: AlongFaces::new([V_R, PRESSURE].map(|c| s_z.component(c)), 1),
             ..along_z
         };
         let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         self.clipped_roots += faces(ctx, &along_r, stride, r_range, None, r_faces);
-        if let Some(block) = &self.gas {
+        if let Some(block) = self.gas.phases() {
             block.solve_faces(1, &along_r, inverse_r, gas, r_faces);
             block.gas_fluxes(gas, [z_faces, r_faces]);
         }

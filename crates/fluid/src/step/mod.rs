@@ -19,7 +19,7 @@ pub(crate) use stages::reconstruct;
 
 use crate::physics::FluidStep;
 use crate::step::report::BlockReport;
-use crate::two_phase::GasBlock;
+use crate::two_phase::BlockGas;
 
 /// The stages of a step, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,10 +46,7 @@ struct BlockStep<'a, const N: usize> {
     id: BlockId,
     /// 1/h_z, 1/h_r.
     inverse_h: [f64; 2],
-    /// The five-equation model's part, where there is gas.
-    gas: Option<GasBlock<'a, N>>,
-    /// Whether the rows of the gas fraction count.
-    with_gas: bool,
+    gas: BlockGas<'a, N>,
     limited_predictions: u64,
     clipped_roots: u64,
 }

@@ -2,14 +2,12 @@
 
 use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
 
-use crate::Mixture;
 use crate::components::carried::CarriedScratch;
 use crate::physics::FluidStep;
-use crate::state::conserved::{COUNT, ENERGY, GAS, PHI, RHO};
-use crate::state::primitive;
+use crate::state::conserved::{GAS, PHI};
+use crate::state::finished::finish_cell;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
-use crate::two_phase::{Compression, is_mixed};
 
 /// What is registered of a face: mass flux, normal momentum it carries, pressure, tangential momentum flux, energy
 /// flux, velocity u_f of the face, u_f φ_f, mass flux of the gas.
@@ -62,6 +60,7 @@ pub(crate) fn correct<const N: usize>(
     new: &mut [f64],
     report: &mut BlockReport<N>,
 ) {
+    let phases = ctx.model.scheme.phases;
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     let (dt_z, dt_r) = (ctx.dt / h_z, ctx.dt / h_r);
@@ -75,7 +74,8 @@ pub(crate) fn correct<const N: usize>(
         let CorrectedFace { side, outward, cell: [i, j], difference } = face;
         let [mass, carried, pressure, shear, energy, velocity, velocity_phi, gas] = difference;
         let cell = |c: usize| (c * N + j) * N + i;
-        let phi = velocity_phi - velocity * (ctx.old.block(slot)[cell(PHI)] + expansion(ctx, slot, [i, j]));
+        let old = std::array::from_fn(|c| ctx.old.block(slot)[cell(c)]);
+        let phi = velocity_phi - velocity * (old[PHI] + phases.expansion(old, &ctx.model.mixture));
         let changes = if matches!(side, Side::ZMin | Side::ZMax) {
             [mass, carried + pressure, shear, energy, phi, gas].map(|change| outward * dt_z * change)
         } else {
@@ -85,19 +85,16 @@ pub(crate) fn correct<const N: usize>(
             [weight * mass, weight * shear, radial, weight * energy, weight * phi, weight * gas]
                 .map(|change| outward * dt_r * change)
         };
-        let mut u: [f64; COUNT] = std::array::from_fn(|c| new[cell(c)] - changes[c]);
-        let added = settle(&mut u, &ctx.model.mixture, report);
-        if added > 0.0 {
-            report.lift_pressure(added, ctx.mesh.volume(id, j));
+        let u = std::array::from_fn(|c| new[cell(c)] - changes[c]);
+        let finished = finish_cell(u, &ctx.model.mixture);
+        report.extremes.add(&finished);
+        if finished.floor > 0.0 {
+            report.lift_pressure(finished.floor, ctx.mesh.volume(id, j));
         }
-        for (c, value) in u.into_iter().enumerate() {
+        for (c, value) in finished.conserved.into_iter().enumerate() {
             new[cell(c)] = value;
         }
-        if ctx.model.scheme.two_phase.is_some() {
-            new[cell(GAS)] -= changes[GAS];
-            report.lift_phase(new[cell(RHO)], &mut new[cell(GAS)], ctx.mesh.volume(id, j));
-            report.has_gas |= new[cell(GAS)] != 0.0 || new[cell(PHI)] != 0.0;
-        }
+        phases.correct_gas(new, j * N + i, changes[GAS], ctx.mesh.volume(id, j), report);
     });
     let first = ctx.old.components() - ctx.model.carried.len();
     for number in 0..ctx.model.carried.len() {
@@ -108,34 +105,4 @@ pub(crate) fn correct<const N: usize>(
             new[((first + number) * N + j) * N + i] -= outward * change;
         });
     }
-}
-
-/// What the closure adds to the gas fraction of a mixed cell per change of its volume, see
-/// [`Compression::expansion`]. (Where the interface is on the finest level, as adaptation keeps it, no such cell is
-/// corrected.)
-fn expansion<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize, [i, j]: [usize; 2]) -> f64 {
-    let u: [f64; COUNT] = std::array::from_fn(|c| ctx.old.component(slot, c)[j * N + i]);
-    match ctx.model.scheme.two_phase {
-        Some(options) if is_mixed(u[PHI]) => {
-            let [_, _, _, p, phi] = primitive(u, &ctx.model.mixture);
-            Compression::at(p, phi, &ctx.model.mixture, options.has_closure).expansion(phi)
-        }
-        _ => 0.0,
-    }
-}
-
-/// Applies the pressure floor to a corrected cell and takes its speeds into the report; returns the energy added.
-fn settle<const N: usize>(u: &mut [f64; COUNT], mixture: &Mixture, report: &mut BlockReport<N>) -> f64 {
-    let [rho, v_z, v_r, p, phi] = primitive(*u, mixture);
-    let lifted = p.max(mixture.pressure_floor(phi));
-    let added = mixture.beta1(phi) * (lifted - p);
-    u[ENERGY] += added;
-    let sound = (mixture.bulk_modulus(lifted, phi) / rho).sqrt();
-    let sane = (rho > 0.0) & (sound < f64::MAX);
-    let extremes = &mut report.extremes;
-    let speed = |v: f64| if sane { v.abs() + sound } else { f64::INFINITY };
-    extremes.speed_z = extremes.speed_z.max(speed(v_z));
-    extremes.speed_r = extremes.speed_r.max(speed(v_r));
-    extremes.phi = extremes.phi.max(phi);
-    added
 }

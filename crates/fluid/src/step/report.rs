@@ -4,8 +4,9 @@ use mesh::{Padded, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::far_field::face_centre;
-use crate::boundary::{beside, normal};
+use crate::boundary::{axis, beside, tangential};
 use crate::physics::FluidStep;
+use crate::state::primitive::RHO;
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Extremes;
@@ -151,13 +152,13 @@ pub(crate) fn far_field_gains<const N: usize>(
         if !(ctx.model.boundaries.has_far_field(side) && ctx.mesh.touches(slot, side)) {
             continue;
         }
-        let faces = if normal(side) == 1 { z_faces } else { r_faces };
+        let faces = if axis(side) == 0 { z_faces } else { r_faces };
         let is_low = matches!(side, Side::ZMin | Side::RMin);
         for along in 0..N {
             let [inner, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
             let k = if is_low { ghost } else { inner };
             let u_n = if is_low { -faces.velocity[k] } else { faces.velocity[k] };
-            let [rho, u_t] = [0, 3 - normal(side)].map(|component| half.component(component)[inner]);
+            let [rho, u_t] = [RHO, tangential(side)].map(|component| half.component(component)[inner]);
             let centre = face_centre(ctx.mesh, side, id.level, id.first_face::<N>(side) + along);
             let state = [u_n, u_t, faces.pressure[k]];
             gains[side as usize].0[along] = far_field.gain(side, centre, rho, state, ctx.model.moment(ctx));

@@ -3,7 +3,8 @@
 use mesh::{AlignedRow, Padded, Patch};
 
 use crate::components::carried::CarriedScratch;
-use crate::state::conserved::{COUNT, GAS, PHI};
+use crate::state::COUNT;
+use crate::state::conserved::{GAS, PHI};
 use crate::step::face_rows::FaceRows;
 use crate::two_phase::GasScratch;
 

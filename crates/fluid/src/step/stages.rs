@@ -4,17 +4,19 @@ use mesh::{Padded, Side, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
+use crate::components::carried::CarriedCells;
 use crate::physics::FluidStep;
 use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
-use crate::reconstruction::predictor::{Predictor, predict};
-use crate::state::conserved::{COUNT, PHI, RHO};
+use crate::reconstruction::predictor::{Predicted, Predictor, predict};
+use crate::state::COUNT;
+use crate::state::primitive::{PHI, PRESSURE, RHO, VELOCITY};
 use crate::step::clips::{Clips, CountedAnalysis};
 use crate::step::reflux::register_fluxes;
 use crate::step::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};
 use crate::step::rows;
-use crate::step::update::{Extremes, Metric, update};
+use crate::step::update::{Extremes, Metric, NewCells, update};
 use crate::terms::TermBlock;
-use crate::two_phase::{GasBlock, may_have_gas};
+use crate::two_phase::{Before, BlockGas, may_have_gas};
 
 /// Assembles a block with its ghosts: primitive variables in `cells`.
 ///
@@ -82,12 +84,11 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         }
         let may_have_gas = may_have_gas(ctx, slot);
         let limited_predictions = assemble(ctx, slot, may_have_gas, scratch);
-        let gas = if may_have_gas { GasBlock::of(ctx, slot, &scratch.cells) } else { None };
-        let with_gas = ctx.model.scheme.two_phase.is_none() || gas.is_some();
-        if !with_gas {
+        let gas = BlockGas::of(ctx, slot, may_have_gas, &scratch.cells);
+        if !gas.is_present() {
             scratch.without_gas();
         }
-        Self { ctx, slot, id, inverse_h, gas, with_gas, limited_predictions, clipped_roots: 0 }
+        Self { ctx, slot, id, inverse_h, gas, limited_predictions, clipped_roots: 0 }
     }
 
     /// - `face_weight`, `inverse_weight`: as [`BlockStep::assemble`] has left them.
@@ -95,6 +96,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         Metric {
             stride: Padded::<N>::STRIDE,
             origin: Padded::<N>::index(0, 0),
+            dt: self.ctx.dt,
             inverse_h: self.inverse_h,
             face_weight,
             inverse_weight,
@@ -111,23 +113,22 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             inverse_h: self.inverse_h,
             inverse_r: &scratch.inverse_r,
             half_dt: 0.5 * self.ctx.dt,
-            with_gas: self.with_gas,
-            with_mixed: scheme.two_phase.is_none(),
+            mixture: self.ctx.model.mixture,
+            with_gas: self.gas.is_present(),
+            with_mixed: self.gas.is_of_kernels(),
         };
-        predict(
-            scratch.cells.split(),
-            predictor,
-            &self.ctx.model.mixture,
-            scratch.s_z.split_mut(),
-            scratch.s_r.split_mut(),
-            scratch.half.split_mut(),
-            &mut scratch.keep,
-            &mut scratch.sound,
-        );
+        let out = Predicted {
+            s_z: scratch.s_z.split_mut(),
+            s_r: scratch.s_r.split_mut(),
+            half: scratch.half.split_mut(),
+            keep: &mut scratch.keep,
+            sound: &mut scratch.sound,
+        };
+        predict(scratch.cells.split(), predictor, out);
         even_slopes(self.ctx, self.slot, scratch);
         predict_beside_mirrors(self.ctx, self.slot, self.inverse_h, scratch);
         if let Some(gain) = self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt) {
-            for (component, gain) in [1, 2].into_iter().zip(gain) {
+            for (component, gain) in VELOCITY.into_iter().zip(gain) {
                 scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);
             }
         }
@@ -144,7 +145,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
 
     /// Cells with gas and liquid in them, which have face states of their own.
     pub(super) fn collect_mixed_cells(&self, scratch: &mut BlockScratch<N>) {
-        if let Some(gas) = &self.gas {
+        if let Some(gas) = self.gas.phases() {
             gas.collect(scratch);
         }
     }
@@ -155,7 +156,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } = scratch;
         if !ctx.model.terms.is_empty() {
             let metric = &self.metric(face_weight, inverse_weight);
-            let block = TermBlock { cells: N, metric, dt: ctx.dt, half: half.split() };
+            let block = TermBlock { cells: N, metric, half: half.split() };
             with_sources.clear();
             with_sources.extend_from_slice(ctx.old.block(self.slot));
             ctx.model.terms.add(&block, [z_faces, r_faces], with_sources);
@@ -163,15 +164,13 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         let BlockScratch { cells, carried, z_faces, r_faces, .. } = scratch;
         let first = ctx.old.components() - carried.len();
         for (number, carried) in carried.iter_mut().enumerate() {
-            carried.carry(
-                ctx.model.scheme.limiter,
-                cells.component(first + number),
-                [1, 2].map(|c| cells.component(c)),
-                self.inverse_h,
-                ctx.dt,
-                [z_faces, r_faces],
-                Padded::<N>::STRIDE,
-            );
+            let cells = CarriedCells {
+                fraction: cells.component(first + number),
+                velocity: VELOCITY.map(|c| cells.component(c)),
+                stride: Padded::<N>::STRIDE,
+                inverse_h: self.inverse_h,
+            };
+            carried.carry(&cells, ctx.model.scheme.limiter, ctx.dt, [z_faces, r_faces]);
         }
     }
 
@@ -200,30 +199,21 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         let metric = self.metric(face_weight, inverse_weight);
         let old = if ctx.model.terms.is_empty() { ctx.old.block(self.slot) } else { with_sources };
         let old_rows: [&[f64]; COUNT] = std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]);
+        let faces = [&*z_faces, &*r_faces];
         let mut speeds = speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
-        let [speed_z, speed_r, floor] = &mut speeds;
-        update::<N>(
-            old_rows,
-            z_faces,
-            r_faces,
-            ctx.dt,
-            &metric,
-            self.with_gas,
-            &ctx.model.mixture,
-            split_block::<N>(new),
-            [speed_z, speed_r, floor],
-        );
-        if let Some(block) = &self.gas {
-            let faces = [&*z_faces, &*r_faces];
-            let pressure = cells.component(3);
-            block.update(gas, old, pressure, faces, &metric, inverse_r, new, &mut speeds, report);
-        } else if !self.with_gas {
+        let rows =
+            NewCells { conserved: split_block::<N>(new), speeds: speeds.each_mut().map(|row| &mut **row) };
+        update::<N>(old_rows, faces, &metric, self.gas.is_present(), &ctx.model.mixture, rows);
+        if let Some(block) = self.gas.phases() {
+            let before = Before { old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
+            block.update(gas, before, faces, new, speeds, report);
+        } else if !self.gas.is_present() {
             new[PHI * N * N..].fill(0.0);
         }
         let first = ctx.old.components() - carried.len();
         for (number, carried) in carried.iter().enumerate() {
             let rows = (first + number) * N * N..(first + number + 1) * N * N;
-            carried.update::<N>(&old[rows.clone()], &metric, ctx.dt, &mut new[rows]);
+            carried.update::<N>(&old[rows.clone()], &metric, &mut new[rows]);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Term, TermBlock};
 use crate::state::conserved::{ENERGY, MOMENTUM_Z, RHO};
+use crate::state::primitive::V_Z;
 use crate::step::face_rows::FaceRows;
 
 /// A uniform acceleration along z: ρg in the balance of axial momentum, ρg v_z in that of energy.
@@ -32,15 +33,15 @@ impl Term for Gravity {
     }
 
     fn add_sources(&self, block: &TermBlock<'_>, [z_faces, r_faces]: [&FaceRows; 2], block_rows: &mut [f64]) {
-        let TermBlock { cells: n, metric, dt, half } = *block;
-        let (z_mass, r_mass, v_z) = (&z_faces.mass, &r_faces.mass, half[1]);
+        let TermBlock { cells: n, metric, half } = *block;
+        let (z_mass, r_mass, v_z) = (&z_faces.mass, &r_faces.mass, half[V_Z]);
         for j in 0..n {
-            let row = metric.row(j, dt);
+            let row = metric.row(j);
             for i in 0..n {
                 let (cell, k) = (j * n + i, metric.origin + j * metric.stride + i);
                 let left =
                     row.axial(z_mass[k], z_mass[k - 1]) + row.radial(r_mass[k], r_mass[k - metric.stride]);
-                let gain = dt * self.acceleration * (block_rows[RHO * n * n + cell] - 0.5 * left);
+                let gain = metric.dt * self.acceleration * (block_rows[RHO * n * n + cell] - 0.5 * left);
                 block_rows[MOMENTUM_Z * n * n + cell] += gain;
                 block_rows[ENERGY * n * n + cell] += gain * v_z[k];
             }

@@ -16,8 +16,6 @@ pub(crate) struct TermBlock<'a> {
     /// Cells along a side.
     pub cells: usize,
     pub metric: &'a Metric<'a>,
-    /// Length of the step, s.
-    pub dt: f64,
     /// The padded cells at mid-step: ρ, v_z, v_r, p, φ.
     pub half: Rows<'a>,
 }

@@ -3,12 +3,14 @@
 use super::closure::{PURE, is_compliant, is_mixed};
 use super::windows::{LANES, bits};
 use crate::Mixture;
+use crate::state::PrimitiveCell;
+use crate::state::primitive::{PHI, PRESSURE};
 use crate::step::update::row as row_of;
 
 /// A state on a face: ρ, v_z, v_r, p, φ and the gas's part of the mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct FaceState {
-    pub w: [f64; 5],
+    pub w: PrimitiveCell,
     /// m_g/ρ.
     pub gas_share: f64,
 }
@@ -24,16 +26,16 @@ pub(crate) struct Cells<'a> {
 impl Cells<'_> {
     /// The cell's own state, as a face of a cell at first order has it.
     pub fn mean(&self, k: usize) -> FaceState {
-        let w = [0, 1, 2, 3, 4].map(|c: usize| self.rows[c][k]);
-        FaceState { w, gas_share: self.rows[5][k] / w[0] }
+        let [rho, v_z, v_r, p, phi, gas] = self.rows.map(|row| row[k]);
+        FaceState { w: [rho, v_z, v_r, p, phi], gas_share: gas / rho }
     }
 
     /// Whether a cell has face states of its own: those that give way as neither phase does, and pure ones beside one of
     /// the other phase.
     pub fn is_at_interface(&self, k: usize, mixture: &Mixture) -> bool {
-        let phi = self.rows[4];
+        let phi = self.rows[PHI];
         let around = [phi[k - 1], phi[k + 1], phi[k - self.stride], phi[k + self.stride]];
-        is_at_interface(self.rows[3][k], phi[k], around, mixture)
+        is_at_interface(self.rows[PRESSURE][k], phi[k], around, mixture)
     }
 }
 
@@ -65,14 +67,14 @@ pub(crate) struct RowKinds {
 pub(crate) fn find_interface(cells: &Cells<'_>, mixture: &Mixture, kinds: &mut [RowKinds]) -> bool {
     let stride = cells.stride;
     let (first, n) = (1, stride - 2);
-    if is_pure(cells.rows[4]) {
+    if is_pure(cells.rows[PHI]) {
         kinds.fill(RowKinds::default());
         return false;
     }
     for j in 1..kinds.len() - 1 {
         let mut row = RowKinds::default();
         for start in (0..n).step_by(LANES).map(|start| start.min(n - LANES)) {
-            let found = kinds_of_eight(cells, j * stride + first + start, mixture);
+            let found = kinds_of_batch(cells, j * stride + first + start, mixture);
             row.at_interface |= found.at_interface << (first + start);
             row.mixed |= found.mixed << (first + start);
         }
@@ -94,10 +96,10 @@ fn is_pure(phi: &[f64]) -> bool {
 
 /// The kinds of the cells from `at` on, the first one's in the lowest bit.
 #[inline(always)]
-fn kinds_of_eight(cells: &Cells<'_>, at: usize, mixture: &Mixture) -> RowKinds {
+fn kinds_of_batch(cells: &Cells<'_>, at: usize, mixture: &Mixture) -> RowKinds {
     let load = |row: usize, at: usize| row_of::<LANES>(cells.rows[row], at);
-    let (phi, west, east) = (load(4, at), load(4, at - 1), load(4, at + 1));
-    let (south, north) = (load(4, at - cells.stride), load(4, at + cells.stride));
+    let (phi, west, east) = (load(PHI, at), load(PHI, at - 1), load(PHI, at + 1));
+    let (south, north) = (load(PHI, at - cells.stride), load(PHI, at + cells.stride));
     let mut at_interface = [false; LANES];
     let mut mixed = [false; LANES];
     for k in 0..LANES {
@@ -107,7 +109,7 @@ fn kinds_of_eight(cells: &Cells<'_>, at: usize, mixture: &Mixture) -> RowKinds {
     let mixed = bits(mixed);
     // Few rows hold both phases; whether they give way takes a division.
     if mixed != 0 {
-        let p = load(3, at);
+        let p = load(PRESSURE, at);
         for k in 0..LANES {
             at_interface[k] |= is_compliant(p[k], phi[k], mixture);
         }

@@ -4,17 +4,19 @@ use mesh::{Padded, Side};
 
 use super::cells::Cells;
 use super::mixed::Outer;
+use super::phase_model::PhaseModel;
 use super::reconstruction::CellRule;
 use super::scratch::GasScratch;
-use super::update::{gas_fluxes, gas_shares, is_zero, settle_gas, update_gas, update_mixed};
+use super::update::{OldCells, bound_gas, gas_fluxes, gas_shares, is_zero, update_gas, update_mixed};
 use crate::options::TwoPhaseOptions;
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
+use crate::state::COUNT;
 use crate::state::conserved::{GAS, PHI, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
-use crate::step::update::Metric;
+use crate::step::update::{Metric, NewCells};
 use crate::step::{BlockScratch, split_block};
 use crate::{Boundary, RiemannSolver};
 
@@ -25,14 +27,56 @@ const NOT_THEIRS: f64 = -0.0;
 /// are nearly everywhere.
 pub(crate) fn may_have_gas<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> bool {
     let has_gas = |slot: &usize| ctx.model.has_gas[*slot];
-    ctx.model.scheme.two_phase.is_none()
+    matches!(ctx.model.scheme.phases, PhaseModel::Mixture)
         || has_gas(&slot)
         || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
         || (ctx.mesh.tree().neighbours(slot).iter())
             .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot)))
 }
 
-/// A block of the five-equation model with gas in its padded cells.
+/// What a block's step has to do about gas: decided once per block.
+pub(crate) enum BlockGas<'a, const N: usize> {
+    /// The paper's mixture: the kernels carry the gas fraction, in all cells.
+    Fraction,
+    /// The five-equation model with no gas in the padded cells.
+    Absent,
+    /// The five-equation model with gas in them.
+    Phases(GasBlock<'a, N>),
+}
+
+impl<'a, const N: usize> BlockGas<'a, N> {
+    /// - `may_have_gas`: see [`may_have_gas`]; what a neighbour has may be farther away. `cells`: the padded cells, primitive.
+    pub fn of(ctx: &'a FluidStep<'a, N>, slot: usize, may_have_gas: bool, cells: &Padded<N>) -> Self {
+        let PhaseModel::FiveEquation(options) = ctx.model.scheme.phases else { return Self::Fraction };
+        let has_gas = || {
+            !ctx.marks.is_empty()
+                || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
+                || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)))
+        };
+        if !(may_have_gas && has_gas()) {
+            return Self::Absent;
+        }
+        let level = ctx.mesh.tree().leaves()[slot].level;
+        let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
+        Self::Phases(GasBlock { ctx, slot, options, inverse_h })
+    }
+
+    /// Whether the rows of the gas fraction count.
+    pub fn is_present(&self) -> bool {
+        !matches!(self, Self::Absent)
+    }
+
+    /// Whether the kernels serve mixed cells, too.
+    pub fn is_of_kernels(&self) -> bool {
+        matches!(self, Self::Fraction)
+    }
+
+    pub fn phases(&self) -> Option<&GasBlock<'a, N>> {
+        if let Self::Phases(block) = self { Some(block) } else { None }
+    }
+}
+
+/// A block of the five-equation model with gas in its padded cells, or with some that may come in through a side.
 pub(crate) struct GasBlock<'a, const N: usize> {
     ctx: &'a FluidStep<'a, N>,
     slot: usize,
@@ -40,40 +84,29 @@ pub(crate) struct GasBlock<'a, const N: usize> {
     inverse_h: [f64; 2],
 }
 
-impl<'a, const N: usize> GasBlock<'a, N> {
-    /// A block that [`may_have_gas`], if it has or if some may come in through a side: what a neighbour has may be farther
-    /// away. `None` for the paper's mixture.
-    ///
-    /// - `cells`: the padded cells, primitive.
-    pub fn of(ctx: &'a FluidStep<'a, N>, slot: usize, cells: &Padded<N>) -> Option<Self> {
-        let options = ctx.model.scheme.two_phase?;
-        let level = ctx.mesh.tree().leaves()[slot].level;
-        let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
-        let has_gas = !ctx.marks.is_empty()
-            || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
-            || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)));
-        has_gas.then_some(Self { ctx, slot, options, inverse_h })
-    }
+/// A block at the beginning of a step, and its geometry.
+pub(crate) struct Before<'a> {
+    /// Conserved components without ghosts.
+    pub old: &'a [f64],
+    /// Pressure and 1/r (or 0) of the padded cells.
+    pub pressure: &'a [f64],
+    /// See `pressure`.
+    pub inverse_r: &'a [f64],
+    pub metric: &'a Metric<'a>,
+}
 
+impl<'a, const N: usize> GasBlock<'a, N> {
     fn rule<'b>(&self, inverse_r: &'b [f64]) -> CellRule<'b>
     where
         'a: 'b,
     {
-        CellRule {
-            limiter: self.ctx.model.scheme.limiter,
-            inverse_h: self.inverse_h,
-            inverse_r,
-            dt: self.ctx.dt,
-            mixture: &self.ctx.model.mixture,
-            options: self.options,
-            velocity_gain: self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt),
-        }
+        self.ctx.model.rule_with(self.options, self.inverse_h, inverse_r, self.ctx.dt)
     }
 
     /// Finds and reconstructs the mixed cells; `scratch` holds the assembled block and its predicted states.
     pub fn collect(&self, scratch: &mut BlockScratch<N>) {
         let BlockScratch { cells, gas, half, keep, inverse_r, .. } = scratch;
-        let rows = cells.split::<6>();
+        let rows = cells.split::<{ COUNT + 1 }>();
         gas_shares(rows[GAS], rows[RHO], &mut gas.shares);
         self.impose_outer_shares(&mut gas.shares);
         gas.mixed.clear();
@@ -150,41 +183,30 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     pub fn update(
         &self,
         gas: &mut GasScratch,
-        old: &[f64],
-        pressure: &[f64],
+        before: Before<'_>,
         faces: [&FaceRows; 2],
-        metric: &Metric<'_>,
-        inverse_r: &[f64],
         new: &mut [f64],
-        speeds: &mut [&mut [f64]; 3],
+        speeds: [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
+        let Before { old, pressure, inverse_r, metric } = before;
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
-        update_gas::<N>(old_gas, faces[0], faces[1], self.ctx.dt, metric, new_gas);
-        let mut rows = split_block::<N>(first);
-        let mut clipped = update_mixed::<N>(
-            &gas.mixed,
-            old_rows,
-            pressure,
-            [old_gas, new_gas],
-            faces,
-            metric,
-            &self.rule(inverse_r),
-            &mut rows,
-            speeds,
-            &mut gas.marked,
-        );
+        update_gas::<N>(old_gas, faces, metric, new_gas);
+        let mut cells = NewCells { conserved: split_block::<N>(first), speeds };
+        let old = OldCells { conserved: old_rows, pressure, gas: [old_gas, new_gas] };
+        let (windows, rule) = (gas.mixed.mixed(), &self.rule(inverse_r));
+        let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
-        let [density, _, _, _, phi] = rows;
-        let settled = settle_gas(phi, density, new_gas);
-        clipped += settled.clipped;
+        let [density, _, _, _, phi] = cells.conserved;
+        let bounded = bound_gas(phi, density, new_gas);
+        clipped += bounded.clipped;
         let (clips, dropped) = gas.mixed.clips();
-        report.clips += Clips { clipped_fractions: clipped, removed_traces: settled.removed, ..clips };
+        report.clips += Clips { clipped_fractions: clipped, removed_traces: bounded.removed, ..clips };
         report.fallbacks += dropped;
-        report.has_gas = settled.is_left;
-        if settled.has_missing {
+        report.has_gas = bounded.is_left;
+        if bounded.has_missing {
             self.lift_phases(density, new_gas, report);
         }
     }

@@ -3,6 +3,7 @@
 //! Nearly all cells are pure, and the kernels of `rows.rs` and `update.rs` serve them row by row. What is here walks
 //! lists of the others and puts their fluxes in the place of the kernels'.
 
+use crate::state::primitive::VELOCITY;
 use mesh::{GHOSTS, Padded, Side};
 
 use super::cells::{Cells, FaceState, RowKinds, find_interface};
@@ -257,7 +258,7 @@ impl<const AXIS: usize> Along<'_, AXIS> {
         if index == NONE {
             return FaceState { w: self.cells.face_state(k, [-1.0, 1.0][side]), gas_share: f64::NAN };
         }
-        turned(self.states.of(index as usize, 2 * AXIS + side), AXIS)
+        normal_first(self.states.of(index as usize, 2 * AXIS + side), AXIS)
     }
 }
 
@@ -299,7 +300,7 @@ pub(crate) enum Outer {
 
 /// Normal and tangential velocity in the places of the axial and the radial one.
 #[inline(always)]
-fn turned(state: FaceState, axis: usize) -> FaceState {
+fn normal_first(state: FaceState, axis: usize) -> FaceState {
     let [rho, v_z, v_r, p, phi] = state.w;
     if axis == 0 { state } else { FaceState { w: [rho, v_r, v_z, p, phi], ..state } }
 }
@@ -307,7 +308,7 @@ fn turned(state: FaceState, axis: usize) -> FaceState {
 fn mirrored(states: [FaceState; 4], side: Side) -> [FaceState; 4] {
     let axis = if matches!(side, Side::ZMin | Side::ZMax) { 0 } else { 1 };
     let mut images = states.map(|mut state| {
-        state.w[1 + axis] = -state.w[1 + axis];
+        state.w[VELOCITY[axis]] = -state.w[VELOCITY[axis]];
         state
     });
     images.swap(2 * axis, 2 * axis + 1);
@@ -323,7 +324,7 @@ mod tests {
         let state = |phi: f64| FaceState { w: [1.0, 2.0, 3.0, 4.0, phi], gas_share: 0.5 };
         let states = [state(0.1), state(0.2), state(0.3), state(0.4)];
         let image = mirrored(states, Side::ZMin);
-        // Its upper face is the cell's lower one, with the normal velocity turned.
+        // Its upper face is the cell's lower one, with the normal velocity reversed.
         assert_eq!(image[1].w, [1.0, -2.0, 3.0, 4.0, 0.1]);
         assert_eq!(image[2].w, [1.0, -2.0, 3.0, 4.0, 0.3]);
         let image = mirrored(states, Side::RMax);

@@ -9,6 +9,7 @@ use super::thinc;
 use super::windows::{LANES, Lane, Window, bits, lanes};
 use crate::Mixture;
 use crate::options::TwoPhaseOptions;
+use crate::state::{PrimitiveCell, primitive};
 
 /// ρ_g, ρ_l, v_z, v_r, p, φ of the cells.
 type Phases = [Lane; 6];
@@ -174,7 +175,8 @@ fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, rule: &Cell
     let half_dt = 0.5 * rule.dt;
     let mut half = ZERO;
     for k in 0..LANES {
-        let of = |rows: &Phases| [rows[0][k], rows[1][k], rows[2][k], rows[3][k], rows[4][k], rows[5][k]];
+        let of =
+            |[rho_g, rho_l, v_z, v_r, p, phi]: &Phases| [rho_g[k], rho_l[k], v_z[k], v_r[k], p[k], phi[k]];
         let per_width = |[a, b, c, d, e, f]: [f64; 6], inverse_h: f64| {
             [a * inverse_h, b * inverse_h, c * inverse_h, d * inverse_h, e * inverse_h, f * inverse_h]
         };
@@ -282,12 +284,12 @@ fn admissible(phases: &Phases, w: &Phases, face: &mut [Lane; 6], is_bounded: &mu
         is_bounded[2][k] |= u64::from((phases[PHI][k] - phi).abs() > PURE);
         let gas = phi * within_g;
         let rho = gas + (1.0 - phi) * within_l;
-        face[0][k] = rho;
-        face[1][k] = phases[V_Z][k];
-        face[2][k] = phases[V_R][k];
-        face[3][k] = p;
-        face[4][k] = phi;
-        face[5][k] = gas / rho;
+        face[primitive::RHO][k] = rho;
+        face[primitive::V_Z][k] = phases[V_Z][k];
+        face[primitive::V_R][k] = phases[V_R][k];
+        face[primitive::PRESSURE][k] = p;
+        face[primitive::PHI][k] = phi;
+        face[primitive::GAS][k] = gas / rho;
     }
 }
 
@@ -300,8 +302,8 @@ fn kept_share(cells: &Cells<'_>, k: usize, rule: &CellRule<'_>) -> f64 {
     let [w, west, east, south, north] =
         [k, k - 1, k + 1, k - cells.stride, k + cells.stride].map(|k| cells.mean(k).w);
     let fraction_limiter = rule.options.fraction_limiter(rule.limiter);
-    let limited = |below: [f64; 5], above: [f64; 5]| -> [f64; 5] {
-        let limiter = |c: usize| if c == 4 { fraction_limiter } else { rule.limiter };
+    let limited = |below: PrimitiveCell, above: PrimitiveCell| -> PrimitiveCell {
+        let limiter = |c: usize| if c == primitive::PHI { fraction_limiter } else { rule.limiter };
         std::array::from_fn(|c| limiter(c).difference(w[c] - below[c], above[c] - w[c]))
     };
     let (s_z, s_r) = (limited(west, east), limited(south, north));

@@ -120,12 +120,12 @@ impl<const LANES: usize> Relaxation<LANES> {
                 next[k] = x[k] + step;
                 let shrinks = step * over_g;
                 let converged = step.abs() <= LAST_STEP;
-                let settled = gas_volume[k] * (1.0 - shrinks * (1.0 - 0.5 * shrinks));
+                let relaxed = gas_volume[k] * (1.0 - shrinks * (1.0 - 0.5 * shrinks));
 
                 let was_done = self.done[k] != 0.0;
                 let is_done = was_done | converged;
                 self.fraction[k] =
-                    if converged & !was_done { settled.clamp(0.0, 1.0) } else { self.fraction[k] };
+                    if converged & !was_done { relaxed.clamp(0.0, 1.0) } else { self.fraction[k] };
                 self.done[k] = if is_done { 1.0 } else { 0.0 };
                 ended += u64::from(is_done);
             }

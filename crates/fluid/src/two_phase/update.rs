@@ -3,15 +3,16 @@
 use std::hint::select_unpredictable;
 
 use super::closure::{bounded, is_bound};
-use super::mixed::MixedCells;
 use super::reconstruction::CellRule;
 use super::relaxation::{Advected, relaxed_fractions};
-use super::windows::{LANES, Lane, bits, lanes};
+use super::windows::{LANES, Lane, Window, bits, lanes};
 use crate::Mixture;
 use crate::reconstruction::Rows;
-use crate::state::conserved::{COUNT, ENERGY, PHI};
+use crate::state::conserved::{ENERGY, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
+use crate::state::finished::finish_cell;
+use crate::state::{COUNT, ConservedCell};
 use crate::step::face_rows::FaceRows;
-use crate::step::update::{FaceSlices, FaceValues, Metric, balance, row, settled};
+use crate::step::update::{FaceSlices, FaceValues, Metric, NewCells, balance, row};
 
 /// The gas's mass fluxes of one direction: the mass flux times the gas's part of the mass in the cell it comes from.
 ///
@@ -45,14 +46,12 @@ pub(crate) fn is_zero(row: &[f64]) -> bool {
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update_gas<const N: usize>(
     old: &[f64],
-    z_faces: &FaceRows,
-    r_faces: &FaceRows,
-    dt: f64,
+    [z_faces, r_faces]: [&FaceRows; 2],
     metric: &Metric<'_>,
     new: &mut [f64],
 ) {
     for j in 0..N {
-        let row = metric.row(j, dt);
+        let row = metric.row(j);
         let k = metric.origin + j * metric.stride;
         let (west, east) = (&z_faces.gas()[k - 1..][..N], &z_faces.gas()[k..][..N]);
         let (south, north) = (&r_faces.gas()[k - metric.stride..][..N], &r_faces.gas()[k..][..N]);
@@ -63,9 +62,9 @@ pub(crate) fn update_gas<const N: usize>(
     }
 }
 
-/// What settling a block's gas came to.
+/// What bounding a block's gas came to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct SettledGas {
+pub(crate) struct BoundedGas {
     /// Whether any is left.
     pub is_left: bool,
     /// Gas fractions that were bounded.
@@ -80,17 +79,17 @@ pub(crate) struct SettledGas {
 ///
 /// - `density`: ρ; `gas`: m_g.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn settle_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> SettledGas {
+pub(crate) fn bound_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> BoundedGas {
     // Without an early end these are a few operations on whole lines.
     let (mut is_left, mut has_missing) = (false, false);
     let (mut clipped, mut removed) = (0, 0);
     for value in phi.iter_mut() {
         let kept = without_trace(*value);
-        let settled = bounded(kept);
+        let within = bounded(kept);
         removed += u64::from(kept != *value);
-        clipped += u64::from(settled != kept);
-        *value = settled;
-        is_left |= settled != 0.0;
+        clipped += u64::from(within != kept);
+        *value = within;
+        is_left |= within != 0.0;
     }
     for (value, density) in gas.iter_mut().zip(density) {
         let kept = without_trace(*value);
@@ -99,7 +98,7 @@ pub(crate) fn settle_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> S
         *value = kept;
         is_left |= kept != 0.0;
     }
-    SettledGas { is_left, clipped, removed, has_missing }
+    BoundedGas { is_left, clipped, removed, has_missing }
 }
 
 /// What the gas and the liquid of a cell lack of a mass of zero where one of them has fallen below its bound, kg/m³.
@@ -130,6 +129,16 @@ fn without_trace(value: f64) -> f64 {
     if value.abs() < NOTHING { 0.0 } else { value }
 }
 
+/// A block at the beginning of a step.
+pub(crate) struct OldCells<'a> {
+    /// Conserved variables without ghosts.
+    pub conserved: Rows<'a>,
+    /// Pressure of the padded cells.
+    pub pressure: &'a [f64],
+    /// m_g before and after the step.
+    pub gas: [&'a [f64]; 2],
+}
+
 /// Where a mixed cell's step went beyond what the scheme can take; such cells are done again at first order.
 ///
 /// A density, or the mass of a phase, that falls below a fifth; a phase that leaves more than it had; a volume that
@@ -140,45 +149,42 @@ const LARGEST_CHANGE: f64 = 0.5;
 
 /// Redoes the update of a block's mixed cells with the closure's gas fraction.
 ///
-/// - `old`: conserved variables of the block; `pressure`: of its padded cells at the beginning of the step.
-/// - `gas`: m_g before and after the step.
+/// - `windows`: the cells that hold both phases, see [`super::mixed::MixedCells::mixed`].
 /// - `marked`: the indices of the cells that should be done again at first order, written.
 /// - returns: how many cells' gas fractions were bounded.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update_mixed<const N: usize>(
-    mixed: &MixedCells,
-    old: Rows<'_>,
-    pressure: &[f64],
-    gas: [&[f64]; 2],
+    windows: &[Window],
+    old: &OldCells<'_>,
     faces: [&FaceRows; 2],
     metric: &Metric<'_>,
     rule: &CellRule<'_>,
-    new: &mut [&mut [f64]; COUNT],
-    speeds: &mut [&mut [f64]; 3],
+    new: &mut NewCells<'_>,
     marked: &mut Vec<usize>,
 ) -> u64 {
-    let CellRule { mixture, options, dt, .. } = *rule;
+    let CellRule { mixture, options, .. } = *rule;
     marked.clear();
     let mut clipped = 0;
     let faces = faces.map(FaceRows::fluxes);
-    // A loop of eight that the compiler knows to be of eight it unrolls, and then finds no vectors in it.
-    let eight = std::hint::black_box(LANES);
-    for window in mixed.mixed() {
+    // A loop over a SIMD batch of which the compiler knows the length it unrolls, and then finds no vectors in it.
+    let batch = std::hint::black_box(LANES);
+    for window in windows {
         let k = window.first;
         let (i, j) = ((k - metric.origin) % metric.stride, (k - metric.origin) / metric.stride);
         let at = j * N + i;
-        let widths = metric.row(j, dt);
+        let widths = metric.row(j);
         let [west, east] = [k - 1, k].map(|face| FaceSlices::<LANES>::cut(faces[0], face));
         let [south, north] = [k - metric.stride, k].map(|face| FaceSlices::<LANES>::cut(faces[1], face));
-        let before = old.map(|component| row::<LANES>(component, at));
-        let [gas_before, gas_after] = gas.map(|component| row::<LANES>(component, at));
+        let before = old.conserved.map(|component| row::<LANES>(component, at));
+        let [gas_before, gas_after] = old.gas.map(|component| row::<LANES>(component, at));
         let mut u = [[0.0; LANES]; COUNT];
         let mut is_chosen = [false; LANES];
         let mut cells = Advected::<LANES>::ZERO;
         for k in 0..LANES {
             let [west, east, south, north] = [west.at(k), east.at(k), south.at(k), north.at(k)];
-            let own = [before[0][k], before[1][k], before[2][k], before[3][k], before[4][k]];
-            [u[0][k], u[1][k], u[2][k], u[3][k], u[4][k]] = balance(own, [west, east, south, north], widths);
+            let own = lane(&before, k);
+            let after = balance(own, [west, east, south, north], widths);
+            [u[RHO][k], u[MOMENTUM_Z][k], u[MOMENTUM_R][k], u[ENERGY][k], u[PHI][k]] = after;
             let carried = |face: FaceValues| face.velocity * face.phi;
             let volume =
                 widths.axial(east.velocity, west.velocity) + widths.radial(north.velocity, south.velocity);
@@ -188,27 +194,28 @@ pub(crate) fn update_mixed<const N: usize>(
             cells.gas[k] =
                 widths.axial(carried(east), carried(west)) + widths.radial(carried(north), carried(south));
         }
-        (cells.phi, cells.p, cells.fraction) = (*before[PHI], *row::<LANES>(pressure, k), u[PHI]);
+        (cells.phi, cells.p, cells.fraction) = (*before[PHI], *row::<LANES>(old.pressure, k), u[PHI]);
         u[PHI] = if options.has_closure {
             relaxed_fractions(&cells, mixture)
         } else {
             cells.fraction.map(bounded)
         };
         let mut after = [[0.0; LANES]; COUNT + 3];
-        settle(eight, &u, mixture, &mut after);
+        finish_lanes(batch, &u, mixture, &mut after);
         let (mut is_marked, mut is_clipped) = ([false; LANES], [false; LANES]);
         for k in 0..LANES {
             // No other cell ends just there.
             is_clipped[k] = is_bound(u[PHI][k]);
-            let (rho, gas, change) = (before[0][k], gas_before[k], cells.volume[k]);
+            let (rho, gas, change) = (before[RHO][k], gas_before[k], cells.volume[k]);
             let falls =
                 |before: f64, after: f64| after < LEAST_SHARE * if before > 0.0 { before } else { 0.0 };
-            let is_drained = falls(rho, u[0][k])
+            let is_drained = falls(rho, u[RHO][k])
                 | falls(gas, gas_after[k])
-                | falls(rho - gas, u[0][k] - gas_after[k])
+                | falls(rho - gas, u[RHO][k] - gas_after[k])
                 | (cells.phi[k] - cells.gas[k] < LEAST_VOLUME)
                 | ((1.0 - cells.phi[k]) - (change - cells.gas[k]) < LEAST_VOLUME);
-            let internal = u[ENERGY][k] - 0.5 * (u[1][k] * u[1][k] + u[2][k] * u[2][k]) / u[0][k];
+            let [rho, mz, mr, energy, _] = lane(&u.each_ref(), k);
+            let internal = energy - 0.5 * (mz * mz + mr * mr) / rho;
             is_marked[k] = is_drained | (change.abs() > LARGEST_CHANGE) | !(internal > 0.0);
         }
         let put = |row: &mut [f64], values: &Lane| {
@@ -218,20 +225,26 @@ pub(crate) fn update_mixed<const N: usize>(
             }
         };
         let (new_values, new_speeds) = after.split_at(COUNT);
-        new.iter_mut().zip(new_values).for_each(|(row, values)| put(row, values));
-        speeds.iter_mut().zip(new_speeds).for_each(|(row, values)| put(row, values));
+        new.conserved.iter_mut().zip(new_values).for_each(|(row, values)| put(row, values));
+        new.speeds.iter_mut().zip(new_speeds).for_each(|(row, values)| put(row, values));
         marked.extend(lanes(window.listed & bits(is_marked)).map(|lane| at + lane));
         clipped += u64::from((window.listed & bits(is_clipped)).count_ones());
     }
     clipped
 }
 
-/// [`settled`] of the first `n` lanes: what is conserved, and the two speeds and the floor's energy.
+/// The variables of one lane.
 #[inline(always)]
-fn settle(n: usize, u: &[Lane; COUNT], mixture: &Mixture, after: &mut [Lane; COUNT + 3]) {
+fn lane([rho, mz, mr, energy, phi]: &[&Lane; COUNT], k: usize) -> ConservedCell {
+    [rho[k], mz[k], mr[k], energy[k], phi[k]]
+}
+
+/// [`finish_cell`] of the first `n` lanes: what is conserved, and the two speeds and the floor's energy.
+#[inline(always)]
+fn finish_lanes(n: usize, u: &[Lane; COUNT], mixture: &Mixture, after: &mut [Lane; COUNT + 3]) {
     let [rho, mz, mr, energy, phi, speed_z, speed_r, floor] = after;
     for k in 0..n.min(LANES) {
-        let cell = settled([u[0][k], u[1][k], u[2][k], u[3][k], u[4][k]], mixture);
+        let cell = finish_cell(lane(&u.each_ref(), k), mixture);
         [rho[k], mz[k], mr[k], energy[k], phi[k]] = cell.conserved;
         (speed_z[k], speed_r[k], floor[k]) = (cell.speed_z, cell.speed_r, cell.floor);
     }

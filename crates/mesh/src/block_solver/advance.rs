@@ -1,4 +1,4 @@
-//! How the cells advance: in steps of the whole grid, or of its levels one by one (subcycling).
+//! How the cells advance: in steps of the whole grid, or level by level (subcycling).
 //!
 //! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
@@ -94,7 +94,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
                 model.account(mesh, slot, dt, &reports.finished[slot], interface);
             }
         }
-        levels.turn(mesh, state, next);
+        levels.finish_step(mesh, state, next);
         model.reports_changed(reports);
         progress.time = later;
         progress.steps += 1;

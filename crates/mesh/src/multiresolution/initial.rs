@@ -15,6 +15,7 @@ impl<const N: usize> Mesh<N> {
     /// - `domain` to `periodic`: as for [`Mesh::on_level`]; `fill`: the state on a mesh.
     /// - `at_least`: the level that something besides the details demands of the block in a slot, 0 if nothing does.
     /// - errors: as [`Mesh::uniform`].
+    #[expect(clippy::too_many_arguments, reason = "called once by each solver, no kernel")]
     pub fn initial<R: Multiresolution>(
         domain: Domain,
         coarsest: [usize; 2],

@@ -84,7 +84,7 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
         *level = (*level).clamp(low, high.max(low)).clamp(id.level.saturating_sub(1), id.level + 1);
         *level = (*level).clamp(tree.root_level(), tree.finest());
     }
-    settle(tree, &mut wanted);
+    grade(tree, &mut wanted);
     wanted
 }
 
@@ -248,7 +248,7 @@ fn slots(neighbour: &Neighbour) -> impl Iterator<Item = usize> {
 }
 
 /// Raises levels until neighbours are one apart at most and only whole groups of siblings are coarsened.
-fn settle(tree: &Quadtree, wanted: &mut [u8]) {
+fn grade(tree: &Quadtree, wanted: &mut [u8]) {
     let leaves = tree.leaves();
     loop {
         let mut changed = false;

@@ -179,7 +179,7 @@ impl<const N: usize> LevelSteps<N> {
     /// Ends the finest group's step: `state` is then that of its end.
     ///
     /// To be called when the clock still shows the beginning, after all corrections.
-    pub fn turn(&mut self, mesh: &Mesh<N>, state: &mut Field, next: &mut Field) {
+    pub fn finish_step(&mut self, mesh: &Mesh<N>, state: &mut Field, next: &mut Field) {
         let clock = &self.clock;
         let finest = clock.finest();
         if finest > 0 {

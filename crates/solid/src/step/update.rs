@@ -32,6 +32,7 @@ const CELL: f64 = 2.0 / 3.0;
 ///
 /// - `old`, `new`: state `[component][j][i]` without ghosts; `half`: padded v_r, σ_rr, σ_φφ at mid-step.
 /// - returns: the largest squared von Mises stress, infinite if one is not finite.
+#[expect(clippy::too_many_arguments, reason = "geometry, law and rows of a block")]
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update<const N: usize>(
     old: Rows<'_>,
@@ -108,6 +109,7 @@ impl<'a, const N: usize> FaceSlices<'a, N> {
     }
 }
 
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
 #[inline(always)]
 fn update_row<const N: usize>(
     old: [&[f64; N]; 6],

@@ -4,7 +4,7 @@ use mesh::Side;
 
 use super::{FarField, SourceHistory};
 use crate::Mixture;
-use crate::boundary::normal;
+use crate::boundary::axis;
 
 /// What the cell within has on a face in the middle of a step: ρ, v_z, v_r, p of liquid.
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +78,7 @@ impl FarField {
         moment: Moment<'_>,
     ) -> f64 {
         let relative_n = u_n - outward(side, self.velocity);
-        let relative_t = u_t - self.velocity[2 - normal(side)];
+        let relative_t = u_t - self.velocity[1 - axis(side)];
         let dynamic = 0.5 * rho * (relative_n * relative_n + relative_t * relative_t);
         moment.dt * ((p - self.pressure) + dynamic - self.incident.at(face, moment.middle).pressure)
     }

@@ -1,5 +1,6 @@
 //! Exact Riemann solutions at listed faces, wherever they lie.
 
+use crate::state::PrimitiveCell;
 use std::hint::select_unpredictable;
 
 use super::{Chunk, LANES, Lane, Sides, count, fluxes, solve};
@@ -58,7 +59,7 @@ pub(crate) fn exact_fluxes<L: ListedFaces>(list: &[L::Face], faces: &mut L, mixt
                 };
                 faces.put(face, solution, gas_shares[0][k]);
             } else {
-                let (solution, gas_share) = one_by_one(face, faces, &mixture);
+                let (solution, gas_share) = scalar_flux(face, faces, &mixture);
                 faces.put(face, solution, gas_share);
             }
         }
@@ -67,7 +68,7 @@ pub(crate) fn exact_fluxes<L: ListedFaces>(list: &[L::Face], faces: &mut L, mixt
 
 #[cold]
 #[inline(never)]
-fn one_by_one<L: ListedFaces>(face: &L::Face, faces: &L, mixture: &Mixture) -> (Face, f64) {
+fn scalar_flux<L: ListedFaces>(face: &L::Face, faces: &L, mixture: &Mixture) -> (Face, f64) {
     let [lower, upper] = faces.states(face);
     let mut solution = flux_exact(lower.w, upper.w, mixture);
     let from = if solution.velocity < 0.0 { upper } else { lower };
@@ -77,7 +78,7 @@ fn one_by_one<L: ListedFaces>(face: &L::Face, faces: &L, mixture: &Mixture) -> (
 }
 
 #[inline(always)]
-fn take(sides: &mut Sides, k: usize, [rho, u, v, p, phi]: [f64; 5]) {
+fn take(sides: &mut Sides, k: usize, [rho, u, v, p, phi]: PrimitiveCell) {
     (sides.rho[k], sides.u[k], sides.v[k], sides.p[k], sides.phi[k]) = (rho, u, v, p, phi);
 }
 

@@ -6,10 +6,12 @@ use crate::reconstruction::dispersion::{AlongFaces, Dispersion};
 use crate::riemann::exact_riemann::tests::{Random, extreme, reference};
 use crate::riemann::exact_riemann::{Side, sample, star_state};
 use crate::riemann::hllc::Face;
+use crate::state::PrimitiveCell;
+use crate::state::primitive::{PHI, PRESSURE, RHO, V_N, V_T};
 use crate::two_phase::FaceState;
 
 /// The first lane of a chunk solved: pressure, velocity of the contact, flux; and whether it counts.
-fn solve_one(left: [f64; 5], right: [f64; 5], mixture: &Mixture) -> (f64, f64, Face, bool) {
+fn solve_one(left: PrimitiveCell, right: PrimitiveCell, mixture: &Mixture) -> (f64, f64, Face, bool) {
     let mut chunk = Chunk::zeros();
     for (sides, state) in [(&mut chunk.left, left), (&mut chunk.right, right)] {
         [sides.rho[0], sides.u[0], sides.v[0], sides.p[0], sides.phi[0]] = state;
@@ -171,7 +173,7 @@ fn contacts_and_equal_states_come_back_bitwise() {
 #[test]
 fn mirrored_states_give_the_mirrored_flux_bitwise() {
     let (l, r) = ([998.0, 13.0, 5.0, 3e6, 0.01], [700.0, -41.0, 2.0, 8e5, 0.4]);
-    let mirror = |w: [f64; 5]| [w[0], -w[1], w[2], w[3], w[4]];
+    let mirror = |w: PrimitiveCell| [w[RHO], -w[V_N], w[V_T], w[PRESSURE], w[PHI]];
     let (_, _, a, _) = solve_one(l, r, &water_and_gas());
     let (_, _, b, _) = solve_one(mirror(r), mirror(l), &water_and_gas());
     assert_eq!((a.mass, a.velocity, a.energy, a.shear), (-b.mass, -b.velocity, -b.energy, -b.shear));
@@ -187,7 +189,7 @@ struct Listed<F> {
 }
 
 impl<F: Fn(f64, f64, f64) -> f64> ListedFaces for Listed<F> {
-    type Face = (usize, [[f64; 5]; 2]);
+    type Face = (usize, [PrimitiveCell; 2]);
 
     fn states(&self, (_, [lower, upper]): &Self::Face) -> [FaceState; 2] {
         [FaceState { w: *lower, gas_share: 0.25 }, FaceState { w: *upper, gas_share: 0.75 }]
@@ -212,11 +214,11 @@ fn listed_faces_do_not_depend_on_their_company() {
         let p = random.log_uniform(1e3, 1e9);
         [1.2 + 999.0 * (1.0 - phi), random.uniform(-50.0, 50.0), 3.0, p, phi]
     };
-    let problems: Vec<(usize, [[f64; 5]; 2])> =
+    let problems: Vec<(usize, [PrimitiveCell; 2])> =
         (0..3 * LANES + 5).map(|face| (face, [state(), state()])).collect();
     // Some function of what the fluid comes from.
     let fraction = |p: f64, phi: f64, compression: f64| phi + 1e-3 * p + compression;
-    let solved = |problems: &[(usize, [[f64; 5]; 2])]| {
+    let solved = |problems: &[(usize, [PrimitiveCell; 2])]| {
         let mut faces = Listed { fraction, found: Vec::new() };
         exact_fluxes(problems, &mut faces, &mixture);
         faces.found

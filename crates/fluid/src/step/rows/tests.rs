@@ -1,12 +1,14 @@
 //! The kernels of a step with and without gas.
 
+use crate::state::COUNT;
 use mesh::{Limiter, Padded};
 
 use super::*;
 use crate::StiffenedGas;
 use crate::reconstruction::dispersion::{AlongFaces, Dispersion};
-use crate::reconstruction::predictor::{Predictor, predict};
-use crate::step::update::{Metric, update};
+use crate::reconstruction::predictor::{Predicted, Predictor, predict};
+use crate::state::primitive::{PRESSURE, VELOCITY};
+use crate::step::update::{Metric, NewCells, update};
 
 const N: usize = 8;
 const LEN: usize = Padded::<N>::LEN;
@@ -17,7 +19,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
     let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
     // Waves along both axes, and one cell that keeps no slopes.
     let wave = |k: usize| (k as f64 * 0.37).sin() + ((k / STRIDE) as f64 * 0.9).cos();
-    let mut cells = Padded::<N>::zeros(5);
+    let mut cells = Padded::<N>::zeros(COUNT);
     for k in 0..LEN {
         let (v_z, v_r) = (30.0 * wave(k), 20.0 * wave(k + 7));
         let rho = if k == LEN / 2 { 1e-3 } else { 1000.0 + 5.0 * wave(k + 3) };
@@ -28,10 +30,10 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
     let own = |c: usize| -> Vec<f64> {
         (0..N as isize).flat_map(|j| cells.component(c)[Padded::<N>::index(0, j)..][..N].to_vec()).collect()
     };
-    let old: [Vec<f64>; 5] = std::array::from_fn(own);
+    let old: [Vec<f64>; COUNT] = std::array::from_fn(own);
 
     to_primitive(cells.split_mut(), with_gas, &mixture);
-    let [mut s_z, mut s_r, mut half] = std::array::from_fn(|_| Padded::<N>::zeros(5));
+    let [mut s_z, mut s_r, mut half] = std::array::from_fn(|_| Padded::<N>::zeros(COUNT));
     let (mut keep, mut sound, inverse_r) = (vec![0.0; LEN], vec![0.0; LEN], vec![40.0; LEN]);
     let inverse_h = [3e4, 5e4];
     let predictor = Predictor {
@@ -41,24 +43,26 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
         inverse_h,
         inverse_r: &inverse_r,
         half_dt: 2e-9,
+        mixture,
         with_gas,
         with_mixed: false,
     };
     predict(
         cells.split(),
         predictor,
-        &mixture,
-        s_z.split_mut(),
-        s_r.split_mut(),
-        half.split_mut(),
-        &mut keep,
-        &mut sound,
+        Predicted {
+            s_z: s_z.split_mut(),
+            s_r: s_r.split_mut(),
+            half: half.split_mut(),
+            keep: &mut keep,
+            sound: &mut sound,
+        },
     );
     let mut faces = [FaceRows::zeros(LEN, STRIDE), FaceRows::zeros(LEN, STRIDE)];
-    let [rho, v_z, v_r, p, phi] = half.split::<5>();
+    let [rho, v_z, v_r, p, phi] = half.split();
     for (axis, faces) in faces.iter_mut().enumerate() {
         let (step, along, [d_rho, d_z, d_r, d_p, d_phi]) =
-            if axis == 0 { (1, STRIDE, s_z.split::<5>()) } else { (STRIDE, 1, s_r.split::<5>()) };
+            if axis == 0 { (1, STRIDE, s_z.split()) } else { (STRIDE, 1, s_r.split()) };
         let across = [&s_r, &s_z][axis];
         let [states, differences] = if axis == 0 {
             [[rho, v_z, v_r, p, phi], [d_rho, d_z, d_r, d_p, d_phi]]
@@ -72,7 +76,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
             sound: &sound,
             with_gas,
             dispersion: Dispersion { per_speed: 1e-4, aspect: 0.6, liquid_pi: 3e8 },
-            along_faces: AlongFaces::new([1 + axis, 3].map(|c| across.component(c)), along),
+            along_faces: AlongFaces::new([VELOCITY[axis], PRESSURE].map(|c| across.component(c)), along),
         };
         let first = Padded::<N>::index(0, 0) - step;
         let last = Padded::<N>::index(N as isize - 1, N as isize - 1);
@@ -81,25 +85,26 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
     let metric = Metric {
         stride: STRIDE,
         origin: Padded::<N>::index(0, 0),
+        dt: 4e-9,
         inverse_h,
         face_weight: &[0.02; N + 1],
         inverse_weight: &[50.0; N],
     };
-    let [mut new, mut speeds] = [vec![0.0; 5 * N * N], vec![0.0; 3 * N * N]];
+    let [mut new, mut speeds] = [vec![0.0; COUNT * N * N], vec![0.0; 3 * N * N]];
     let mut rows = new.chunks_exact_mut(N * N);
     let mut speed_rows = speeds.chunks_exact_mut(N * N);
     update::<N>(
         old.each_ref().map(|row| &row[..]),
-        &faces[0],
-        &faces[1],
-        4e-9,
+        faces.each_ref(),
         &metric,
         with_gas,
         &mixture,
-        std::array::from_fn(|_| rows.next().unwrap()),
-        std::array::from_fn(|_| speed_rows.next().unwrap()),
+        NewCells {
+            conserved: std::array::from_fn(|_| rows.next().unwrap()),
+            speeds: std::array::from_fn(|_| speed_rows.next().unwrap()),
+        },
     );
-    let padded = [&cells, &s_z, &s_r, &half].map(|rows| rows.split::<5>().map(<[f64]>::to_vec)).concat();
+    let padded = [&cells, &s_z, &s_r, &half].map(|rows| rows.split::<COUNT>().map(<[f64]>::to_vec)).concat();
     let fluxes = faces.iter().flat_map(|faces| faces.fluxes().map(<[f64]>::to_vec));
     padded.into_iter().chain(fluxes).chain([keep, new, speeds]).collect()
 }

@@ -91,10 +91,14 @@ fn what_is_bounded_is_told() {
 fn thinc_is_steeper_than_the_limiter() {
     let of = |is_sharp| states(&rows(contact), TwoPhaseOptions { has_closure: true, is_sharp }, 1e-12);
     let (sharp, smooth) = (of(true), of(false));
-    assert!(sharp[0].w[4] > smooth[0].w[4] && sharp[1].w[4] < smooth[1].w[4], "{sharp:?} {smooth:?}");
+    assert!(
+        sharp[0].w[primitive::PHI] > smooth[0].w[primitive::PHI]
+            && sharp[1].w[primitive::PHI] < smooth[1].w[primitive::PHI],
+        "{sharp:?} {smooth:?}"
+    );
     // Along the interface there is nothing to sharpen.
     for state in [sharp[2], sharp[3]] {
-        approx::assert_relative_eq!(state.w[4], 0.4, max_relative = 1e-5);
+        approx::assert_relative_eq!(state.w[primitive::PHI], 0.4, max_relative = 1e-5);
     }
 }
 
@@ -109,9 +113,13 @@ fn compression_goes_into_the_gas() {
     let dt = 1e-9;
     let state = states(&rows(squeezed), options, dt)[2];
     // ∇·v = −1e5/s: the gas takes nearly all of it, φ̇ ≈ ∇·v (1 − φ) and ṗ = γ p/φ · 1e5.
-    approx::assert_relative_eq!(state.w[4] - 0.4, -0.6 * 1e5 * 0.5 * dt, max_relative = 1e-3);
-    approx::assert_relative_eq!(state.w[3] - 1e5, 1.4e5 / 0.4 * 1e5 * 0.5 * dt, max_relative = 1e-3);
+    approx::assert_relative_eq!(state.w[primitive::PHI] - 0.4, -0.6 * 1e5 * 0.5 * dt, max_relative = 1e-3);
+    approx::assert_relative_eq!(
+        state.w[primitive::PRESSURE] - 1e5,
+        1.4e5 / 0.4 * 1e5 * 0.5 * dt,
+        max_relative = 1e-3
+    );
     let frozen = states(&rows(squeezed), TwoPhaseOptions { has_closure: false, is_sharp: false }, dt)[2];
-    assert_eq!(frozen.w[4], 0.4);
-    assert!(frozen.w[3] - 1e5 > 100.0 * (state.w[3] - 1e5));
+    assert_eq!(frozen.w[primitive::PHI], 0.4);
+    assert!(frozen.w[primitive::PRESSURE] - 1e5 > 100.0 * (state.w[primitive::PRESSURE] - 1e5));
 }

@@ -65,30 +65,43 @@ impl<const N: usize> Patch<N> {
         let rows = &self.rows[(j + GHOSTS as isize) as usize..];
         match offset {
             Offset { i: 0, .. } => {
-                predict_line::<N, false, _>(&self.data, Self::HALF, from, rows, &self.odd, rule, padded, to);
+                let line = Line { count: Self::HALF, from, to };
+                predict_line::<N, false, _>(&self.data, line, rows, &self.odd, rule, padded);
             }
             Offset { j: 0, .. } => {
-                predict_line::<N, true, _>(&self.data, Self::HALF, from, rows, &self.odd, rule, padded, to);
+                let line = Line { count: Self::HALF, from, to };
+                predict_line::<N, true, _>(&self.data, line, rows, &self.odd, rule, padded);
             }
-            _ => predict_line::<N, false, _>(&self.data, 1, from, rows, &self.odd, rule, padded, to),
+            _ => {
+                let line = Line { count: 1, from, to };
+                predict_line::<N, false, _>(&self.data, line, rows, &self.odd, rule, padded);
+            }
         }
     }
 }
 
-/// Predicts the children of `count` cells along z or along r.
+/// Cells beside each other, and where their children lie.
+#[derive(Clone, Copy)]
+struct Line {
+    count: usize,
+    /// The first of them, and of the children.
+    from: usize,
+    /// See `from`.
+    to: usize,
+}
+
+/// Predicts the children of the cells of a line along z or along r.
 ///
-/// - `patch`: components of cells on the level below; `from`: the first of the line; `rows`: its row and the next ones.
-/// - `padded`: components of the children; `to`: the first of them.
+/// - `patch`: components of cells on the level below; `rows`: the line's row and the next ones.
+/// - `padded`: components of the children.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 fn predict_line<const N: usize, const ALONG_R: bool, R: Multiresolution>(
     patch: &[f64],
-    count: usize,
-    from: usize,
+    Line { count, from, to }: Line,
     rows: &[RadialRow],
     odd: &[bool; MOST_COMPONENTS],
     rule: &R,
     padded: &mut [f64],
-    to: usize,
 ) {
     let (step, child_step) = if ALONG_R { (Patch::<N>::STRIDE, Padded::<N>::STRIDE) } else { (1, 1) };
     let mut k = 0;
