@@ -213,9 +213,75 @@ position = [0.002, 0.001]
 medium = "fluid"
 "#;
 
+/// A solid alone that yields, with all constants of the Johnson–Cook law.
+const YIELDING: &str = r#"
+[time]
+end = 2e-7
+local_steps = true
+[solid]
+z = [-0.01, 0.0]
+r = [0.0, 0.01]
+cells = [16, 16]
+levels = 1
+adapt = true
+[solid.material]
+density = 7800.0
+c1 = 5900.0
+c2 = 3200.0
+[solid.plasticity]
+law = "johnson-cook"
+yield_strength = 3e8
+hardening_modulus = 5e8
+hardening_exponent = 0.3
+rate_coefficient = 0.02
+reference_rate = 1.0
+softening_exponent = 1.0
+melting_temperature = 1700.0
+reference_temperature = 293.0
+heat_capacity = 480.0
+taylor_quinney = 0.9
+[coupling]
+scheme = "load"
+[coupling.load]
+amplitude = 2e9
+radius = 3e-3
+history = [[0.0, 0.0], [1e-7, 1.0]]
+"#;
+
+/// The same by a table.
+const TABLE: &str = r#"
+[time]
+end = 1e-7
+[solid]
+z = [-0.01, 0.0]
+r = [0.0, 0.01]
+cells = [16, 16]
+[solid.material]
+density = 7800.0
+c1 = 5900.0
+c2 = 3200.0
+[solid.plasticity]
+law = "table"
+table = [[0.0, 3e8], [0.1, 4e8]]
+rate_coefficient = 0.02
+reference_rate = 1.0
+[coupling]
+scheme = "load"
+[coupling.load]
+amplitude = 2e9
+radius = 3e-3
+history = [[0.0, 1.0]]
+"#;
+
 /// The numbers of its `[coupling]` are tried in two processes.
 pub const IN_TWO: &str = "full";
 
 /// By name.
-pub const ALL: [(&str, &str); 4] =
-    [("full", FULL), ("strong", STRONG), ("load", LOAD), ("rayleigh", RAYLEIGH)];
+pub const ALL: [(&str, &str); 6] = [
+    ("full", FULL),
+    ("strong", STRONG),
+    ("load", LOAD),
+    ("rayleigh", RAYLEIGH),
+    ("yielding", YIELDING),
+    ("table", TABLE),
+];

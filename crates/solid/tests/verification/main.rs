@@ -8,6 +8,8 @@ mod boundaries;
 mod helpers;
 mod ledgers;
 mod orders;
+mod plastic_ledgers;
+mod plastic_waves;
 mod sides;
 mod surface;
 mod symmetry;
