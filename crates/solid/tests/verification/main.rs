@@ -9,6 +9,7 @@ mod helpers;
 mod ledgers;
 mod orders;
 mod plastic_ledgers;
+mod plastic_pit;
 mod plastic_waves;
 mod sides;
 mod surface;
