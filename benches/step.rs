@@ -328,6 +328,7 @@ fn solid_with_a_pulse<const N: usize>(cells: usize, limiter: Limiter) -> Result<
         levels: 0,
         speeds: WaveSpeeds { density: 7800.0, c1: 5990.0, c2: 3458.0 },
         yield_strength: 250e6,
+        plasticity: None,
         limiter,
         boundaries: [NonReflecting, Free, Axis, NonReflecting],
         adaptation: None,

@@ -6,6 +6,7 @@ use coupler::Scheme;
 use fluid::{PhaseState, PulseShape, Shape};
 use mesh::{LevelBound, Side, Zone};
 use sha2::{Digest, Sha256};
+use solid::plasticity::Hardening;
 
 use super::{Case, FluidCase, GridCase, SolidCase};
 
@@ -179,6 +180,9 @@ fn write_solid(text: &mut Lines, solid: &SolidCase) {
     if let Some(yield_strength) = material.yield_strength() {
         text.number("yield_strength", yield_strength);
     }
+    if let Some(law) = &solid.plasticity {
+        write_plasticity(text, law);
+    }
     for pulse in &solid.pulses {
         text.head("[[solid.pulse]]");
         text.list("centre", &pulse.centre);
@@ -187,6 +191,39 @@ fn write_solid(text: &mut Lines, solid: &SolidCase) {
     }
     text.head("[solid.boundary]");
     write_sides(text, solid.boundary, &solid::Boundary::NAMES, 0);
+}
+
+fn write_plasticity(text: &mut Lines, law: &Hardening) {
+    text.head("[solid.plasticity]");
+    text.key("law", quoted(law.name()));
+    match law {
+        Hardening::Perfect(law) => text.number("yield_strength", law.yield_strength),
+        Hardening::Linear(law) => {
+            text.number("yield_strength", law.yield_strength);
+            text.number("hardening_modulus", law.hardening_modulus);
+        }
+        Hardening::JohnsonCook(law) => {
+            text.number("yield_strength", law.yield_strength);
+            text.number("hardening_modulus", law.hardening_modulus);
+            text.number("hardening_exponent", law.hardening_exponent);
+            text.number("rate_coefficient", law.rate.rate_coefficient);
+            text.number("reference_rate", law.rate.reference_rate);
+            if let Some(heat) = &law.softening {
+                text.number("softening_exponent", heat.softening_exponent);
+                text.number("melting_temperature", heat.melting_temperature);
+                text.number("reference_temperature", heat.reference_temperature);
+                text.number("heat_capacity", heat.heat_capacity);
+                text.number("taylor_quinney", heat.taylor_quinney);
+            }
+        }
+        Hardening::Table(law) => {
+            text.rows("table", &law.points().collect::<Vec<_>>());
+            if law.rate().rate_coefficient > 0.0 {
+                text.number("rate_coefficient", law.rate().rate_coefficient);
+                text.number("reference_rate", law.rate().reference_rate);
+            }
+        }
+    }
 }
 
 fn write_grid(text: &mut Lines, grid: &GridCase) {

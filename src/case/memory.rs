@@ -7,7 +7,7 @@
 use mesh::{BLOCK, Domain};
 
 use super::format::mebibytes;
-use super::{Case, CaseError, CaseErrors, FluidCase, GridCase};
+use super::{Case, CaseError, CaseErrors, FluidCase, GridCase, SolidCase};
 
 /// A process without any cells, bytes: program, libraries, threads and their scratch, histories.
 const PROCESS: f64 = 28.0 * MEBI;
@@ -37,7 +37,11 @@ struct Numbers {
     values: f64,
 }
 
-const SOLID: Numbers = Numbers { components: 6, registered: 4, values: SOLID_VALUES };
+fn of_solid(solid: &SolidCase) -> Numbers {
+    // Plastic strain, and temperature where heat matters.
+    let own = solid.plasticity.as_ref().map_or(0, |law| 1 + usize::from(law.softening().is_some()));
+    Numbers { components: 6 + own, registered: 4, values: SOLID_VALUES + own as f64 }
+}
 
 fn of_fluid(fluid: &FluidCase) -> Numbers {
     let carried = usize::from(fluid.tracer.is_some());
@@ -104,7 +108,7 @@ impl Case {
     pub fn solid_memory(&self) -> Option<Memory> {
         let solid = self.solid.as_ref()?;
         let least = least_cells(self, &solid.grid, |_, _, _| false);
-        Some(Memory::of(SOLID, &solid.grid, self.time.local_steps, least, 0.0))
+        Some(Memory::of(of_solid(solid), &solid.grid, self.time.local_steps, least, 0.0))
     }
 
     /// Whether the machine has the memory with which some sides of the case begin, the fluid's and the solid's.

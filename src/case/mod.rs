@@ -13,6 +13,7 @@ mod read_adaptation;
 mod read_coupling;
 mod read_fluid;
 mod read_grid;
+mod read_plasticity;
 mod read_shape;
 mod read_solid;
 mod reader;
@@ -200,6 +201,8 @@ pub struct SolidCase {
     pub grid: GridCase,
     /// What it is made of.
     pub material: Material,
+    /// How it yields and hardens; elastic without.
+    pub plasticity: Option<solid::plasticity::Hardening>,
     /// The stress at t = 0 that carries the fluid's ambient pressure.
     pub initial_stress: InitialStress,
     /// The four sides in the order of [`Side::ALL`].
@@ -210,6 +213,16 @@ pub struct SolidCase {
     pub pulses: Vec<PotentialPulse>,
     /// Reference value of the stresses in the thresholds of adaptation, Pa.
     pub scale_stress: f64,
+}
+
+impl SolidCase {
+    /// Where it begins to yield, Pa: its hardening law's, else the material's, if it has any.
+    pub fn yield_strength(&self) -> Option<f64> {
+        let of_law = |law: &solid::plasticity::Hardening| {
+            law.yield_stress(0.0, 0.0, law.reference_temperature().unwrap_or(0.0))
+        };
+        self.plasticity.as_ref().map(of_law).or(self.material.yield_strength())
+    }
 }
 
 /// `[coupling]`.

@@ -7,6 +7,7 @@ use toml::de::DeValue;
 
 use super::error::suggest;
 use super::read_grid::{GridPlace, grid};
+use super::read_plasticity::plasticity;
 use super::reader::{Faults, LARGEST, SMALLEST, Table, describe};
 use super::shared::{Context, boundaries};
 use super::{SolidCase, scales};
@@ -23,10 +24,16 @@ pub(super) fn solid(
     let initial_stress = table.choice("initial_stress", &InitialStress::NAMES, faults);
     let boundary = sides(&mut table, context, faults);
     let limiter = table.choice("limiter", &Limiter::NAMES, faults);
+    let given = table.table("plasticity", faults);
+    let is_plastic = given.is_some();
+    let plasticity = given.and_then(|given| plasticity(given, material.as_ref(), faults));
     let pulses: Vec<Option<PotentialPulse>> =
         table.tables("pulse", faults).into_iter().map(|table| pulse(table, context, faults)).collect();
     let scale_stress = table.positive("scale_stress", "Pa", faults);
     table.finish(faults);
+    if is_plastic && plasticity.is_none() {
+        return None;
+    }
     let (grid, place) = placed?;
     let material = material?;
     let pulses: Vec<PotentialPulse> = pulses.into_iter().collect::<Option<_>>()?;
@@ -34,6 +41,7 @@ pub(super) fn solid(
         grid,
         scale_stress: scale_stress.unwrap_or_else(|| scales::stress(acting, &pulses, &material)),
         material,
+        plasticity,
         initial_stress: initial_stress.map_or(InitialStress::Uniaxial, |given| given.value),
         boundary,
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),

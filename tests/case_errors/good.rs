@@ -349,3 +349,27 @@ fn the_report_knows_the_papers_case() {
     let table = cav::case::materials_table();
     assert!(table.contains("structural-steel") && table.contains("gelatine"), "{table}");
 }
+
+#[test]
+fn every_hardening_law_survives_being_written_out() {
+    let laws = [
+        "{ law = \"perfect\" }",
+        "{ law = \"perfect\", yield_strength = 4e8 }",
+        "{ law = \"linear\", hardening_modulus = 1e9 }",
+        "{ law = \"johnson-cook\" }",
+        "{ law = \"johnson-cook\", yield_strength = 3e8, hardening_exponent = 0.5, rate_coefficient = 0.0 }",
+        "{ law = \"table\", table = [[0.0, 3e8], [0.1, 4e8]] }",
+        "{ law = \"table\", table = [[0.0, 3e8]], rate_coefficient = 0.01, reference_rate = 2.0 }",
+    ];
+    for law in laws {
+        let case = with(&[&format!("solid.plasticity={law}")]);
+        assert!(case.solid.as_ref().is_some_and(|solid| solid.plasticity.is_some()), "{law}");
+        round_trip(&case);
+        assert_ne!(case.hash(), good().hash());
+    }
+    // Of its own the material has the law's constants, not the strength that its standard promises.
+    let strength =
+        |law: &str| with(&[&format!("solid.plasticity={law}")]).solid.and_then(|s| s.yield_strength());
+    assert_eq!(strength(laws[0]), Some(250e6));
+    assert_eq!(strength(laws[3]), Some(286.1e6));
+}

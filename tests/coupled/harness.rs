@@ -236,6 +236,7 @@ pub fn elastic(
         levels: 0,
         speeds: WaveSpeeds { density, c1, c2 },
         yield_strength: f64::INFINITY,
+        plasticity: None,
         limiter,
         boundaries,
         adaptation: None,

@@ -132,10 +132,48 @@ fn rayleigh() -> String {
     text.concat()
 }
 
+/// A solid alone that yields under a load, with these lines of `[time]`, `[solid]` and `[solid.plasticity]`.
+fn yielding_by(time: &str, solid: &str, law: &str) -> String {
+    let text = [
+        "[time]\n",
+        time,
+        "[solid]\n",
+        &grid([-0.01, 0.0], 0.01, [16, 16]),
+        solid,
+        "[solid.material]\ndensity = 7800.0\nc1 = 5900.0\nc2 = 3200.0\n[solid.plasticity]\n",
+        law,
+        "[coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = 2e9\nradius = 3e-3\n",
+        "history = [[0.0, 0.0], [1e-7, 1.0]]\n",
+    ];
+    text.concat()
+}
+
+/// With all constants of the Johnson–Cook law.
+fn yielding() -> String {
+    let law = "law = \"johnson-cook\"\nyield_strength = 3e8\nhardening_modulus = 5e8\nhardening_exponent = 0.3\n\
+               rate_coefficient = 0.02\nreference_rate = 1.0\nsoftening_exponent = 1.0\nmelting_temperature = 1700.0\n\
+               reference_temperature = 293.0\nheat_capacity = 480.0\ntaylor_quinney = 0.9\n";
+    yielding_by("end = 2e-7\nlocal_steps = true\n", "levels = 1\nadapt = true\n", law)
+}
+
+/// By a table.
+fn table() -> String {
+    let law =
+        "law = \"table\"\ntable = [[0.0, 3e8], [0.1, 4e8]]\nrate_coefficient = 0.02\nreference_rate = 1.0\n";
+    yielding_by("end = 1e-7\n", "", law)
+}
+
 /// The numbers of its `[coupling]` are tried in two processes.
 pub const IN_TWO: &str = "full";
 
 /// By name.
-pub fn all() -> [(&'static str, String); 4] {
-    [("full", full()), ("strong", strong()), ("load", load()), ("rayleigh", rayleigh())]
+pub fn all() -> [(&'static str, String); 6] {
+    [
+        ("full", full()),
+        ("strong", strong()),
+        ("load", load()),
+        ("rayleigh", rayleigh()),
+        ("yielding", yielding()),
+        ("table", table()),
+    ]
 }

@@ -1,4 +1,4 @@
-//! The linear-elastic solid: materials, elastic waves, yield criterion, [`SolidSolver`].
+//! The solid: materials, elastic waves, yield criterion, plasticity, [`SolidSolver`].
 //!
 //! The algorithm of a step reads in one place, `step/mod.rs`, stage by stage.
 
@@ -6,6 +6,7 @@
 
 mod analysis;
 mod boundary;
+mod components;
 mod diagnostics;
 mod error;
 mod initial;
@@ -22,7 +23,8 @@ mod state;
 mod step;
 
 pub use boundary::participant::{SurfaceTrace, WeakExchange};
-pub use diagnostics::ledger::BoundaryLedger;
+pub use diagnostics::ledger::{BoundaryLedger, PlasticLedger};
+pub use diagnostics::plastic::{PlasticZone, StrainPeak};
 pub use diagnostics::{CELL_FIELDS, MisesPeak, Snapshot, Totals};
 pub use error::SolidError;
 pub use material::yield_criterion::{von_mises, yield_function};

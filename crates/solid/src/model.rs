@@ -1,21 +1,26 @@
 //! What the solid is to the block solver.
 
-use mesh::{FinerSide, Interface, Mesh, Misfit, Model, Place, Side, StageTimer};
+use mesh::{
+    Adapted, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, ScratchPool, Side, StageTimer,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::absorbing::SideFilters;
+use crate::components::admissible::Admissible;
 use crate::physics::{Solid, SolidStep};
+use crate::step::plastic::{measure_flow, return_block};
 use crate::step::reflux::{self, QUANTITIES};
-use crate::step::report::{BlockReport, report_stresses};
+use crate::step::report::{BlockReport, PlasticReport, report_stresses};
 use crate::step::{BlockScratch, STAGES, step_block};
-use crate::{Boundary, BoundaryLedger, SolidError};
+use crate::{Boundary, BoundaryLedger, PlasticLedger, SolidError};
 
 /// What of a solid changes in time besides its cells.
 #[derive(Serialize, Deserialize)]
 pub struct SolidMemory {
     sides: [SideFilters; 4],
     ledger: BoundaryLedger,
+    plastic: PlasticLedger,
 }
 
 impl<const N: usize> Model<N> for Solid {
@@ -65,6 +70,7 @@ impl<const N: usize> Model<N> for Solid {
 
     fn measure(&self, mesh: &Mesh<N>, slot: usize, block: &[f64], report: &mut BlockReport) {
         report_stresses(mesh, slot, block, self.yield_squared(), report);
+        measure_flow::<N>(block, &mut report.plastic);
     }
 
     fn signal_speeds(&self, _: &BlockReport) -> [f64; 2] {
@@ -89,18 +95,41 @@ impl<const N: usize> Model<N> for Solid {
             self.ledger.momentum[side] += momentum;
             self.ledger.energy[side] += energy;
         }
+        self.plastic.take(&report.plastic);
         self.sides.take_over(mesh, slot);
     }
 
-    fn memory(&self) -> SolidMemory {
-        SolidMemory { sides: self.sides.kept().clone(), ledger: self.ledger }
+    /// What can yield stays within its yield surface, see [`Admissible`]; what rounding and laws that soften by heat leave outside
+    /// is returned, and counted.
+    fn remap(
+        &mut self,
+        adapted: &Adapted<N>,
+        (mesh, field): (&Mesh<N>, &Field),
+        patches: &ScratchPool<Patch<N>>,
+        new: &mut Field,
+    ) {
+        let Some(plasticity) = &self.plasticity else {
+            return adapted.remap_into(mesh, field, &self.analysis, patches, new);
+        };
+        adapted.remap_into(mesh, field, &Admissible { analysis: &self.analysis, plasticity }, patches, new);
+        for slot in adapted.fresh() {
+            let mut report = PlasticReport::default();
+            let id = adapted.mesh.tree().leaves()[slot];
+            report.corrected =
+                return_block(plasticity, &adapted.mesh, id, new.block_mut(slot), 0.0, &mut report);
+            self.plastic.take(&report);
+        }
     }
 
-    fn restore(&mut self, SolidMemory { sides, ledger }: SolidMemory) -> Result<(), Misfit> {
+    fn memory(&self) -> SolidMemory {
+        SolidMemory { sides: self.sides.kept().clone(), ledger: self.ledger, plastic: self.plastic }
+    }
+
+    fn restore(&mut self, SolidMemory { sides, ledger, plastic }: SolidMemory) -> Result<(), Misfit> {
         if !self.sides.restore(sides) {
             return Err(Misfit("what absorbing sides remember is not of the solid's sides".to_owned()));
         }
-        self.ledger = ledger;
+        (self.ledger, self.plastic) = (ledger, plastic);
         Ok(())
     }
 }

@@ -2,6 +2,7 @@
 
 use mesh::{Adaptation, Domain, Limiter};
 
+use crate::plasticity::Hardening;
 use crate::{Boundary, WaveSpeeds};
 
 /// Everything that defines a solid.
@@ -17,6 +18,8 @@ pub struct SolidSetup {
     pub speeds: WaveSpeeds,
     /// Yield strength Y₀, Pa; infinite if none is known.
     pub yield_strength: f64,
+    /// How it yields and hardens; elastic without.
+    pub plasticity: Option<Hardening>,
     /// The slope limiter.
     pub limiter: Limiter,
     /// What bounds it, in the order of [`mesh::Side::ALL`].

@@ -7,14 +7,16 @@ use mesh::{BlockSolver, SavedBlocks, SideStates};
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::absorbing::SideMemory;
+use crate::components;
 use crate::model::SolidMemory;
 use crate::physics::Solid;
+use crate::plasticity::Plasticity;
 use crate::step::BlockScratch;
 use crate::step::report::BlockReport;
 use crate::step::rows::Elasticity;
-use crate::{BoundaryLedger, ElasticState, SolidError, SolidSetup};
+use crate::{BoundaryLedger, ElasticState, PlasticLedger, SolidError, SolidSetup};
 
-/// The solid: a [`BlockSolver`] of elastic waves, which says how it is advanced, adapted, kept and taken up again.
+/// The solid: a [`BlockSolver`] of elastic and plastic waves, which says how it is advanced, adapted, kept and taken up again.
 ///
 /// `N` is the number of cells along a block's side.
 pub struct SolidSolver<const N: usize>(BlockSolver<Solid, N>);
@@ -32,25 +34,40 @@ impl<const N: usize> SolidSolver<N> {
         initial: impl Fn([f64; 2]) -> ElasticState + Sync,
     ) -> Result<Self, SolidError> {
         let kinds = setup.boundaries;
-        let analysis =
-            Analysis { boundaries: kinds, stress_scale: setup.stress_scale, impedance: setup.speeds.z1() };
-        let (mesh, state) = crate::initial::initial_mesh(&setup, &analysis, &initial)?;
+        let plasticity = setup.plasticity.clone().map(|law| Plasticity::new(law, setup.speeds));
+        let components = components::of(plasticity.as_ref(), setup.speeds);
+        let analysis = Analysis {
+            boundaries: kinds,
+            stress_scale: setup.stress_scale,
+            impedance: setup.speeds.z1(),
+            strain_modulus: components.iter().map(|component| component.as_stress).fold(0.0, f64::max),
+        };
+        let (mesh, state) = crate::initial::initial_mesh(&setup, &analysis, &components, &initial)?;
         let initial_states = SideStates::new(&mesh, |centre, _| initial(centre));
         let adaptation = setup.adaptation.clone();
+        let count = state.components();
         let solid = Solid {
             elasticity: Elasticity::new(setup.speeds),
+            plasticity,
+            components,
             boundaries: Boundaries::new(kinds, initial_states),
             sides: SideMemory::new(&mesh, kinds),
             analysis,
             ledger: BoundaryLedger::default(),
+            plastic: PlasticLedger::default(),
             setup,
         };
-        Ok(Self(BlockSolver::new(solid, mesh, state, adaptation, BlockScratch::new)?))
+        Ok(Self(BlockSolver::new(solid, mesh, state, adaptation, || BlockScratch::new(count))?))
     }
 
     /// What it is made of.
     pub fn setup(&self) -> &SolidSetup {
         &self.model().setup
+    }
+
+    /// What plastic flow did so far.
+    pub fn plastic_ledger(&self) -> &PlasticLedger {
+        &self.model().plastic
     }
 
     /// What crossed the domain's sides so far.

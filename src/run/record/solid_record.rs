@@ -1,10 +1,13 @@
 //! What the solid's side writes: snapshots, histories, its part of the summary.
 
+mod plastic;
+
 use mesh::BLOCK;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use solid::SolidSolver;
 
+use self::plastic::PlasticPeak;
 use crate::case::{Case, Medium};
 use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
 use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
@@ -28,6 +31,7 @@ pub struct SolidRecord {
     faces: WallFaces,
     cells: CellCount,
     peak: Peak,
+    plastic: PlasticPeak,
     initial_energy: f64,
 }
 
@@ -47,6 +51,7 @@ pub struct SolidRecordState {
     probes: Vec<StepEnds>,
     cells: CellCount,
     peak: Peak,
+    plastic: PlasticPeak,
     initial_energy: f64,
 }
 
@@ -75,11 +80,12 @@ impl SolidRecord {
     ) -> Result<Self, RunError> {
         let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
         let mut record = Self::on(case, files, solver)?;
-        let SolidRecordState { files, ticker, probes, cells, peak, initial_energy } = saved;
+        let SolidRecordState { files, ticker, probes, cells, peak, plastic, initial_energy } = saved;
         record.ticker = ticker;
         restore_probes(&mut record.probes, probes)?;
         record.cells = cells;
         record.peak = peak;
+        record.plastic = plastic;
         record.initial_energy = initial_energy;
         record.files.forget_rows(&files)?;
         Ok(record)
@@ -98,6 +104,7 @@ impl SolidRecord {
             faces: _,
             cells,
             peak,
+            plastic,
             initial_energy,
         } = self;
         SolidRecordState {
@@ -106,6 +113,7 @@ impl SolidRecord {
             probes: saved_probes(probes),
             cells: *cells,
             peak: *peak,
+            plastic: *plastic,
             initial_energy: *initial_energy,
         }
     }
@@ -123,12 +131,13 @@ impl SolidRecord {
     ) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
         let history = &mut files.history;
-        let steps = history.add_series("/solid", &STEP_COLUMNS)?;
+        let steps = history.add_series("/solid", &columns(&STEP_COLUMNS, &plastic::STEP_COLUMNS, solver))?;
         let time = match &case.fluid {
             Some(_) => None,
             None => Some(history.add_series("", &[column("time", "s", "time after the step")])?),
         };
-        let conservation = history.add_series("/conservation/solid", &CONSERVATION_COLUMNS)?;
+        let columns = columns(&CONSERVATION_COLUMNS, &[plastic::CONSERVATION_COLUMN], solver);
+        let conservation = history.add_series("/conservation/solid", &columns)?;
         // A load has a star state, too; a boundary has not.
         let covered = case.coupling.scheme != coupler::Scheme::None;
         let interface_z = covered.then(|| mesh.domain().z[1]);
@@ -143,6 +152,7 @@ impl SolidRecord {
             probes,
             faces: WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges()),
             cells: CellCount::default(),
+            plastic: PlasticPeak::default(),
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
         })
@@ -183,7 +193,11 @@ impl SolidRecord {
         let mises = solver.mises_peak();
         let yielded = solver.yielded_volume();
         let history = &mut self.files.history;
-        history.push(self.steps, &[time, mises.stress, mises.position[0], mises.position[1], yielded])?;
+        let mut row = vec![time, mises.stress, mises.position[0], mises.position[1], yielded];
+        if solver.is_plastic() {
+            row.extend(self.plastic.follow(solver));
+        }
+        history.push(self.steps, &row)?;
         if let Some(series) = self.time {
             history.push(series, &[time])?;
         }
@@ -196,7 +210,8 @@ impl SolidRecord {
             let totals = solver.totals();
             let ledger = solver.ledger();
             let energy = totals.kinetic + totals.elastic;
-            let dissipated = self.initial_energy + ledger.energy.iter().sum::<f64>() - energy;
+            let released = solver.plastic_ledger().energy_released;
+            let dissipated = self.initial_energy + ledger.energy.iter().sum::<f64>() - energy - released;
             let mut row = vec![
                 time,
                 totals.mass,
@@ -208,6 +223,9 @@ impl SolidRecord {
             ];
             for side in 0..4 {
                 row.extend([ledger.momentum[side], ledger.energy[side]]);
+            }
+            if solver.is_plastic() {
+                row.push(released);
             }
             history.push(self.conservation, &row)?;
         }
@@ -253,12 +271,25 @@ impl SolidRecord {
         });
         match value {
             Value::Object(mut map) => {
+                if solver.is_plastic() {
+                    map.extend(self.plastic.summary(solver));
+                }
                 map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
                 map
             }
             _ => unreachable!("an object was written"),
         }
     }
+}
+
+/// Columns, and those that are only there where the solid can yield.
+fn columns(
+    always: &[Column<'static>],
+    plastic: &[Column<'static>],
+    solver: &SolidSolver<BLOCK>,
+) -> Vec<Column<'static>> {
+    let plastic = if solver.is_plastic() { plastic } else { &[] };
+    always.iter().chain(plastic).copied().collect()
 }
 
 const STEP_COLUMNS: [Column<'static>; 4] = [
@@ -303,7 +334,12 @@ const PROBE_COLUMNS: [Column<'static>; 7] = [
 fn names(solver: &SolidSolver<BLOCK>) -> SideNames<solid::Snapshot> {
     // A material without a yield strength has no yield function.
     let has_yield_strength = solver.setup().yield_strength.is_finite();
-    let fields =
-        solid::CELL_FIELDS.iter().filter(|field| has_yield_strength || field.name != "yield_function");
+    let is_there = |name: &str| match name {
+        "yield_function" => has_yield_strength,
+        "plastic_strain" => solver.is_plastic(),
+        "temperature" => solver.has_heat(),
+        _ => true,
+    };
+    let fields = solid::CELL_FIELDS.iter().filter(|field| is_there(field.name));
     SideNames { history: SOLID_HISTORY, snapshots: FIELDS_FILE, fields: fields.collect() }
 }

@@ -5,6 +5,8 @@ use mesh::{Geometry, GroupStep, Padded};
 
 use crate::SolidSolver;
 use crate::boundary::Boundaries;
+use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
+use crate::plasticity::{Plasticity, Stress};
 use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
 use crate::step::rows::rates;
 use crate::step::{BlockScratch, reconstruct};
@@ -76,7 +78,12 @@ impl<const N: usize> SolidSolver<N> {
                         |rows: &Padded<N>, c: usize| if c == S_PHIPHI { 0.0 } else { rows.component(c)[k] };
                     let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
                     let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
-                    let rate = rates(w, d_z, d_r, inverse_r[k], &self.model().elasticity);
+                    let mut rate = rates(w, d_z, d_r, inverse_r[k], &self.model().elasticity);
+                    if let Some(plasticity) = &self.model().plasticity {
+                        let own = |c: usize| if c < cells.components() { cells.component(c)[k] } else { 0.0 };
+                        let state = [own(PLASTIC_STRAIN), own(TEMPERATURE)];
+                        rate_with_flow(plasticity, w, state, 0.5 * dt, &mut rate);
+                    }
                     let trace = |c: usize| w[c] + 0.5 * of(s_z, c);
                     // What face states within get besides, with the differences continued in a line beyond the surface.
                     let more = |c: usize| share * (of(s_z, c) - s_z.component(c)[k - 1]);
@@ -201,5 +208,27 @@ impl<const N: usize> SolidSolver<N> {
         refinement.means(true, |k| stars[k].velocity, |face, mean| surface[face].velocity = mean);
         let power = |k: usize| stars[k].pressure * stars[k].velocity;
         refinement.means(true, power, |face, mean| surface[face].power = mean);
+    }
+}
+
+/// Where a cell flows by mid-step, the rates of its stresses that lead to where it is then, as the step itself has it.
+///
+/// - `half`: half the step, s; none where it is 0.
+fn rate_with_flow(
+    plasticity: &Plasticity,
+    w: [f64; 6],
+    [strain, temperature]: [f64; 2],
+    half: f64,
+    rate: &mut [f64; 6],
+) {
+    let [_, _, zz, zr, rr, phiphi]: [f64; 6] = std::array::from_fn(|c| w[c] + half * rate[c]);
+    if half > 0.0
+        && let Some(returned) =
+            plasticity.return_map(Stress { zz, zr, rr, phiphi }, strain, temperature, half)
+    {
+        let Stress { zz, zr, rr, phiphi } = returned.stress;
+        for (c, stress) in [zz, zr, rr, phiphi].into_iter().enumerate() {
+            rate[2 + c] = (stress - w[2 + c]) / half;
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! What crossed the sides.
+//! What crossed the sides, and what plastic flow took.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,4 +11,21 @@ pub struct BoundaryLedger {
     pub momentum: [f64; 4],
     /// Energy (the work of the tractions), J.
     pub energy: [f64; 4],
+}
+
+/// What plastic flow did since the start, added up; zeros where nothing can yield.
+///
+/// Energies per radian in axial symmetry, per metre of depth in planar geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlasticLedger {
+    /// Returns of cells onto their yield surface, step by step.
+    pub returns: u64,
+    /// Of these, those that followed a correction along a level jump or a change of the grid, not a step.
+    pub after_corrections: u64,
+    /// Plastic work ∫ q dε_p by backward Euler, J: what heats.
+    pub work: f64,
+    /// Elastic energy that the returns have taken from the cells, J: the work, and the scheme's loss in the returns.
+    pub energy_released: f64,
+    /// Largest rate of plastic strain in a step of a cell, 1/s.
+    pub rate_peak: f64,
 }

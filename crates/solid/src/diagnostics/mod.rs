@@ -1,6 +1,7 @@
 //! Numbers that are read off the solid's state.
 
 pub(crate) mod ledger;
+pub(crate) mod plastic;
 
 use mesh::{Geometry, Padded};
 
@@ -40,6 +41,8 @@ mesh::cell_fields! {
         stress_phiphi: 1, "Pa", "hoop stress";
         von_mises: 1, "Pa", "von Mises stress";
         yield_function: 1, "Pa", "von Mises stress minus yield strength";
+        plastic_strain: 1, "1", "plastic strain";
+        temperature: 1, "K", "temperature";
         level: 1, "1", "refinement level";
     }
 }
@@ -160,6 +163,9 @@ impl<const N: usize> SolidSolver<N> {
                     snapshot.yield_function.push(yield_function(mises, self.setup().yield_strength));
                     snapshot.level.push(f64::from(id.level));
                 }
+            }
+            for (number, component) in self.model().components.iter().enumerate() {
+                (component.field)(&mut snapshot).extend(self.state().component(slot, COUNT + number));
             }
         }
         snapshot

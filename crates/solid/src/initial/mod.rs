@@ -3,6 +3,7 @@
 use mesh::{Field, Mesh, Side, for_some_blocks};
 
 use crate::analysis::Analysis;
+use crate::components::Component;
 use crate::state::component::COUNT;
 use crate::{Boundary, ElasticState, SolidError, SolidSetup};
 
@@ -10,19 +11,24 @@ use crate::{Boundary, ElasticState, SolidError, SolidSetup};
 pub(crate) fn initial_mesh<const N: usize>(
     setup: &SolidSetup,
     analysis: &Analysis,
+    components: &[Component],
     initial: &(impl Fn([f64; 2]) -> ElasticState + Sync),
 ) -> Result<(Mesh<N>, Field), SolidError> {
     let kinds = setup.boundaries;
     let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
-    let fill = |mesh: &Mesh<N>| fill(mesh, initial);
+    let fill = |mesh: &Mesh<N>| fill(mesh, components, initial);
     let adaptation = setup.adaptation.as_ref();
     let SolidSetup { domain, coarsest, levels, .. } = *setup;
     Ok(Mesh::initial(domain, coarsest, levels, periodic, adaptation, analysis, fill, |_, _| 0)?)
 }
 
 /// The initial state at the cells' centres.
-fn fill<const N: usize>(mesh: &Mesh<N>, initial: &(impl Fn([f64; 2]) -> ElasticState + Sync)) -> Field {
-    let mut state = Field::zeros(mesh.blocks(), N * N, COUNT);
+fn fill<const N: usize>(
+    mesh: &Mesh<N>,
+    components: &[Component],
+    initial: &(impl Fn([f64; 2]) -> ElasticState + Sync),
+) -> Field {
+    let mut state = Field::zeros(mesh.blocks(), N * N, COUNT + components.len());
     let mut reports = vec![(); mesh.blocks()];
     for_some_blocks(
         &mut state,
@@ -37,6 +43,8 @@ fn fill<const N: usize>(mesh: &Mesh<N>, initial: &(impl Fn([f64; 2]) -> ElasticS
                     }
                 }
             }
+            let rest = block.chunks_exact_mut(N * N).skip(COUNT);
+            rest.zip(components).for_each(|(cells, component)| cells.fill(component.initial));
         },
     );
     state

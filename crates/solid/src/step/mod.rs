@@ -1,5 +1,6 @@
 //! One MUSCL-Hancock step of one block: the algorithm, stage by stage.
 
+pub(crate) mod plastic;
 pub(crate) mod reflux;
 pub(crate) mod report;
 pub(crate) mod rows;
@@ -25,12 +26,13 @@ enum Stage {
     Faces,
     Register,
     Update,
+    Plastic,
     Report,
 }
 
 /// Their names.
 pub(crate) const STAGES: &[&str] =
-    &["assemble", "predict", "boundary", "faces", "register", "update", "report"];
+    &["assemble", "predict", "boundary", "faces", "register", "update", "plastic", "report"];
 
 /// A block in a step.
 struct BlockStep<'a, const N: usize> {
@@ -55,6 +57,7 @@ pub(crate) fn step_block<const N: usize>(
     let block = BlockStep::assemble(ctx, slot, scratch);
     done(Stage::Assemble);
     block.predict(scratch);
+    block.flow_to_mid_step(scratch);
     done(Stage::Predict);
     ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
     block.impose_boundaries(scratch);
@@ -66,6 +69,8 @@ pub(crate) fn step_block<const N: usize>(
     done(Stage::Register);
     block.update(scratch, new, &mut report);
     done(Stage::Update);
+    block.flow(new, &mut report);
+    done(Stage::Plastic);
     block.report(scratch, new, &mut report);
     done(Stage::Report);
     report

@@ -4,6 +4,7 @@ use mesh::{FinerSide, FluxRegister, Geometry, Mesh, Side};
 
 use crate::physics::SolidStep;
 use crate::state::component::COUNT;
+use crate::step::plastic::return_block;
 use crate::step::report::{BlockReport, report_stresses};
 use crate::step::rows::FaceRows;
 use crate::step::update::FACES;
@@ -26,7 +27,7 @@ pub(crate) fn register_stars<const N: usize>(
 }
 
 /// Corrects the cells of a block along its finer neighbours, after all blocks have made their step; the formulas
-/// are those of the update for one face.
+/// are those of the update for one face. What can yield is then returned once more, see [`return_block`].
 pub(crate) fn correct<const N: usize>(
     ctx: &SolidStep<'_, N>,
     finer: FinerSide<'_, N>,
@@ -82,6 +83,9 @@ pub(crate) fn correct<const N: usize>(
             }
         },
     );
+    if let Some(plasticity) = &ctx.model.plasticity {
+        report.plastic.corrected += return_block(plasticity, ctx.mesh, id, new, 0.0, &mut report.plastic);
+    }
     report_stresses(ctx.mesh, slot, new, ctx.model.yield_squared(), report);
 }
 

@@ -3,6 +3,7 @@
 use mesh::{Mesh, Padded, Side, maximum};
 use serde::{Deserialize, Serialize};
 
+use crate::PlasticLedger;
 use crate::physics::SolidStep;
 use crate::step::rows::FaceRows;
 
@@ -15,6 +16,27 @@ pub struct BlockReport {
     pub(crate) yielded: f64,
     /// What came in through each side of the domain: axial momentum, energy (per radian).
     pub(crate) inflow: [[f64; 2]; 4],
+    /// What plastic flow did.
+    pub(crate) plastic: PlasticReport,
+}
+
+/// What plastic flow did in a block; energies per radian.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct PlasticReport {
+    /// Cells that flowed in the step.
+    pub(crate) returned: u32,
+    /// Cells that flowed once more, as a correction along a level jump had moved them.
+    pub(crate) corrected: u32,
+    /// Plastic work q Δε_p, J.
+    pub(crate) work: f64,
+    /// Elastic energy taken from the cells, J.
+    pub(crate) released: f64,
+    /// Largest rate of plastic strain, 1/s.
+    pub(crate) rate: f64,
+    /// Largest plastic strain after the step.
+    pub(crate) strain: f64,
+    /// Highest temperature after the step, K.
+    pub(crate) temperature: f64,
 }
 
 /// Reports the von Mises stresses of a block anew.
@@ -126,4 +148,15 @@ pub(crate) fn boundary_inflow<const N: usize>(
 /// Power of the traction on a face with outward normal along the axis, W/m².
 fn power(faces: &FaceRows, k: usize) -> f64 {
     faces.s_nn[k] * faces.v_n[k] + faces.s_nt[k] * faces.v_t[k]
+}
+
+impl PlasticLedger {
+    /// Adds what plastic flow did in a block.
+    pub(crate) fn take(&mut self, report: &PlasticReport) {
+        self.returns += u64::from(report.returned) + u64::from(report.corrected);
+        self.after_corrections += u64::from(report.corrected);
+        self.work += report.work;
+        self.energy_released += report.released;
+        self.rate_peak = self.rate_peak.max(report.rate);
+    }
 }

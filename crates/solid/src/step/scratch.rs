@@ -12,20 +12,24 @@ pub struct BlockScratch<const N: usize> {
     pub(crate) s_z: Padded<N>,
     pub(crate) s_r: Padded<N>,
     pub(super) half: Padded<N>,
+    /// Plastic strain and temperature at mid-step; empty where nothing can yield.
+    pub(super) flow: Vec<f64>,
     pub(crate) inverse_r: Vec<f64>,
     pub(super) z_faces: FaceRows,
     pub(super) r_faces: FaceRows,
 }
 
 impl<const N: usize> BlockScratch<N> {
-    pub(crate) fn new() -> Self {
+    /// - `components`: of the field.
+    pub(crate) fn new(components: usize) -> Self {
         let len = Padded::<N>::LEN;
         Self {
-            cells: Padded::zeros(COUNT),
-            patch: Patch::zeros(COUNT),
+            cells: Padded::zeros(components),
+            patch: Patch::zeros(components),
             s_z: Padded::zeros(COUNT),
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
+            flow: vec![0.0; (components - COUNT) * len],
             inverse_r: vec![0.0; len],
             z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
             r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),

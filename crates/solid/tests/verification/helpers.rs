@@ -24,6 +24,7 @@ pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -
         levels: 0,
         speeds: STEEL,
         yield_strength: f64::INFINITY,
+        plasticity: None,
         limiter: Limiter::Mc,
         boundaries,
         adaptation: None,

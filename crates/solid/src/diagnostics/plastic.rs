@@ -1,0 +1,114 @@
+//! Numbers of plastic flow.
+
+use mesh::Geometry;
+
+use crate::SolidSolver;
+use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
+
+/// The largest plastic strain and where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrainPeak {
+    /// ε_p.
+    pub strain: f64,
+    /// Centre of the cell (z, r), m.
+    pub position: [f64; 2],
+}
+
+/// The cells whose plastic strain exceeds a threshold.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlasticZone {
+    /// How far below z_max the lowest of them ends, m.
+    pub depth: f64,
+    /// Where the outermost of them ends, m.
+    pub radius: f64,
+    /// Their volume, m³ (planar: m² per metre of depth).
+    pub volume: f64,
+}
+
+impl<const N: usize> SolidSolver<N> {
+    /// Whether it can yield.
+    pub fn is_plastic(&self) -> bool {
+        self.model().plasticity.is_some()
+    }
+
+    /// Whether temperature is a part of its state.
+    pub fn has_heat(&self) -> bool {
+        self.state().components() > TEMPERATURE
+    }
+
+    /// The plastic strain of one cell; 0 where nothing can yield.
+    pub fn plastic_strain(&self, slot: usize, i: usize, j: usize) -> f64 {
+        self.component_or(0.0, PLASTIC_STRAIN, slot, j * N + i)
+    }
+
+    /// The temperature of one cell, K; NaN where it is no part of the state.
+    pub fn temperature(&self, slot: usize, i: usize, j: usize) -> f64 {
+        self.component_or(f64::NAN, TEMPERATURE, slot, j * N + i)
+    }
+
+    fn component_or(&self, other: f64, component: usize, slot: usize, cell: usize) -> f64 {
+        if component < self.state().components() {
+            self.state().component(slot, component)[cell]
+        } else {
+            other
+        }
+    }
+
+    /// The largest plastic strain; 0 where nothing can yield.
+    pub fn plastic_strain_max(&self) -> f64 {
+        self.reports().finished.iter().map(|report| report.plastic.strain).fold(0.0, f64::max)
+    }
+
+    /// The highest temperature, K; 0 where it is no part of the state.
+    pub fn temperature_max(&self) -> f64 {
+        self.reports().finished.iter().map(|report| report.plastic.temperature).fold(0.0, f64::max)
+    }
+
+    /// The largest plastic strain and where it is; `None` where nothing has yielded.
+    pub fn plastic_strain_peak(&self) -> Option<StrainPeak> {
+        let largest = self.plastic_strain_max();
+        if largest <= 0.0 {
+            return None;
+        }
+        let holds = |slot: usize| self.reports().finished[slot].plastic.strain == largest;
+        let slot = (0..self.mesh().blocks()).find(|slot| holds(*slot))?;
+        let cells = self.state().component(slot, PLASTIC_STRAIN);
+        let cell = cells.iter().position(|strain| *strain == largest)?;
+        let position = self.mesh().centre(self.mesh().tree().leaves()[slot], cell % N, cell / N);
+        Some(StrainPeak { strain: largest, position })
+    }
+
+    /// The cells whose plastic strain exceeds a threshold.
+    pub fn plastic_zone(&self, threshold: f64) -> PlasticZone {
+        let domain = self.mesh().domain();
+        let turn = match domain.geometry {
+            Geometry::Axisymmetric => std::f64::consts::TAU,
+            Geometry::Planar => 1.0,
+        };
+        let mut zone = PlasticZone::default();
+        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
+            if self.reports().finished[slot].plastic.strain <= threshold {
+                continue;
+            }
+            let [h_z, h_r] = self.mesh().widths(id.level);
+            for j in 0..N {
+                for i in (0..N).filter(|i| self.plastic_strain(slot, *i, j) > threshold) {
+                    let [z, r] = self.mesh().centre(*id, i, j);
+                    zone.depth = zone.depth.max(domain.z[1] - (z - 0.5 * h_z));
+                    zone.radius = zone.radius.max(r + 0.5 * h_r);
+                    zone.volume += turn * self.mesh().volume(*id, j);
+                }
+            }
+        }
+        zone
+    }
+
+    /// The integral of the plastic strain over the domain, m³, per radian in axial symmetry, per metre of depth in planar geometry.
+    pub fn plastic_strain_integral(&self) -> f64 {
+        let block = |(slot, id): (usize, &mesh::BlockId)| -> f64 {
+            let cells = self.state().component(slot, PLASTIC_STRAIN).chunks_exact(N).enumerate();
+            cells.map(|(j, row)| self.mesh().volume(*id, j) * row.iter().sum::<f64>()).sum()
+        };
+        if self.is_plastic() { self.mesh().tree().leaves().iter().enumerate().map(block).sum() } else { 0.0 }
+    }
+}

@@ -1,0 +1,106 @@
+//! Pits under a Gaussian load in space and time, P exp(−(r/a)²) exp(−((t − t₀)/τ)²), against converged finite elements.
+
+use std::f64::consts::TAU;
+
+use mesh::Domain;
+use solid::plasticity::{Hardening, JohnsonCook, RateFactor, ThermalSoftening};
+use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
+
+use crate::helpers::*;
+use crate::plastic_waves::{ALUMINIUM, press};
+
+struct Pit {
+    name: &'static str,
+    speeds: WaveSpeeds,
+    law: Hardening,
+    /// P (Pa), a (m), τ, t₀ (s).
+    load: [f64; 4],
+    /// Largest ε_p; ∫ ε_p dV, volume of ε_p > 1e-4, m³; plastic work, J; u_z on the axis at the end, m.
+    expected: [f64; 5],
+}
+
+/// Relative errors of what is expected, with so many cells to a.
+fn errors(pit: &Pit, cells: usize) -> [f64; 5] {
+    const REACH: usize = 8;
+    let [pressure, a, duration, peak] = pit.load;
+    let boundaries = [Boundary::Absorbing, Boundary::Interface, Boundary::Axis, Boundary::Absorbing];
+    let reach = REACH as f64 * a;
+    let setup = SolidSetup {
+        domain: Domain { geometry: AXIAL, z: [-reach, 0.0], r: [0.0, reach] },
+        speeds: pit.speeds,
+        plasticity: Some(pit.law.clone()),
+        ..setup(AXIAL, [REACH * cells; 2], boundaries)
+    };
+    let mut solid = SolidSolver::<8>::new(setup, |_| ElasticState::default()).unwrap();
+    let load = |r: f64, t: f64| pressure * (-(r / a).powi(2) - ((t - peak) / duration).powi(2)).exp();
+    let end = peak + 3.5 * duration + 8.0 * a / pit.speeds.c1;
+    let mut depth = 0.0;
+    press(&mut solid, end, load, |solid, dt| depth += dt * solid.interface().states()[0].velocity);
+    let found = [
+        solid.plastic_strain_max(),
+        TAU * solid.plastic_strain_integral(),
+        solid.plastic_zone(1e-4).volume,
+        TAU * solid.plastic_ledger().work,
+        depth,
+    ];
+    std::array::from_fn(|k| found[k] / pit.expected[k] - 1.0)
+}
+
+#[test]
+fn pits_have_the_plastic_strain_and_depth_of_converged_finite_elements() {
+    let heat = ThermalSoftening::new(1.34, 925.0, 293.0, 885.0, 0.9).unwrap();
+    let hardens = JohnsonCook::new(3.24e8, 1.14e8, 0.42).unwrap();
+    let rated = hardens.with_rate(RateFactor::new(0.002, 1.0).unwrap()).with_softening(heat);
+    let pits = [
+        Pit {
+            name: "aluminium, perfect",
+            speeds: ALUMINIUM,
+            law: Hardening::perfect(2.5e8).unwrap(),
+            load: [7.5e8, 2e-4, 5e-8, 2e-7],
+            expected: [0.0167644, 1.59592e-13, 4.91108e-11, 3.98951e-5, -1.6705e-6],
+        },
+        Pit {
+            name: "steel, linear",
+            speeds: STEEL,
+            law: Hardening::linear(4e8, 3e9).unwrap(),
+            load: [1.2e9, 1e-4, 4e-8, 1.6e-7],
+            expected: [0.00977838, 1.70076e-14, 8.45469e-12, 6.89986e-6, -6.89469e-7],
+        },
+        Pit {
+            name: "aluminium, linear",
+            speeds: ALUMINIUM,
+            law: Hardening::linear(2.5e8, 2e9).unwrap(),
+            load: [1e9, 2e-4, 4e-8, 1.6e-7],
+            expected: [0.0266656, 3.42498e-13, 8.00503e-11, 8.87295e-5, -2.91627e-6],
+        },
+        Pit {
+            name: "aluminium, Johnson-Cook",
+            speeds: ALUMINIUM,
+            law: Hardening::JohnsonCook(rated),
+            load: [1.2e9, 2e-4, 5e-8, 2e-7],
+            expected: [0.0335078, 4.17512e-13, 7.71401e-11, 1.43436e-4, -3.60872e-6],
+        },
+        Pit {
+            name: "aluminium, hardening alone",
+            speeds: ALUMINIUM,
+            law: Hardening::JohnsonCook(hardens),
+            load: [1.2e9, 2e-4, 5e-8, 2e-7],
+            expected: [0.034992, 4.44412e-13, 8.00573e-11, 1.49253e-4, -3.7608e-6],
+        },
+    ];
+    for pit in &pits {
+        let all = [10, 20].map(|cells| errors(pit, cells));
+        for (cells, errors) in [10, 20].into_iter().zip(&all) {
+            eprintln!("{}, {cells} cells: {errors:.4?}", pit.name);
+        }
+        // The largest plastic strain is a cell's mean, the volume is counted in cells; the rest are integrals.
+        for (k, bars) in
+            [[0.06, 0.02], [0.03, 0.01], [0.04, 0.025], [0.03, 0.01], [0.03, 0.015]].iter().enumerate()
+        {
+            for (errors, bar) in all.iter().zip(bars) {
+                assert!(errors[k].abs() < *bar, "{}: {k}: {all:?}", pit.name);
+            }
+        }
+        assert!(all[1][1].abs() < 0.35 * all[0][1].abs(), "{}: second order: {all:?}", pit.name);
+    }
+}
