@@ -5,10 +5,11 @@
 //! checkpoints take it from the table.
 
 pub(crate) mod carried;
+pub(crate) mod initial;
 
 use mesh::Geometry;
 
-use crate::initial::fill::share_within;
+use crate::initial::shapes::share_within;
 use crate::{FluidSetup, Shape, Snapshot};
 
 /// A component that the mass carries with it.

@@ -2,16 +2,11 @@
 
 use mesh::{Field, Geometry, Mesh, for_some_blocks};
 
-use crate::components::Component;
+use crate::initial::shapes::{contains, may_cut, samples};
 use crate::state::Contents;
-use crate::state::conserved::RHO;
 use crate::{
-    Gravity, InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, RayleighField, Shape,
-    TRACE_GAS,
+    Gravity, InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, RayleighField, TRACE_GAS,
 };
-
-/// Points per direction at which a cell that a region's edge may cut is sampled.
-const SAMPLES: usize = 32;
 
 /// The initial condition's average over a cell.
 ///
@@ -86,54 +81,6 @@ pub(crate) fn under_gravity(mut contents: Contents, gravity: Option<Gravity>, ce
         }
     }
     contents
-}
-
-/// Fills what the mass carries besides: ρY with the mass fraction Y of each component; the other components hold what they do.
-///
-/// - `first`: the number of the first of them in the field.
-pub(crate) fn fill_carried<const N: usize>(
-    mesh: &Mesh<N>,
-    carried: &[Component],
-    first: usize,
-    field: &mut Field,
-) {
-    if carried.is_empty() {
-        return;
-    }
-    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
-        let widths = mesh.widths(id.level);
-        let block = field.block_mut(slot);
-        for (component, carried) in carried.iter().enumerate() {
-            for cell in 0..N * N {
-                let centre = mesh.centre(*id, cell % N, cell / N);
-                let share = carried.initial(mesh.domain().geometry, centre, widths);
-                block[(first + component) * N * N + cell] = share * block[RHO * N * N + cell];
-            }
-        }
-    }
-}
-
-/// The share of a cell's volume that a shape holds, by sampling where its edge may cut the cell.
-pub(crate) fn share_within(shape: &Shape, geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> f64 {
-    if !may_cut(shape, centre, widths) {
-        return if contains(shape, centre) { 1.0 } else { 0.0 };
-    }
-    let (mut within, mut all) = (0.0, 0.0);
-    for (weight, point) in samples(geometry, centre, widths) {
-        all += weight;
-        within += if contains(shape, point) { weight } else { 0.0 };
-    }
-    within / all
-}
-
-/// The points of a cell at which it is sampled, with their weights.
-fn samples(geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> impl Iterator<Item = (f64, [f64; 2])> {
-    (0..SAMPLES * SAMPLES).map(move |sample| {
-        let offset = |k: usize, h: f64| h * ((k as f64 + 0.5) / SAMPLES as f64 - 0.5);
-        let (a, b) = (sample % SAMPLES, sample / SAMPLES);
-        let point = [centre[0] + offset(a, widths[0]), centre[1] + offset(b, widths[1])];
-        (if geometry == Geometry::Axisymmetric { point[1] } else { 1.0 }, point)
-    })
 }
 
 /// Fills a field of conserved variables with what `state` says of each cell (centre, widths).
@@ -272,28 +219,6 @@ fn at_point<'a>(initial: &'a InitialCondition, ambient: &'a PhaseState, point: [
         .map_or(ambient, |region| &region.state)
 }
 
-fn contains(shape: &Shape, [z, r]: [f64; 2]) -> bool {
-    match shape {
-        Shape::Sphere { centre, radius } => (z - centre[0]).hypot(r - centre[1]) < *radius,
-        Shape::Box { z: [z0, z1], r: [r0, r1] } => z >= *z0 && z < *z1 && r >= *r0 && r < *r1,
-    }
-}
-
-/// Whether a shape's edge may pass through the cell.
-fn may_cut(shape: &Shape, [z, r]: [f64; 2], [hz, hr]: [f64; 2]) -> bool {
-    match *shape {
-        Shape::Sphere { centre, radius } => {
-            ((z - centre[0]).hypot(r - centre[1]) - radius).abs() <= 0.5 * hz.hypot(hr)
-        }
-        Shape::Box { z: z_range, r: r_range } => {
-            let near = |edge: f64, x: f64, h: f64| (edge - x).abs() < 0.5 * h * (1.0 - 1e-9);
-            let spans = |range: [f64; 2], x: f64, h: f64| x + h > range[0] && x - h < range[1];
-            (z_range.iter().any(|e| near(*e, z, hz)) && spans(r_range, r, hr))
-                || (r_range.iter().any(|e| near(*e, r, hr)) && spans(z_range, z, hz))
-        }
-    }
-}
-
 /// Adds p' = A exp(−d²/a²) with isentropic density and, if it travels, v = p'/(ρc).
 fn add_pulse(pulse: &crate::Pulse, [z, r]: [f64; 2], mixture: &Mixture, state: &mut Primitive) {
     let (distance, direction) = distance(pulse, [z, r]);
@@ -321,7 +246,7 @@ fn distance(pulse: &crate::Pulse, [z, r]: [f64; 2]) -> (f64, Option<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{InitialPressure, Region, StiffenedGas};
+    use crate::{InitialPressure, Region, Shape, StiffenedGas};
     use mesh::Domain;
 
     fn bubble(centre: f64) -> InitialCondition {

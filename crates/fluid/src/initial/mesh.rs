@@ -18,7 +18,7 @@ pub(crate) fn initial_mesh<const N: usize>(
     let fill = |mesh: &Mesh<N>| {
         let mut state = Field::zeros(mesh.blocks(), N * N, setup.field_components());
         crate::initial::fill::fill(mesh, &analysis.mixture, &mut state, initial);
-        crate::initial::fill::fill_carried(mesh, &carried, setup.model.components(), &mut state);
+        crate::components::initial::fill_carried(mesh, &carried, setup.model.components(), &mut state);
         state
     };
     let at_least = |mesh: &Mesh<N>, slot: usize| {

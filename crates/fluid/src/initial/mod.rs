@@ -3,6 +3,7 @@
 pub(crate) mod fill;
 pub(crate) mod mesh;
 pub(crate) mod rayleigh;
+pub(crate) mod shapes;
 
 /// Which of the two fluids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
