@@ -15,3 +15,4 @@ mod rest;
 mod spherical_pulse;
 mod start;
 mod steps;
+mod surface;

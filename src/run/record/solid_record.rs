@@ -1,6 +1,6 @@
 //! What the solid's side writes: snapshots, histories, its part of the summary.
 
-use mesh::BLOCK;
+use mesh::{BLOCK, Misfit};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use solid::SolidSolver;
@@ -13,6 +13,7 @@ use crate::run::record::side_files::{FilesState, SideFiles, SideNames};
 use crate::run::record::{
     CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
 };
+use crate::run::record::surface::surface_record::{SurfaceRecord, SurfaceState};
 use crate::run::schedule::Plan;
 use crate::run::side::wall_faces::WallFaces;
 
@@ -26,6 +27,7 @@ pub struct SolidRecord {
     ticker: Ticker,
     probes: Vec<ProbeSeries>,
     faces: WallFaces,
+    surface: Option<SurfaceRecord>,
     cells: CellCount,
     peak: Peak,
     initial_energy: f64,
@@ -45,6 +47,7 @@ pub struct SolidRecordState {
     files: FilesState,
     ticker: Ticker,
     probes: Vec<StepEnds>,
+    surface: Option<SurfaceState>,
     cells: CellCount,
     peak: Peak,
     initial_energy: f64,
@@ -75,9 +78,16 @@ impl SolidRecord {
     ) -> Result<Self, RunError> {
         let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
         let mut record = Self::on(case, files, solver)?;
-        let SolidRecordState { files, ticker, probes, cells, peak, initial_energy } = saved;
+        let SolidRecordState { files, ticker, probes, surface, cells, peak, initial_energy } = saved;
         record.ticker = ticker;
         restore_probes(&mut record.probes, probes)?;
+        match (&mut record.surface, surface) {
+            (Some(own), Some(saved)) => {
+                own.restore(saved, solver, &record.faces, &mut record.files.history)?;
+            }
+            (None, None) => {}
+            _ => return Err(Misfit("only one of both has a surface".to_owned()).into()),
+        }
         record.cells = cells;
         record.peak = peak;
         record.initial_energy = initial_energy;
@@ -96,6 +106,7 @@ impl SolidRecord {
             ticker,
             probes,
             faces: _,
+            surface,
             cells,
             peak,
             initial_energy,
@@ -104,6 +115,7 @@ impl SolidRecord {
             files: files.saved(),
             ticker: *ticker,
             probes: saved_probes(probes),
+            surface: surface.as_ref().map(SurfaceRecord::saved),
             cells: *cells,
             peak: *peak,
             initial_energy: *initial_energy,
@@ -133,6 +145,8 @@ impl SolidRecord {
         let covered = case.coupling.scheme != coupler::Scheme::None;
         let interface_z = covered.then(|| mesh.domain().z[1]);
         let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, history)?;
+        let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
+        let surface = SurfaceRecord::create(case, solver, &faces, history)?;
         let totals = solver.totals();
         Ok(Self {
             files,
@@ -141,7 +155,8 @@ impl SolidRecord {
             conservation,
             ticker: Ticker::of(case),
             probes,
-            faces: WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges()),
+            faces,
+            surface,
             cells: CellCount::default(),
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
@@ -162,7 +177,10 @@ impl SolidRecord {
     pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
         self.cells.see(mesh.cells());
-        self.faces.update(mesh.generation(), || solver.interface_edges());
+        let changed = self.faces.update(mesh.generation(), || solver.interface_edges());
+        if let Some(surface) = &mut self.surface {
+            surface.after_step(solver, plan.dt, (&self.faces, changed));
+        }
         self.write(solver, plan.dt)?;
         if plan.snapshot {
             self.snapshot(solver)?;
@@ -210,6 +228,9 @@ impl SolidRecord {
                 row.extend([ledger.momentum[side], ledger.energy[side]]);
             }
             history.push(self.conservation, &row)?;
+            if let Some(surface) = &self.surface {
+                surface.write(solver, history)?;
+            }
         }
         for probe in &mut self.probes {
             let Some(state) = solver.sample(probe.probe.position) else { continue };
@@ -237,7 +258,13 @@ impl SolidRecord {
         Ok(())
     }
 
-    fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
+    /// The surface, where something acts on it.
+    pub fn surface(&self) -> Option<&SurfaceRecord> {
+        self.surface.as_ref()
+    }
+
+    /// Writes a snapshot.
+    pub fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
         self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
     }
 
@@ -253,6 +280,7 @@ impl SolidRecord {
         });
         match value {
             Value::Object(mut map) => {
+                map.extend(self.surface.iter().flat_map(|surface| surface.summary(solver)));
                 map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
                 map
             }

@@ -184,6 +184,19 @@ impl<const N: usize> SolidSolver<N> {
         });
     }
 
+    /// The radial velocity on the surface at the present time, face by face: that of the two cells under it, continued in a line.
+    ///
+    /// - `put`: gets the number of a face and its velocity, m/s.
+    pub fn surface_slip(&self, mut put: impl FnMut(usize, f64)) {
+        for &slot in self.interface().blocks() {
+            let Some(first) = self.interface().first_face(slot) else { continue };
+            let cells = self.state().component(slot, V_R);
+            for (j, row) in cells.chunks_exact(N).enumerate() {
+                put(first + j, 1.5 * row[N - 1] - 0.5 * row[N - 2]);
+            }
+        }
+    }
+
     fn refine(&self, exchange: &mut WeakExchange, fluid_edges: &[f64]) {
         if exchange.generation != Some(self.mesh().generation()) {
             exchange.edges = self.interface_edges();

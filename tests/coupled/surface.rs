@@ -1,0 +1,105 @@
+//! The displacement of a solid's surface: under a load that stays, against the elastic half-space; when it has gone, back to nothing.
+
+use cav::run::process::session::{Session, Solvers};
+use cav::run::process::stop::Stop;
+use cav::run::record::surface::pit::Profile;
+use cav::run::side::fluid_side::Turn;
+use mesh::Geometry;
+use serde_json::{Map, Value};
+
+use crate::harness::{STEEL, case};
+
+/// Pressure on the axis, Pa, and radius of the load, m, below.
+const AMPLITUDE: f64 = 1e6;
+const RADIUS: f64 = 1e-3;
+/// Width and depth of the domain, in radii of the load.
+const WIDTH: usize = 16;
+
+/// A load that rises within 3 µs, stays until 22 µs and goes within 3 µs, on cells of an eighth of its radius.
+fn loaded(time: &str, more: &str) -> String {
+    let [density, c1, c2] = STEEL;
+    let cells = 8 * WIDTH;
+    let size = WIDTH as f64 * RADIUS;
+    // Without corners, that waves are long.
+    let ramp = |from: f64, sign: f64, at: f64| {
+        (0..=20).map(move |k| {
+            let s = f64::from(k) / 20.0;
+            let rise = s * s * (3.0 - 2.0 * s);
+            format!("[{:?}, {:?}]", from + 3e-6 * s, at + sign * rise)
+        })
+    };
+    let history: Vec<String> = ramp(0.0, 1.0, 0.0).chain(ramp(2.2e-5, -1.0, 1.0)).collect();
+    format!(
+        "[time]\n{time}\n[solid]\nz = [-{size:?}, 0.0]\nr = [0.0, {size:?}]\ncells = [{cells}, {cells}]\nadapt = false\n\
+         material = {{ density = {density:?}, c1 = {c1:?}, c2 = {c2:?} }}\n{more}\
+         [coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = {AMPLITUDE:?}\nradius = {RADIUS:?}\n\
+         history = [{}]\n",
+        history.join(", ")
+    )
+}
+
+/// Runs a case of a solid alone; `look` sees time and u_z along the surface after every step.
+fn run(text: &str, mut look: impl FnMut(f64, &[[f64; 2]])) -> (f64, Map<String, Value>) {
+    let (case, stop) = (case(text), Stop::default());
+    let mut session = Session::new(&case, None, Solvers::default()).expect("the solid");
+    let result = loop {
+        let turn = session.step(&stop).expect("a step");
+        let solid = session.solid().expect("the solid");
+        let surface = solid.record().and_then(|record| record.surface()).expect("a surface");
+        look(solid.solver().time(), &surface.displacement().profile());
+        if turn != Turn::Continues {
+            break Ok(turn);
+        }
+    };
+    (session.line().time, session.summary(&result))
+}
+
+/// exp(−x) I₀(x), by its integral.
+fn scaled_bessel(x: f64) -> f64 {
+    let count = 2000;
+    let angle = |k: i32| (f64::from(k) + 0.5) * std::f64::consts::PI / f64::from(count);
+    (0..count).map(|k| (x * (angle(k).cos() - 1.0)).exp()).sum::<f64>() / f64::from(count)
+}
+
+/// −u_z(r) of the half-space under p₀ exp(−r²/a²): (1 − ν²)/E p₀ a √π exp(−x) I₀(x), x = r²/(2a²).
+fn half_space(r: f64) -> f64 {
+    let [density, c1, c2] = STEEL;
+    let mu = density * c2 * c2;
+    let lambda = density * c1 * c1 - 2.0 * mu;
+    let (young, poisson) = (mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), 0.5 * lambda / (lambda + mu));
+    let x = 0.5 * (r / RADIUS).powi(2);
+    (1.0 - poisson * poisson) / young * AMPLITUDE * RADIUS * std::f64::consts::PI.sqrt() * scaled_bessel(x)
+}
+
+#[test]
+fn a_load_that_stays_indents_the_half_space_and_leaves_nothing_when_it_has_gone() {
+    let mut under_load: Option<Vec<[f64; 2]>> = None;
+    let (_, summary) = run(&loaded("end = \"settled\"\nlongest = 1e-4", ""), |time, profile| {
+        if time < 2.2e-5 {
+            under_load = Some(profile.to_vec());
+        }
+    });
+    let displacement: Vec<f64> = under_load.expect("it was loaded").iter().map(|u| u[0]).collect();
+    let count = displacement.len();
+    let width = WIDTH as f64 * RADIUS / count as f64;
+    let centre = |k: usize| (k as f64 + 0.5) * width;
+    let profile =
+        Profile { begin: 0.0, width, geometry: Geometry::Axisymmetric, displacement: &displacement };
+    let exact: Vec<f64> = (0..count).map(|k| -half_space(centre(k))).collect();
+    let expected = Profile { displacement: &exact, ..profile };
+    let (far, far_expected) = (profile.far(), expected.far());
+    let scale = half_space(0.0);
+    let mut worst = 0.0_f64;
+    for k in (0..count).filter(|k| centre(*k) < 4.0 * RADIUS) {
+        worst = worst.max(((displacement[k] - far) - (exact[k] - far_expected)).abs());
+    }
+    let (pit, known) = (profile.pit(), expected.pit());
+    eprintln!(
+        "under load: off by {:.4} of the depth; on the axis {:.4e} m, expected {:.4e} m; far {far:.3e} m, {far_expected:.3e} m",
+        worst / scale,
+        pit.depth_axis,
+        known.depth_axis
+    );
+    eprintln!("{summary:#?}");
+    assert!(worst < 0.02 * scale);
+}
