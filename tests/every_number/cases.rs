@@ -152,7 +152,8 @@ max_iterations = 20
 const LOAD: &str = r#"
 geometry = "planar"
 [time]
-end = 2e-7
+end = "settled"
+longest = 2e-7
 [solid]
 z = [-0.01, 0.0]
 r = [0.0, 0.01]

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use crate::output::run_directory::{FLUID_HISTORY, FLUID_SUMMARY, HISTORY, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY};
+use crate::output::run_directory::{
+    FLUID_HISTORY, FLUID_SUMMARY, HISTORY, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY,
+};
 use crate::output::{Join, RunDirectory, join_histories, summary};
 use crate::run::RunError;
 use crate::run::record::equivalent_load;
@@ -122,6 +124,9 @@ fn warnings(whole: &Map<String, Value>) -> Vec<String> {
 /// Depth of a pit over its radius above which strains are no longer small.
 const DEEPEST_OF_RADIUS: f64 = 0.05;
 
+/// Above this `surface_still` the depth of the surface is none of a pit.
+const ALMOST_STILL: f64 = 0.1;
+
 /// What has to be said of the solid's surface.
 fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> {
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
@@ -157,8 +162,10 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
     if let (Some(peak), Some(time)) = (number("von_mises_peak"), number("von_mises_peak_time")) {
         words.push(format!("von Mises {:.4e} Pa at {:.4e} s", peak, time));
     }
-    if let (Some(depth), Some(radius)) = (number("pit_depth"), number("pit_radius")) {
-        let still = number("surface_still").unwrap_or(f64::NAN);
+    if let (Some(depth), Some(radius), Some(still)) =
+        (number("pit_depth"), number("pit_radius"), number("surface_still"))
+        && still <= ALMOST_STILL
+    {
         words.push(format!("pit {depth:.4e} m deep, radius {radius:.4e} m, surface_still {still:.1e}"));
     }
     if let (Some(radius), Some(time)) = (number("min_equivalent_radius"), number("collapse_time")) {

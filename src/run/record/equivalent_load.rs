@@ -56,7 +56,11 @@ fn read(history: &Path) -> Option<WallPressure> {
     let file = File::open(history).ok()?;
     let named = |name: &str| -> Option<Dataset> {
         let path = format!("/interface/{name}");
-        if file.link_exists("/interface") && file.link_exists(&path) { file.dataset(&path).ok() } else { None }
+        if file.link_exists("/interface") && file.link_exists(&path) {
+            file.dataset(&path).ok()
+        } else {
+            None
+        }
     };
     let pressure = named("pressure")?;
     let [rows, cells] = pressure.shape()[..] else { return None };
@@ -135,9 +139,7 @@ impl WallPressure {
         let (in_time, in_radius) = self.factors(load);
         self.values
             .indexed_iter()
-            .map(|((row, cell), p)| {
-                (p - load.amplitude * in_time[row][0] * in_radius[cell][0]).powi(2)
-            })
+            .map(|((row, cell), p)| (p - load.amplitude * in_time[row][0] * in_radius[cell][0]).powi(2))
             .sum()
     }
 

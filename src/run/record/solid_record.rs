@@ -10,10 +10,10 @@ use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
 use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 use crate::run::RunError;
 use crate::run::record::side_files::{FilesState, SideFiles, SideNames};
+use crate::run::record::surface::surface_record::{SurfaceRecord, SurfaceState};
 use crate::run::record::{
     CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
 };
-use crate::run::record::surface::surface_record::{SurfaceRecord, SurfaceState};
 use crate::run::schedule::Plan;
 use crate::run::side::wall_faces::WallFaces;
 

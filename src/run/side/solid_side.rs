@@ -291,7 +291,7 @@ impl SolidSide {
     /// Ends the run after a step alone if that is what the surface's rest is for.
     fn end_if_settled(&mut self, plan: Plan) -> Result<(), RunError> {
         let Some(record) = &mut self.record else { return Ok(()) };
-        let is_settled = record.surface().is_some_and(|surface| surface.is_settled(self.solver.time()));
+        let is_settled = record.surface().is_some_and(|surface| surface.is_settled());
         if is_settled && !self.schedule.is_over() {
             self.schedule.end();
             if !plan.snapshot {

@@ -23,8 +23,8 @@ pub struct SurfaceDisplacement {
     before: SideFaces<[CompensatedSum; 2]>,
     /// Since then, on the present ones.
     since: Vec<[CompensatedSum; 2]>,
-    /// Velocities (v_z, v_r) of the last step, and at its end, on the present faces, m/s.
-    velocities: Vec<[f64; 2]>,
+    /// The surface's radial velocity at the end of the last step, on the present faces, m/s.
+    slips: Vec<f64>,
 }
 
 fn blocks_of(solver: &SolidSolver<BLOCK>) -> Vec<BlockId> {
@@ -39,14 +39,14 @@ impl SurfaceDisplacement {
         let none = |_, _| [CompensatedSum::default(); 2];
         let [_, before, _, _] = SideFaces::along_sides(mesh, |side| side == Side::ZMax, none);
         let faces = solver.interface().faces();
-        let mut velocities = vec![[0.0; 2]; faces];
-        solver.surface_slip(|face, velocity| velocities[face][1] = velocity);
+        let mut slips = vec![0.0; faces];
+        solver.surface_slip(|face, slip| slips[face] = slip);
         Self {
             generation: mesh.generation(),
             blocks: blocks_of(solver),
             before,
             since: vec![[CompensatedSum::default(); 2]; faces],
-            velocities,
+            slips,
         }
     }
 
@@ -57,12 +57,16 @@ impl SurfaceDisplacement {
         let finest = self.before.finest();
         let mut next = 0;
         let follow_each_other = self.blocks.iter().all(|id| {
-            let begins = id.level <= finest && id.first_face::<BLOCK>(Side::ZMax) << (finest - id.level) == next;
+            let begins =
+                id.level <= finest && id.first_face::<BLOCK>(Side::ZMax) << (finest - id.level) == next;
             next += BLOCK << finest.saturating_sub(id.level);
             begins
         });
         let is_whole = follow_each_other && next == self.before.len();
-        if self.before.has_shape_of(&own.before) && is_whole && [self.since.len(), self.velocities.len()] == [faces; 2] {
+        if self.before.has_shape_of(&own.before)
+            && is_whole
+            && [self.since.len(), self.slips.len()] == [faces; 2]
+        {
             return Ok(());
         }
         Err(Misfit(format!("a displacement of {faces} faces is not that of the surface")))
@@ -71,12 +75,11 @@ impl SurfaceDisplacement {
     /// Takes notice of a step of length `dt` of the finest level.
     pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) {
         self.follow(solver);
-        let (since, velocities) = (&mut self.since, &mut self.velocities);
+        let (since, slips, states) = (&mut self.since, &mut self.slips, solver.interface().states());
         solver.surface_slip(|face, slip| {
-            let normal = solver.interface().states()[face].velocity;
-            since[face][0].add(dt * normal);
-            since[face][1].add(0.5 * dt * (velocities[face][1] + slip));
-            velocities[face] = [normal, slip];
+            since[face][0].add(dt * states[face].velocity);
+            since[face][1].add(0.5 * dt * (slips[face] + slip));
+            slips[face] = slip;
         });
     }
 
@@ -97,17 +100,16 @@ impl SurfaceDisplacement {
             let since = self.since[face];
             for before in self.before.of_mut(level, along) {
                 (0..2).for_each(|c| before[c].add_sum(since[c]));
-                finest.push(self.velocities[face]);
+                finest.push(self.slips[face]);
             }
         }
         self.since.clear();
-        self.velocities.clear();
+        self.slips.clear();
         let mut from = 0;
         for (level, along) in faces_of(&blocks) {
             let to = from + self.before.of(level, along).len();
-            let mean = |c: usize| finest[from..to].iter().map(|v| v[c]).sum::<f64>() / (to - from) as f64;
             self.since.push(Default::default());
-            self.velocities.push([mean(0), mean(1)]);
+            self.slips.push(finest[from..to].iter().sum::<f64>() / (to - from) as f64);
             from = to;
         }
         self.blocks = blocks;
@@ -140,12 +142,6 @@ impl SurfaceDisplacement {
             let before = self.before.of(level, along);
             (before.len(), total(before[0], self.since[face])[0])
         })
-    }
-
-    /// The largest speed on the surface, m/s.
-    pub fn fastest(&self) -> f64 {
-        let squared = |[v_z, v_r]: &[f64; 2]| v_z * v_z + v_r * v_r;
-        self.velocities.iter().map(squared).fold(0.0, f64::max).sqrt()
     }
 }
 

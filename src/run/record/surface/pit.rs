@@ -38,14 +38,13 @@ pub fn is_far(k: usize, count: usize) -> bool {
     k as f64 + 0.5 >= (1.0 - FAR) * count as f64
 }
 
-impl Profile<'_> {
-    /// The level far away: the mean of u_z over the outer tenth in r, m.
-    pub fn far(&self) -> f64 {
-        let count = self.displacement.len();
-        let far = || self.displacement.iter().enumerate().filter(|(k, _)| is_far(*k, count));
-        far().map(|(_, u)| u).sum::<f64>() / far().count().max(1) as f64
-    }
+/// The level far away: the mean of u_z over the outer tenth in r, m.
+pub fn far(displacement: &[f64]) -> f64 {
+    let far = || displacement.iter().enumerate().filter(|(k, _)| is_far(*k, displacement.len()));
+    far().map(|(_, u)| u).sum::<f64>() / far().count().max(1) as f64
+}
 
+impl Profile<'_> {
     /// The centre of a face, m.
     fn centre(&self, k: usize) -> f64 {
         self.begin + (k as f64 + 0.5) * self.width
@@ -68,7 +67,7 @@ impl Profile<'_> {
 
     /// The pit.
     pub fn pit(&self) -> Pit {
-        let far = self.far();
+        let far = far(self.displacement);
         let depths: Vec<f64> = self.displacement.iter().map(|u| far - u).collect();
         let deepest = (0..depths.len()).fold(0, |best, k| if depths[k] > depths[best] { k } else { best });
         let Some(&depth) = depths.get(deepest).filter(|depth| **depth > 0.0) else { return Pit::default() };

@@ -16,8 +16,7 @@ impl CompensatedSum {
     /// Adds a term.
     pub fn add(&mut self, term: f64) {
         let sum = self.sum + term;
-        let [large, small] =
-            if self.sum.abs() >= term.abs() { [self.sum, term] } else { [term, self.sum] };
+        let [large, small] = if self.sum.abs() >= term.abs() { [self.sum, term] } else { [term, self.sum] };
         self.lost += (large - sum) + small;
         self.sum = sum;
     }

@@ -80,7 +80,7 @@ impl SurfaceRecord {
         ];
         let series = history.add_series("/interface", &columns)?;
         let transit = (end - begin) / solver.setup().speeds.c2;
-        let rest = Rest::new(transit, case.coupling.load.as_ref().map_or(0.0, loaded_until));
+        let rest = Rest::new(count, transit, case.coupling.load.as_ref().map_or(0.0, loaded_until));
         let settles = case.time.settles;
         Ok(Some(Self { series, displacement, rest, map, cells, load, pressures: Vec::new(), settles }))
     }
@@ -90,7 +90,7 @@ impl SurfaceRecord {
         let Self { series: _, displacement, rest, map: _, cells: _, load, pressures: _, settles: _ } = self;
         SurfaceState {
             displacement: displacement.clone(),
-            rest: *rest,
+            rest: rest.clone(),
             load: load.as_ref().map(InterfaceHistory::saved),
         }
     }
@@ -105,6 +105,9 @@ impl SurfaceRecord {
     ) -> Result<(), Misfit> {
         let SurfaceState { displacement, rest, load } = saved;
         displacement.fits(solver)?;
+        if !rest.fits(displacement.len()) {
+            return Err(Misfit("earlier displacements are not those of the surface".to_owned()));
+        }
         (self.displacement, self.rest) = (displacement, rest);
         match (&mut self.load, load) {
             (Some(own), Some(saved)) => own.restore(saved, faces, history),
@@ -142,13 +145,14 @@ impl SurfaceRecord {
             self.map.means(true, value, |_, mean| row.push(mean));
         }
         history.push(self.series, &row)?;
-        let velocity = |face: usize| solver.interface().states().get(face).map_or(0.0, |state| state.velocity);
+        let velocity =
+            |face: usize| solver.interface().states().get(face).map_or(0.0, |state| state.velocity);
         self.load.as_ref().map_or(Ok(()), |load| load.write(time, velocity, history))
     }
 
     /// Whether the run is over, as the surface has become still.
-    pub fn is_settled(&self, time: f64) -> bool {
-        self.settles && self.rest.is_settled(time)
+    pub fn is_settled(&self) -> bool {
+        self.settles && self.rest.is_settled()
     }
 
     /// The displacement so far.
@@ -173,10 +177,10 @@ impl SurfaceRecord {
             ("pit_rim".to_owned(), json!(pit.rim)),
             ("pit_floor".to_owned(), json!(floor)),
             ("indentation_peak".to_owned(), json!(self.rest.deepest())),
-            ("surface_still".to_owned(), json!(self.rest.still())),
+            ("surface_still".to_owned(), json!(self.rest.still(&self.displacement))),
         ]);
         if self.settles {
-            part.insert("settled".to_owned(), json!(self.rest.is_settled(solver.time())));
+            part.insert("settled".to_owned(), json!(self.rest.is_settled()));
         }
         part
     }
