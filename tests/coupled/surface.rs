@@ -1,7 +1,10 @@
 //! The displacement of a solid's surface: under a load that stays, against the elastic half-space; when it has gone, back to nothing.
 
+use cav::output::RunDirectory;
+use cav::run::process::drive::{Keeping, in_process};
 use cav::run::process::session::{Session, Solvers};
 use cav::run::process::stop::Stop;
+use cav::run::record::conclusion::conclude;
 use cav::run::record::surface::pit::{Profile, far};
 use cav::run::side::fluid_side::Turn;
 use mesh::Geometry;
@@ -54,6 +57,21 @@ fn run(text: &str, mut look: impl FnMut(f64, &[[f64; 2]])) -> (f64, Map<String, 
     (session.line().time, session.summary(&result))
 }
 
+/// Young's modulus and Poisson's ratio.
+fn young_and_poisson() -> [f64; 2] {
+    let [density, c1, c2] = STEEL;
+    let mu = density * c2 * c2;
+    let lambda = density * c1 * c1 - 2.0 * mu;
+    [mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), 0.5 * lambda / (lambda + mu)]
+}
+
+/// u_r(r) of the half-space under p₀ exp(−r²/a²): −(1 − 2ν)(1 + ν)/E p₀ a²/(2r) (1 − exp(−r²/a²)).
+fn half_space_radially(r: f64) -> f64 {
+    let [young, poisson] = young_and_poisson();
+    let load = AMPLITUDE * RADIUS * RADIUS / (2.0 * r) * (1.0 - (-(r / RADIUS).powi(2)).exp());
+    -(1.0 - 2.0 * poisson) * (1.0 + poisson) / young * load
+}
+
 /// exp(−x) I₀(x), by its integral.
 fn scaled_bessel(x: f64) -> f64 {
     let count = 2000;
@@ -63,10 +81,7 @@ fn scaled_bessel(x: f64) -> f64 {
 
 /// −u_z(r) of the half-space under p₀ exp(−r²/a²): (1 − ν²)/E p₀ a √π exp(−x) I₀(x), x = r²/(2a²).
 fn half_space(r: f64) -> f64 {
-    let [density, c1, c2] = STEEL;
-    let mu = density * c2 * c2;
-    let lambda = density * c1 * c1 - 2.0 * mu;
-    let (young, poisson) = (mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), 0.5 * lambda / (lambda + mu));
+    let [young, poisson] = young_and_poisson();
     let x = 0.5 * (r / RADIUS).powi(2);
     (1.0 - poisson * poisson) / young * AMPLITUDE * RADIUS * std::f64::consts::PI.sqrt() * scaled_bessel(x)
 }
@@ -82,7 +97,8 @@ fn a_load_that_stays_indents_the_half_space_and_leaves_nothing_when_it_has_gone(
             left = Some(profile.iter().map(|u| u[0]).collect());
         }
     });
-    let displacement: Vec<f64> = under_load.expect("it was loaded").iter().map(|u| u[0]).collect();
+    let under_load = under_load.expect("it was loaded");
+    let displacement: Vec<f64> = under_load.iter().map(|u| u[0]).collect();
     let count = displacement.len();
     let width = WIDTH as f64 * RADIUS / count as f64;
     let centre = |k: usize| (k as f64 + 0.5) * width;
@@ -105,6 +121,13 @@ fn a_load_that_stays_indents_the_half_space_and_leaves_nothing_when_it_has_gone(
     );
     assert!(worst < 0.025 * scale, "{worst:e} of {scale:e}");
 
+    let radial = |k: usize| (under_load[k][1], half_space_radially(centre(k)));
+    let near = || (0..count).filter(|k| centre(*k) < 2.0 * RADIUS).map(radial);
+    let largest = near().fold(0.0_f64, |most, (_, exact)| most.max(exact.abs()));
+    let worst = near().fold(0.0_f64, |most, (found, exact)| most.max((found - exact).abs()));
+    eprintln!("radially: off by {:.4} of {largest:.3e} m", worst / largest);
+    assert!(worst < 0.06 * largest, "{worst:e} of {largest:e}");
+
     let number = |key: &str| summary[key].as_f64().expect("a number");
     let left = left.expect("the run has ended");
     let left = Profile { displacement: &left, ..profile }.pit();
@@ -123,4 +146,55 @@ fn a_run_that_may_not_wait_for_the_surface_says_how_far_from_still_it_is() {
     assert!((end / 2.4e-5 - 1.0).abs() < 1e-12);
     assert_eq!(summary["settled"], false);
     assert!(summary["surface_still"].as_f64().expect("a number") > 0.5);
+}
+
+#[test]
+fn on_a_grid_that_adapts_and_steps_level_by_level_the_surface_goes_the_same_way() {
+    let at_the_end = |time: &str, edit: &dyn Fn(String) -> String| {
+        let mut last = Vec::new();
+        run(&edit(loaded(time, "")), |_, profile| last = profile.to_vec());
+        last
+    };
+    let uniform = at_the_end("end = 5e-6", &|text| text);
+    let adapting = |text: String| {
+        let coarse = text.replace(&format!("cells = [{0}, {0}]", 8 * WIDTH), "cells = [16, 16]\nlevels = 3");
+        coarse.replace("adapt = false", "adapt = true\nepsilon = 1e-3")
+    };
+    let adaptive = at_the_end("end = 5e-6\nlocal_steps = true", &adapting);
+    assert_eq!(uniform.len(), adaptive.len());
+    for c in 0..2 {
+        let largest = uniform.iter().fold(0.0_f64, |most, u| most.max(u[c].abs()));
+        let off = uniform.iter().zip(&adaptive).fold(0.0_f64, |most, (a, b)| most.max((a[c] - b[c]).abs()));
+        eprintln!("component {c}: {:.4} of {largest:.3e} m apart", off / largest);
+        assert!(off < 0.03 * largest, "component {c}: {off:e} of {largest:e}");
+    }
+}
+
+#[test]
+fn a_pulse_that_is_given_is_the_equivalent_load() {
+    let (directory, [time, duration]) = (tempfile::tempdir().expect("a place"), [1.5e-6, 4e-7]);
+    let history: Vec<String> = (0..=600)
+        .map(|k| {
+            let t = f64::from(k) * 5e-9;
+            format!("[{t:?}, {:?}]", (-((t - time) / duration).powi(2)).exp())
+        })
+        .collect();
+    let text = loaded("end = 3e-6", "");
+    let text =
+        format!("{}history = [{}]\n", text.split("history").next().expect("a head"), history.join(", "));
+    let case = case(&text);
+    let directory = RunDirectory::prepare(&directory.path().join("run"), false).expect("a directory");
+    in_process(&case, &directory, Keeping::default(), &Stop::default(), &mut |_| {}).expect("a run");
+    let whole = conclude(&directory).expect("a summary");
+    for (key, expected) in [
+        ("load_amplitude", AMPLITUDE),
+        ("load_radius", RADIUS),
+        ("load_duration", duration),
+        ("load_time", time),
+    ] {
+        let found = whole[key].as_f64().expect("a number");
+        eprintln!("{key}: {found:.6e}, {expected:.6e}");
+        assert!((found / expected - 1.0).abs() < 0.01, "{key}: {found:e}, {expected:e}");
+    }
+    assert!(whole["load_misfit"].as_f64().is_some_and(|misfit| misfit < 0.02));
 }
