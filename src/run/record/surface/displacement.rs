@@ -1,6 +1,6 @@
 //! The displacement of the solid's surface.
 
-use mesh::{BLOCK, BlockId, Misfit, Side, SideFaces};
+use mesh::{BLOCK, BlockId, Limiter, Misfit, Side, SideFaces};
 use serde::{Deserialize, Serialize};
 use solid::SolidSolver;
 
@@ -8,12 +8,11 @@ use super::sum::CompensatedSum;
 
 /// u_z and u_r on the surface since t = 0, integrated in time.
 ///
-/// u_z is the sum over the steps of Δt v*, the mean velocity of the star state over the step. u_r integrates the surface's own
-/// radial velocity, [`SolidSolver::surface_slip`], by the trapezoidal rule: nothing crosses the interface in that direction. On a face
-/// of a level that makes longer steps than the finest one both go on with each of the finest level's.
+/// The sum over the steps of Δt times the mean velocity of the star state, [`SolidSolver::surface_velocity`]. On a face of a level that
+/// makes longer steps than the finest one it goes on with each of the finest level's.
 ///
 /// What is summed hangs on the present faces; when others take their place it is added to the faces of the finest level, a
-/// coarser face's to all that it consists of. So a step costs what there are faces, and memory does not depend on the mesh.
+/// coarser face's to all that it consists of, in a line between its neighbours. So a step costs what there are faces, and memory does not depend on the mesh.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SurfaceDisplacement {
     generation: u64,
@@ -23,8 +22,6 @@ pub struct SurfaceDisplacement {
     before: SideFaces<[CompensatedSum; 2]>,
     /// Since then, on the present ones.
     since: Vec<[CompensatedSum; 2]>,
-    /// The surface's radial velocity at the end of the last step, on the present faces, m/s.
-    slips: Vec<f64>,
 }
 
 fn blocks_of(solver: &SolidSolver<BLOCK>) -> Vec<BlockId> {
@@ -39,14 +36,11 @@ impl SurfaceDisplacement {
         let none = |_, _| [CompensatedSum::default(); 2];
         let [_, before, _, _] = SideFaces::along_sides(mesh, |side| side == Side::ZMax, none);
         let faces = solver.interface().faces();
-        let mut slips = vec![0.0; faces];
-        solver.surface_slip(|face, slip| slips[face] = slip);
         Self {
             generation: mesh.generation(),
             blocks: blocks_of(solver),
             before,
             since: vec![[CompensatedSum::default(); 2]; faces],
-            slips,
         }
     }
 
@@ -63,10 +57,7 @@ impl SurfaceDisplacement {
             begins
         });
         let is_whole = follow_each_other && next == self.before.len();
-        if self.before.has_shape_of(&own.before)
-            && is_whole
-            && [self.since.len(), self.slips.len()] == [faces; 2]
-        {
+        if self.before.has_shape_of(&own.before) && is_whole && self.since.len() == faces {
             return Ok(());
         }
         Err(Misfit(format!("a displacement of {faces} faces is not that of the surface")))
@@ -75,12 +66,8 @@ impl SurfaceDisplacement {
     /// Takes notice of a step of length `dt` of the finest level.
     pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) {
         self.follow(solver);
-        let (since, slips, states) = (&mut self.since, &mut self.slips, solver.interface().states());
-        solver.surface_slip(|face, slip| {
-            since[face][0].add(dt * states[face].velocity);
-            since[face][1].add(0.5 * dt * (slips[face] + slip));
-            slips[face] = slip;
-        });
+        let since = &mut self.since;
+        solver.surface_velocity(|face, velocity| (0..2).for_each(|c| since[face][c].add(dt * velocity[c])));
     }
 
     /// Takes notice of other faces than before.
@@ -94,25 +81,34 @@ impl SurfaceDisplacement {
         if blocks == self.blocks {
             return;
         }
-        // On the finest faces, from which the present ones take their means.
-        let mut finest = Vec::with_capacity(self.before.len());
         for (face, (level, along)) in faces_of(&self.blocks).enumerate() {
-            let since = self.since[face];
-            for before in self.before.of_mut(level, along) {
-                (0..2).for_each(|c| before[c].add_sum(since[c]));
-                finest.push(self.slips[face]);
+            let (since, slope) = (self.since[face], self.slope(face));
+            let finest = self.before.of_mut(level, along);
+            let count = finest.len();
+            for (k, before) in finest.iter_mut().enumerate() {
+                (0..2).for_each(|c| before[c] = total(before[c], since[c], slope[c] * from_middle(k, count)));
             }
         }
         self.since.clear();
-        self.slips.clear();
-        let mut from = 0;
-        for (level, along) in faces_of(&blocks) {
-            let to = from + self.before.of(level, along).len();
-            self.since.push(Default::default());
-            self.slips.push(finest[from..to].iter().sum::<f64>() / (to - from) as f64);
-            from = to;
-        }
+        self.since.resize(BLOCK * blocks.len(), Default::default());
         self.blocks = blocks;
+    }
+
+    /// What is summed on the present faces, per face of the finest level: the smaller of the differences to both neighbours where they
+    /// have one sign; nothing within faces of the finest level.
+    fn slope(&self, face: usize) -> [f64; 2] {
+        let width = |face: usize| {
+            let finest = self.before.finest();
+            f64::from(1_u32 << (finest - self.blocks[face / BLOCK].level))
+        };
+        if width(face) == 1.0 || face == 0 || face + 1 == self.since.len() {
+            return [0.0; 2];
+        }
+        std::array::from_fn(|c| {
+            let value = |face: usize| self.since[face][c].value();
+            let between = |low: usize| (value(low + 1) - value(low)) / (0.5 * (width(low) + width(low + 1)));
+            Limiter::Minmod.difference(between(face - 1), between(face))
+        })
     }
 
     /// How many faces of the finest level there are.
@@ -129,8 +125,12 @@ impl SurfaceDisplacement {
     pub fn profile(&self) -> Vec<[f64; 2]> {
         let mut profile = Vec::with_capacity(self.len());
         for (face, (level, along)) in faces_of(&self.blocks).enumerate() {
-            for before in self.before.of(level, along) {
-                profile.push(total(*before, self.since[face]));
+            let (since, slope) = (self.since[face], self.slope(face));
+            let finest = self.before.of(level, along);
+            for (k, before) in finest.iter().enumerate() {
+                let at =
+                    |c: usize| total(before[c], since[c], slope[c] * from_middle(k, finest.len())).value();
+                profile.push([at(0), at(1)]);
             }
         }
         profile
@@ -140,17 +140,24 @@ impl SurfaceDisplacement {
     pub fn faces(&self) -> impl Iterator<Item = (usize, f64)> {
         faces_of(&self.blocks).enumerate().map(|(face, (level, along))| {
             let before = self.before.of(level, along);
-            (before.len(), total(before[0], self.since[face])[0])
+            (before.len(), total(before[0][0], self.since[face][0], 0.0).value())
         })
     }
 }
 
-fn total(before: [CompensatedSum; 2], since: [CompensatedSum; 2]) -> [f64; 2] {
-    std::array::from_fn(|c| {
-        let mut sum = before[c];
-        sum.add_sum(since[c]);
-        sum.value()
-    })
+/// Both sums and a term.
+fn total(before: CompensatedSum, since: CompensatedSum, term: f64) -> CompensatedSum {
+    let mut sum = before;
+    sum.add_sum(since);
+    if term != 0.0 {
+        sum.add(term);
+    }
+    sum
+}
+
+/// How far the face number `k` of `count` is from the middle of all, in faces.
+fn from_middle(k: usize, count: usize) -> f64 {
+    k as f64 + 0.5 - 0.5 * count as f64
 }
 
 /// Level and number along the side of all faces of these blocks.
