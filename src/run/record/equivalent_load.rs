@@ -41,14 +41,14 @@ pub struct WallPressure {
 pub fn summary(history: &Path) -> Map<String, Value> {
     let Some(wall) = read(history) else { return Map::new() };
     let load = wall.equivalent_load();
-    let keys: [(&str, fn(&EquivalentLoad) -> f64); 5] = [
-        ("load_amplitude", |load| load.amplitude),
-        ("load_radius", |load| load.radius),
-        ("load_duration", |load| load.duration),
-        ("load_time", |load| load.time),
-        ("load_misfit", |load| load.misfit),
-    ];
-    keys.into_iter().map(|(key, of)| (key.to_owned(), json!(load.as_ref().map(of)))).collect()
+    let number = |of: fn(&EquivalentLoad) -> f64| json!(load.as_ref().map(of));
+    Map::from_iter([
+        ("load_amplitude".to_owned(), number(|load| load.amplitude)),
+        ("load_radius".to_owned(), number(|load| load.radius)),
+        ("load_duration".to_owned(), number(|load| load.duration)),
+        ("load_time".to_owned(), number(|load| load.time)),
+        ("load_misfit".to_owned(), number(|load| load.misfit)),
+    ])
 }
 
 /// What a file has of the wall's pressure; nothing where it has none or cannot be read, which is told of elsewhere.
