@@ -8,11 +8,12 @@ use super::sum::CompensatedSum;
 
 /// u_z and u_r on the surface since t = 0, integrated in time.
 ///
-/// The sum over the steps of Δt times the mean velocity of the star state, [`SolidSolver::surface_velocity`]. On a face of a level that
-/// makes longer steps than the finest one it goes on with each of the finest level's.
+/// The sum over the steps of Δt times the mean velocity of the star state, [`SolidSolver::surface_velocity`]. On a face of a level
+/// that makes longer steps than the finest one it goes on with each of the finest level's.
 ///
-/// What is summed hangs on the present faces; when others take their place it is added to the faces of the finest level, a
-/// coarser face's to all that it consists of, in a line between its neighbours. So a step costs what there are faces, and memory does not depend on the mesh.
+/// What is summed hangs on the present faces; when others take their place it is added to the faces of the finest level, a coarser
+/// face's to all that it consists of, in a line between its neighbours. So a step costs what there are faces, and memory does not
+/// depend on the mesh.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SurfaceDisplacement {
     generation: u64,
