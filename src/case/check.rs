@@ -32,7 +32,8 @@ pub fn report(case: &Case) -> String {
         Geometry::Axisymmetric => "axisymmetric",
         Geometry::Planar => "planar",
     };
-    line(&mut text, "case", &format!("{}, {geometry}, to {}", case.name, si(case.time.end, "s")));
+    let until = if case.time.settles { "until the surface is still, at most to" } else { "to" };
+    line(&mut text, "case", &format!("{}, {geometry}, {until} {}", case.name, si(case.time.end, "s")));
     line(&mut text, "hash", &hex(&case.hash()));
     if let (Some(fluid), Some(memory)) = (&case.fluid, case.fluid_memory()) {
         side(&mut text, "fluid", &fluid.grid, memory);

@@ -65,6 +65,16 @@ pub(super) fn media(scheme: &Given<Scheme>, has_fluid: bool, has_solid: bool, fa
     }
 }
 
+/// A run that ends when the surface is still needs a last load, which only a given one has; what a bubble does ends with its fluid.
+pub(super) fn settles(scheme: Option<&Given<Scheme>>, faults: &mut Faults) {
+    if let Some(scheme) = scheme.filter(|given| given.value != Scheme::Load) {
+        let message = "only a solid under a given load can be waited for with end = \"settled\": of a fluid nobody knows which \
+                       load is the last";
+        let help = "give time.end in s, and look at surface_still in the summary; or take scheme = \"load\"";
+        faults.at("time.end", &scheme.span, message, help);
+    }
+}
+
 /// The solid ends where the fluid begins, and both are equally wide.
 pub(super) fn domains_meet(fluid: &GridPlace, solid: &GridPlace, faults: &mut Faults) {
     let (fluid_z, solid_z) = (fluid.z.value, solid.z.value);

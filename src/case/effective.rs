@@ -48,7 +48,12 @@ impl Case {
         let mut text = Lines(String::new());
         text.name("geometry", &mesh::Geometry::NAMES, self.geometry);
         text.head("[time]");
-        text.number("end", self.time.end);
+        if self.time.settles {
+            text.key("end", quoted("settled"));
+            text.number("longest", self.time.end);
+        } else {
+            text.number("end", self.time.end);
+        }
         text.number("cfl", self.time.cfl);
         text.key("local_steps", self.time.local_steps);
         text.list("snapshots", &self.time.snapshots);

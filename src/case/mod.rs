@@ -78,8 +78,10 @@ impl PartialEq for Case {
 /// `[time]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Time {
-    /// End of the run, s.
+    /// End of the run, s; at the latest, if it ends when the surface is still.
     pub end: f64,
+    /// Whether it ends when the solid's surface is still after the last load.
+    pub settles: bool,
     /// Δt over the smallest h/(|v| + c) of a cell; in (0, 0.9].
     pub cfl: f64,
     /// Whether coarse levels make longer steps than fine ones.

@@ -34,6 +34,9 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         .map_or(Geometry::Axisymmetric, |given| given.value);
     let time = time(&mut root, &mut faults);
     let (coupling, scheme) = read_coupling::coupling(&mut root, &mut faults);
+    if time.as_ref().is_some_and(|time| time.settles) {
+        cross::settles(scheme.as_ref(), &mut faults);
+    }
     let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value) };
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
     let mut fluid =
@@ -88,8 +91,9 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         notes,
     };
     if let Some((message, help)) = steps::too_many(&case) {
-        let end = document.get_ref().get("time").and_then(|time| time.get_ref().as_table()?.get("end"));
-        faults.at("time.end", &end.map_or(0..0, Spanned::span), message, help);
+        let key = if case.time.settles { "longest" } else { "end" };
+        let end = document.get_ref().get("time").and_then(|time| time.get_ref().as_table()?.get(key));
+        faults.at(&format!("time.{key}"), &end.map_or(0..0, Spanned::span), message, help);
         return Err(faults.0);
     }
     Ok(case)
@@ -100,7 +104,18 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
         root.missing("time", "write [time] and below it `end = ...`, in seconds", faults);
     }
     let mut table = root.table("time", faults)?;
-    let end = table.required_positive("end", "s", faults);
+    let settles = matches!(table.text("end"), Some("settled"));
+    let end = if settles {
+        table.raw("end");
+        table.required_positive("longest", "s", faults)
+    } else {
+        let end = table.required_positive("end", "s", faults);
+        if let Some(longest) = table.raw("longest") {
+            let help = "remove it, or write end = \"settled\"";
+            faults.of(&longest, "only a run with end = \"settled\" has a limit besides its end", help);
+        }
+        end
+    };
     let cfl = table.number("cfl", "1", faults);
     if let Some(cfl) = &cfl
         && !(cfl.value > 0.0 && cfl.value <= 0.9)
@@ -140,6 +155,7 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
     }
     Some(Time {
         end,
+        settles,
         cfl: cfl.map_or(0.45, |given| given.value),
         local_steps: local_steps.is_some_and(|given| given.value),
         snapshots: resolve(times, end),

@@ -44,6 +44,14 @@ impl<'a> Table<'a> {
         Some(Given { value: (), path: self.path_of(key), span: value.span() })
     }
 
+    /// The value of a key, if it is a string; whoever asks reads it, too.
+    pub fn text(&self, key: &str) -> Option<&'a str> {
+        match self.entries.get(key)?.get_ref() {
+            DeValue::String(text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// The value of a key as it stands.
     pub fn raw(&mut self, key: &'static str) -> Option<Given<&'a DeValue<'a>>> {
         self.asked.push(key);

@@ -50,6 +50,11 @@ impl Schedule {
         self.next == self.times.len()
     }
 
+    /// Ends the run with the step that has been made.
+    pub fn end(&mut self) {
+        self.next = self.times.len();
+    }
+
     /// Makes a step end at `time`, too, once; a time that is past is forgotten.
     pub fn land_at(&mut self, time: f64) {
         self.landing = Some(time);

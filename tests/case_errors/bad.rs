@@ -20,6 +20,10 @@ pub const BAD: &[(Edit, &[&str])] = &[
     // Time.
     (Replace("end = 1e-6", ""), &["time.end: `end` is missing", "in s"]),
     (Replace("end = 1e-6", "end = \"1e-6\""), &["time.end: must be a number", "without quotes", "in s"]),
+    (Replace("end = 1e-6", "end = \"settled\""), &["time.longest: `longest` is missing", "in s"]),
+    (Replace("end = 1e-6", "end = \"settled\"\nlongest = 0"), &["time.longest: must be positive", "in s"]),
+    (Replace("end = 1e-6", "end = \"settled\"\nlongest = 1e-6"), &["time.end: only a solid under a given load", "give time.end in s", "scheme = \"load\""]),
+    (Replace("end = 1e-6", "end = 1e-6\nlongest = 2e-6"), &["time.longest: only a run with end = \"settled\"", "remove it"]),
     (Replace("end = 1e-6", "end = 0"), &["time.end: must be positive, got 0.0", "in s"]),
     (Replace("end = 1e-6", "end = nan"), &["time.end: must be finite"]),
     (Replace("end = 1e-6", "end = 1e999"), &["time.end", "1e999"]),

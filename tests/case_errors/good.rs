@@ -183,6 +183,11 @@ fn a_load_on_a_solid_alone_survives_being_written_out() {
     let stronger =
         Case::from_toml(text, "load", &["coupling.load.amplitude=3e6".to_owned()]).expect("a case");
     assert_ne!(stronger.hash(), case.hash());
+    let waiting = text.replace("end = 1e-6", "end = \"settled\"\nlongest = 1e-6");
+    let waiting = Case::from_toml(&waiting, "load", &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    round_trip(&waiting);
+    assert!(waiting.time.settles && waiting.time.end == case.time.end);
+    assert_ne!(waiting.hash(), case.hash());
 }
 
 #[test]

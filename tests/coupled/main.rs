@@ -17,3 +17,4 @@ mod rest;
 mod spherical_pulse;
 mod start;
 mod steps;
+mod surface;

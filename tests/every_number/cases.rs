@@ -108,7 +108,7 @@ fn strong() -> String {
 /// A solid alone under a load, in plane strain.
 fn load() -> String {
     let text = [
-        "geometry = \"planar\"\n[time]\nend = 2e-7\n[solid]\n",
+        "geometry = \"planar\"\n[time]\nend = \"settled\"\nlongest = 2e-7\n[solid]\n",
         &grid([-0.01, 0.0], 0.01, [16, 16]),
         "levels = 1\n[solid.material]\ndensity = 7800.0\nc1 = 5900.0\nc2 = 3200.0\n",
         "[coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = 1e6\nradius = 2e-3\n",

@@ -4,9 +4,12 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use crate::output::run_directory::{FLUID_HISTORY, FLUID_SUMMARY, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY};
+use crate::output::run_directory::{
+    FLUID_HISTORY, FLUID_SUMMARY, HISTORY, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY,
+};
 use crate::output::{Join, RunDirectory, join_histories, summary};
 use crate::run::RunError;
+use crate::run::record::equivalent_load;
 
 /// Joins the histories and the parts of the summary.
 pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError> {
@@ -33,6 +36,7 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
             whole["coupling"][key] = json!(share);
         }
     }
+    whole.extend(equivalent_load::summary(&directory.file(HISTORY)));
     let warnings = warnings(&whole);
     for warning in &warnings {
         tracing::warn!("{warning}");
@@ -114,7 +118,34 @@ fn warnings(whole: &Map<String, Value>) -> Vec<String> {
              allow more coupling.max_iterations, or take a smaller time.cfl"
             )
         });
-    floor.into_iter().chain(redone).chain(unsettled).collect()
+    floor.into_iter().chain(redone).chain(unsettled).chain(surface_warnings(whole)).collect()
+}
+
+/// Depth of a pit over its radius above which strains are no longer small.
+const DEEPEST_OF_RADIUS: f64 = 0.05;
+
+/// Above this `surface_still` the depth of the surface is none of a pit.
+const ALMOST_STILL: f64 = 0.1;
+
+/// What has to be said of the solid's surface.
+fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> {
+    let number = |key: &str| whole.get(key).and_then(Value::as_f64);
+    let slope = number("pit_depth").zip(number("pit_radius")).map(|(depth, radius)| depth / radius);
+    let deep = slope.filter(|slope| *slope > DEEPEST_OF_RADIUS).map(|slope| {
+        format!(
+            "the pit is {:.1} % of its radius deep; above {:.0} % strains are no longer small, and the solid's equations are \
+             for small ones",
+            100.0 * slope,
+            100.0 * DEEPEST_OF_RADIUS
+        )
+    });
+    let moves = (whole.get("settled") == Some(&json!(false))).then(|| {
+        format!(
+            "the surface was not still at time.longest: surface_still = {:.2e} (see docs/output.md); make time.longest later",
+            number("surface_still").unwrap_or(f64::NAN)
+        )
+    });
+    deep.into_iter().chain(moves)
 }
 
 /// The numbers one asks for first, in words.
@@ -130,6 +161,12 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
     }
     if let (Some(peak), Some(time)) = (number("von_mises_peak"), number("von_mises_peak_time")) {
         words.push(format!("von Mises {:.4e} Pa at {:.4e} s", peak, time));
+    }
+    if let (Some(depth), Some(radius), Some(still)) =
+        (number("pit_depth"), number("pit_radius"), number("surface_still"))
+        && still <= ALMOST_STILL
+    {
+        words.push(format!("pit {depth:.4e} m deep, radius {radius:.4e} m, surface_still {still:.1e}"));
     }
     if let (Some(radius), Some(time)) = (number("min_equivalent_radius"), number("collapse_time")) {
         words.push(format!("smallest equivalent radius {:.4e} m at {:.4e} s", radius, time));

@@ -293,11 +293,7 @@ impl FluidRecord {
             Value::Object(mut map) => {
                 map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
                 if solver.has_field("tracer") {
-                    let around = match solver.mesh().domain().geometry {
-                        Geometry::Axisymmetric => 2.0 * std::f64::consts::PI,
-                        Geometry::Planar => 1.0,
-                    };
-                    map.insert("tracer_mass".to_owned(), json!(around * solver.tracer_mass()));
+                    map.insert("tracer_mass".to_owned(), json!(solver.tracer_mass()));
                 }
                 map
             }

@@ -137,7 +137,7 @@ impl InterfaceHistory {
 }
 
 /// Sets `/interface/r` to the centres of the cells that have these outer radii.
-fn put_centres(begin: f64, grid: &[f64], history: &mut HistoryFile) {
+pub fn put_centres(begin: f64, grid: &[f64], history: &mut HistoryFile) {
     let centre = |k: usize| 0.5 * (grid[k] + if k == 0 { begin } else { grid[k - 1] });
     let centres: Vec<f64> = (0..grid.len()).map(centre).collect();
     history.put("/interface/r", "m", "centres of the radial grid", &centres);

@@ -5,16 +5,20 @@
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
 //! | [`side_files`] | into which files |
 //! | [`interface_history`] | of the interface on a fixed grid |
+//! | [`surface`] | of the solid's surface: its displacement and the pit in it |
 //! | [`collapse`] | the collapse time |
 //! | [`timed`] | where the wall time goes |
+//! | [`equivalent_load`] | the Gaussian pulse nearest to what pressed on the wall |
 //! | [`conclusion`] | one history and one summary of both sides' parts |
 
 pub mod collapse;
 pub mod conclusion;
+pub mod equivalent_load;
 pub mod fluid_record;
 pub mod interface_history;
 pub mod side_files;
 pub mod solid_record;
+pub mod surface;
 pub mod timed;
 
 use mesh::{BLOCK, Limiter, Mesh, Misfit};

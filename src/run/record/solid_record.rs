@@ -2,7 +2,7 @@
 
 mod plastic;
 
-use mesh::BLOCK;
+use mesh::{BLOCK, Misfit};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use solid::SolidSolver;
@@ -13,6 +13,7 @@ use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
 use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 use crate::run::RunError;
 use crate::run::record::side_files::{FilesState, SideFiles, SideNames};
+use crate::run::record::surface::surface_record::{SurfaceRecord, SurfaceState};
 use crate::run::record::{
     CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
 };
@@ -29,6 +30,7 @@ pub struct SolidRecord {
     ticker: Ticker,
     probes: Vec<ProbeSeries>,
     faces: WallFaces,
+    surface: Option<SurfaceRecord>,
     cells: CellCount,
     peak: Peak,
     plastic: PlasticPeak,
@@ -49,6 +51,7 @@ pub struct SolidRecordState {
     files: FilesState,
     ticker: Ticker,
     probes: Vec<StepEnds>,
+    surface: Option<SurfaceState>,
     cells: CellCount,
     peak: Peak,
     plastic: PlasticPeak,
@@ -80,9 +83,16 @@ impl SolidRecord {
     ) -> Result<Self, RunError> {
         let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
         let mut record = Self::on(case, files, solver)?;
-        let SolidRecordState { files, ticker, probes, cells, peak, plastic, initial_energy } = saved;
+        let SolidRecordState { files, ticker, probes, surface, cells, peak, plastic, initial_energy } = saved;
         record.ticker = ticker;
         restore_probes(&mut record.probes, probes)?;
+        match (&mut record.surface, surface) {
+            (Some(own), Some(saved)) => {
+                own.restore(saved, solver, &record.faces, &mut record.files.history)?;
+            }
+            (None, None) => {}
+            _ => return Err(Misfit("only one of both has a surface".to_owned()).into()),
+        }
         record.cells = cells;
         record.peak = peak;
         record.plastic = plastic;
@@ -102,6 +112,7 @@ impl SolidRecord {
             ticker,
             probes,
             faces: _,
+            surface,
             cells,
             peak,
             plastic,
@@ -111,6 +122,7 @@ impl SolidRecord {
             files: files.saved(),
             ticker: *ticker,
             probes: saved_probes(probes),
+            surface: surface.as_ref().map(SurfaceRecord::saved),
             cells: *cells,
             peak: *peak,
             plastic: *plastic,
@@ -142,6 +154,8 @@ impl SolidRecord {
         let covered = case.coupling.scheme != coupler::Scheme::None;
         let interface_z = covered.then(|| mesh.domain().z[1]);
         let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, history)?;
+        let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
+        let surface = SurfaceRecord::create(case, solver, &faces, history)?;
         let totals = solver.totals();
         Ok(Self {
             files,
@@ -150,7 +164,8 @@ impl SolidRecord {
             conservation,
             ticker: Ticker::of(case),
             probes,
-            faces: WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges()),
+            faces,
+            surface,
             cells: CellCount::default(),
             plastic: PlasticPeak::default(),
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
@@ -172,7 +187,10 @@ impl SolidRecord {
     pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
         self.cells.see(mesh.cells());
-        self.faces.update(mesh.generation(), || solver.interface_edges());
+        let changed = self.faces.update(mesh.generation(), || solver.interface_edges());
+        if let Some(surface) = &mut self.surface {
+            surface.after_step(solver, plan.dt, (&self.faces, changed));
+        }
         self.write(solver, plan.dt)?;
         if plan.snapshot {
             self.snapshot(solver)?;
@@ -228,6 +246,9 @@ impl SolidRecord {
                 row.push(released);
             }
             history.push(self.conservation, &row)?;
+            if let Some(surface) = &self.surface {
+                surface.write(solver, history)?;
+            }
         }
         for probe in &mut self.probes {
             let Some(state) = solver.sample(probe.probe.position) else { continue };
@@ -255,7 +276,13 @@ impl SolidRecord {
         Ok(())
     }
 
-    fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
+    /// The surface, where something acts on it.
+    pub fn surface(&self) -> Option<&SurfaceRecord> {
+        self.surface.as_ref()
+    }
+
+    /// Writes a snapshot.
+    pub fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
         self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
     }
 
@@ -274,6 +301,7 @@ impl SolidRecord {
                 if solver.is_plastic() {
                     map.extend(self.plastic.summary(solver));
                 }
+                map.extend(self.surface.iter().flat_map(|surface| surface.summary(solver)));
                 map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
                 map
             }

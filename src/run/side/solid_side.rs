@@ -288,6 +288,19 @@ impl SolidSide {
         self.memory.look(self.solver.mesh().cells(), self.solver.time(), "solid")
     }
 
+    /// Ends the run after a step alone if that is what the surface's rest is for.
+    fn end_if_settled(&mut self, plan: Plan) -> Result<(), RunError> {
+        let Some(record) = &mut self.record else { return Ok(()) };
+        let is_settled = record.surface().is_some_and(|surface| surface.is_settled());
+        if is_settled && !self.schedule.is_over() {
+            self.schedule.end();
+            if !plan.snapshot {
+                record.snapshot(&self.solver)?;
+            }
+        }
+        Ok(())
+    }
+
     fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
         let start = Instant::now();
         if let Some(record) = &mut self.record {

@@ -5,7 +5,7 @@ pub(crate) mod bubbles;
 pub(crate) mod ledger;
 
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
-use mesh::{Field, GHOSTS, Padded, limited_differences};
+use mesh::{Field, GHOSTS, Geometry, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
 use crate::state::COUNT;
@@ -159,15 +159,21 @@ impl<const N: usize> FluidSolver<N> {
         name != "tracer" || !self.model().carried.is_empty()
     }
 
-    /// The mass of the tracer, in the units of [`Totals::mass`]; 0 without one.
+    /// The mass of the tracer, kg (planar: kg per metre of depth); 0 without one.
     pub fn tracer_mass(&self) -> f64 {
+        if self.model().carried.is_empty() {
+            return 0.0;
+        }
         let first = self.state().components() - self.model().carried.len();
-        let Some(_) = self.model().carried.first() else { return 0.0 };
         let leaves = self.mesh().tree().leaves().iter().enumerate();
-        leaves.fold(0.0, |sum, (slot, id)| {
+        let mass = leaves.fold(0.0, |sum, (slot, id)| {
             let rows = self.state().component(slot, first).chunks_exact(N).enumerate();
             sum + rows.map(|(j, row)| self.mesh().volume(*id, j) * row.iter().sum::<f64>()).sum::<f64>()
-        })
+        });
+        match self.mesh().domain().geometry {
+            Geometry::Axisymmetric => 2.0 * std::f64::consts::PI * mass,
+            Geometry::Planar => mass,
+        }
     }
 
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.

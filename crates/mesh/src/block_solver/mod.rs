@@ -17,7 +17,7 @@ pub use model::{Marks, Model, Place, Step};
 pub use saved::SavedBlocks;
 
 use crate::{
-    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, StageTimer,
+    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side, StageTimer,
 };
 
 /// Cells, time, and how they advance: everything of a solver but the physics, which is its [`Model`].
@@ -197,6 +197,12 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Keeps the state at a point up to date within steps, too, in which its level makes a longer one.
     pub fn watch(&mut self, point: [f64; 2]) {
         self.levels.watch(point);
+    }
+
+    /// What has passed the faces along a side of the domain in a block's last step: a quantity of the model's registers, a mean over the
+    /// step. Lasts until the grid adapts.
+    pub fn passed(&self, slot: usize, side: Side, quantity: usize) -> &[f64; N] {
+        self.levels.passed().row(slot, side, quantity)
     }
 
     /// The finest level at the interface.

@@ -38,6 +38,16 @@ impl<T> SideFaces<T> {
         self.values.is_empty()
     }
 
+    /// How many faces of the finest level there are.
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// The finest level.
+    pub fn finest(&self) -> u8 {
+        self.finest
+    }
+
     /// Whether two are of the same faces.
     pub fn has_shape_of(&self, other: &Self) -> bool {
         self.finest == other.finest && self.values.len() == other.values.len()
@@ -87,6 +97,7 @@ mod tests {
         let [low, _, _, far] = SideFaces::along_sides(&mesh, |side| side != Side::ZMin, |_, along| along);
         let finest = mesh.tree().finest();
         assert!(low.is_empty() && !far.is_empty() && !far.has_shape_of(&low));
+        assert_eq!((far.finest(), far.len()), (finest, 64));
         assert_eq!(far.of(finest, 5), [5]);
         assert_eq!(far.of(finest - 1, 5), [10, 11]);
         assert_eq!(far.of(finest - 2, 15), [60, 61, 62, 63], "the last one along z");

@@ -131,6 +131,11 @@ impl<const N: usize> LevelSteps<N> {
         }
     }
 
+    /// What the blocks pass in their own steps.
+    pub fn passed(&self) -> &FluxRegister<N> {
+        &self.registers.own
+    }
+
     /// Which levels step when.
     pub fn clock(&self) -> &LevelClock {
         &self.clock

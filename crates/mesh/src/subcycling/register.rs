@@ -46,7 +46,7 @@ impl<const N: usize> FluxRegister<N> {
         &self.values
     }
 
-    /// Keeps the values on those sides of a block that meet another level.
+    /// Keeps the values on those sides of a block that meet another level, and on those of the domain.
     ///
     /// - `block`: its part of the register; `first`: the number of the first quantity; `values`: what passes the outer face of a side
     ///   above the padded cell `k`.
@@ -58,7 +58,7 @@ impl<const N: usize> FluxRegister<N> {
         values: impl Fn(Side, usize) -> [f64; K],
     ) {
         for side in Side::ALL {
-            if !Self::is_needed(mesh, slot, side) {
+            if !Self::is_needed(mesh, slot, side) && !mesh.touches(slot, side) {
                 continue;
             }
             let rows = &mut Self::rows(block, side)[first * N..];
@@ -126,6 +126,14 @@ impl<const N: usize> FluxRegister<N> {
         }
     }
 
+    /// A quantity along one side of a block, of those that are kept.
+    pub fn row(&self, slot: usize, side: Side, quantity: usize) -> &[f64; N] {
+        let quantities = self.values.components() / Side::ALL.len();
+        (self.values.component(slot, side as usize * quantities + quantity))
+            .first_chunk()
+            .expect("a row has as many faces as a block has cells along a side")
+    }
+
     /// The rows of one side in a block's part of the register: quantity by quantity, along the side.
     pub fn rows(block: &mut [f64], side: Side) -> &mut [f64] {
         let len = block.len() / Side::ALL.len();
@@ -169,15 +177,9 @@ impl<const N: usize> FluxRegister<N> {
                 *share = row.lower_share;
             }
         }
-        fn row<const N: usize>(of: &FluxRegister<N>, slot: usize, side: Side, quantity: usize) -> &[f64; N] {
-            let quantities = of.values.components() / Side::ALL.len();
-            (of.values.component(slot, side as usize * quantities + quantity))
-                .first_chunk()
-                .expect("a row has as many faces as a block has cells along a side")
-        }
         std::array::from_fn(|quantity| {
-            let own = row(self, slot, side, first + quantity);
-            let fine = children.map(|child| row(finer, child, opposite, first + quantity));
+            let own = self.row(slot, side, first + quantity);
+            let fine = children.map(|child| finer.row(child, opposite, first + quantity));
             std::array::from_fn(|along| {
                 let (child, at) = (fine[along / (N / 2)], 2 * (along % (N / 2)));
                 let (low, high) = (child[at], child[at + 1]);

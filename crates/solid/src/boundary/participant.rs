@@ -1,7 +1,7 @@
 //! The solid as one side of the interface: the only place where it meets the coupler.
 
 use coupler::{CommonRefinement, InterfaceStar, RegisterRow, TraceRow};
-use mesh::{Geometry, GroupStep, Padded};
+use mesh::{Geometry, GroupStep, Padded, Side};
 
 use crate::SolidSolver;
 use crate::boundary::Boundaries;
@@ -189,6 +189,20 @@ impl<const N: usize> SolidSolver<N> {
                 _ => {}
             }
         });
+    }
+
+    /// The velocity (v_z, v_r) of the surface in the last step, face by face: the star states that made it, so that what the surface has
+    /// gone is what the cells below have been strained. (What is in the cells themselves differs from it by what the scheme dissipates, also
+    /// where nothing moves any more.) To be called after a step, before the grid adapts.
+    ///
+    /// - `put`: gets the number of a face and its velocity, m/s.
+    pub fn surface_velocity(&self, mut put: impl FnMut(usize, [f64; 2])) {
+        for &slot in self.interface().blocks() {
+            let Some(first) = self.interface().first_face(slot) else { continue };
+            let along = |quantity| self.passed(slot, Side::ZMax, quantity);
+            let (normal, tangential) = (along(0), along(1));
+            (0..N).for_each(|j| put(first + j, [normal[j], tangential[j]]));
+        }
     }
 
     fn refine(&self, exchange: &mut WeakExchange, fluid_edges: &[f64]) {

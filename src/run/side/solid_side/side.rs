@@ -37,7 +37,8 @@ impl RunSide for SolidSide {
         };
         let after = timed.recorded(&mut self.record, plan);
         coupled_solver::step_alone(&mut self.solver, plan.dt, &self.rule, press, after)?;
-        self.adapt_if(adapts, plan.dt)?;
+        self.end_if_settled(plan)?;
+        self.adapt_if(adapts && !self.schedule.is_over(), plan.dt)?;
         Ok(true)
     }
 

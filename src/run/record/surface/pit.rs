@@ -1,0 +1,166 @@
+//! The pit in a surface: numbers of a profile.
+
+use mesh::Geometry;
+
+/// The part of the surface that counts as far away, of its extent in r.
+const FAR: f64 = 0.1;
+
+/// u_z on faces of equal width that follow each other in r.
+#[derive(Clone, Copy, Debug)]
+pub struct Profile<'a> {
+    /// Where the first face begins, m.
+    pub begin: f64,
+    /// The width of a face, m.
+    pub width: f64,
+    /// Whether r is a radius.
+    pub geometry: Geometry,
+    /// u_z, m.
+    pub displacement: &'a [f64],
+}
+
+/// What a surface is deeper than far away.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pit {
+    /// At the deepest point, m.
+    pub depth: f64,
+    /// At r = 0, m.
+    pub depth_axis: f64,
+    /// Where, outside the deepest point, the depth is half the largest one, m; `None` if nowhere.
+    pub radius: Option<f64>,
+    /// Between the surface and its level far away, up to where they meet outside the deepest point, m³ (planar: m²).
+    pub volume: f64,
+    /// How far the surface rises above that level outside of that, m.
+    pub rim: f64,
+}
+
+/// Whether the face number `k` of `count` is far away.
+pub fn is_far(k: usize, count: usize) -> bool {
+    k as f64 + 0.5 >= (1.0 - FAR) * count as f64
+}
+
+/// The level far away: the mean of u_z over the outer tenth in r, m.
+pub fn far(displacement: &[f64]) -> f64 {
+    let far = || displacement.iter().enumerate().filter(|(k, _)| is_far(*k, displacement.len()));
+    far().map(|(_, u)| u).sum::<f64>() / far().count().max(1) as f64
+}
+
+impl Profile<'_> {
+    /// The centre of a face, m.
+    fn centre(&self, k: usize) -> f64 {
+        self.begin + (k as f64 + 0.5) * self.width
+    }
+
+    /// The area of a face, m² (planar: m).
+    fn area(&self, k: usize) -> f64 {
+        match self.geometry {
+            Geometry::Planar => self.width,
+            Geometry::Axisymmetric => std::f64::consts::TAU * self.centre(k) * self.width,
+        }
+    }
+
+    /// Where, from face `from` on outwards, the depth has fallen to `level`: the first face below it, and r in between, m.
+    fn crossing(&self, depths: &[f64], from: usize, level: f64) -> Option<(usize, f64)> {
+        let after = (from + 1..depths.len()).find(|k| depths[*k] <= level)?;
+        let share = (depths[after - 1] - level) / (depths[after - 1] - depths[after]);
+        Some((after, self.centre(after - 1) + share * self.width))
+    }
+
+    /// The pit.
+    pub fn pit(&self) -> Pit {
+        let far = far(self.displacement);
+        let depths: Vec<f64> = self.displacement.iter().map(|u| far - u).collect();
+        let deepest = (0..depths.len()).fold(0, |best, k| if depths[k] > depths[best] { k } else { best });
+        let Some(&depth) = depths.get(deepest).filter(|depth| **depth > 0.0) else { return Pit::default() };
+        let end = self.crossing(&depths, deepest, 0.0).map_or(depths.len(), |(after, _)| after);
+        Pit {
+            depth,
+            depth_axis: self.on_axis(&depths),
+            radius: self.crossing(&depths, deepest, 0.5 * depth).map(|(_, r)| r),
+            volume: (0..end).map(|k| depths[k] * self.area(k)).sum(),
+            rim: depths[end..].iter().fold(0.0, |rim, depth| rim.max(-depth)),
+        }
+    }
+
+    /// At r = 0: between the faces' centres, or even in r where the domain begins there; of a domain elsewhere, on the nearest face.
+    fn on_axis(&self, depths: &[f64]) -> f64 {
+        let position = -self.begin / self.width - 0.5;
+        match depths {
+            [first, second, ..] if position <= -0.5 && position > -0.5 - 1e-6 => (9.0 * first - second) / 8.0,
+            _ => {
+                let last = depths.len() - 1;
+                let low = (position.max(0.0) as usize).min(last);
+                let share = (position - low as f64).clamp(0.0, 1.0);
+                depths[low] + share * (depths[(low + 1).min(last)] - depths[low])
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AXISYMMETRIC: Geometry = Geometry::Axisymmetric;
+
+    /// Means of u over faces of [begin, end), as values at their centres.
+    fn profile(count: usize, [begin, end]: [f64; 2], u: impl Fn(f64) -> f64) -> (f64, Vec<f64>) {
+        let width = (end - begin) / count as f64;
+        (width, (0..count).map(|k| u(begin + (k as f64 + 0.5) * width)).collect())
+    }
+
+    fn near(what: &str, found: f64, expected: f64, tolerance: f64) {
+        assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found:e}, expected {expected:e}");
+    }
+
+    #[test]
+    fn a_pit_with_a_rim_on_a_surface_that_has_moved() {
+        // −D (1 − s) exp(−s), s = (r/b)²: zero at r = b, its highest point e⁻² D at s = 2; all of it adds up to nothing.
+        let (depth, b, shift) = (2e-6, 1e-4, -3e-5);
+        let shape = |r: f64| {
+            let s = (r / b).powi(2);
+            shift - depth * (1.0 - s) * (-s).exp()
+        };
+        let (width, u) = profile(640, [0.0, 16.0 * b], shape);
+        let pit = Profile { begin: 0.0, width, geometry: AXISYMMETRIC, displacement: &u }.pit();
+        near("depth", pit.depth, depth, 1e-3);
+        near("on the axis", pit.depth_axis, depth, 1e-6);
+        // (1 − s) exp(−s) = ½ at s = 0.314923.
+        near("radius", pit.radius.expect("there is one"), b * 0.314_923_f64.sqrt(), 1e-3);
+        near("volume", pit.volume, depth * std::f64::consts::PI * b * b / std::f64::consts::E, 2e-3);
+        near("rim", pit.rim, depth * (-2.0_f64).exp(), 1e-3);
+    }
+
+    #[test]
+    fn a_ring_is_deepest_off_the_axis() {
+        let (b, depth) = (1e-4, 1e-6);
+        let shape = |r: f64| -depth * (0.2 + (r / b).powi(2)) * (-(r / b).powi(2)).exp();
+        let (width, u) = profile(400, [0.0, 10.0 * b], shape);
+        let pit = Profile { begin: 0.0, width, geometry: AXISYMMETRIC, displacement: &u }.pit();
+        near("on the axis", pit.depth_axis, 0.2 * depth, 1e-3);
+        // s = 0.8 there: exp(−0.8).
+        near("depth", pit.depth, depth * (-0.8_f64).exp(), 1e-3);
+        // Half of it at s = 2.38335 outside, not at the smaller s inside.
+        let s = (pit.radius.expect("there is one") / b).powi(2);
+        near("half", (0.2 + s) * (-s).exp(), 0.5 * (-0.8_f64).exp(), 2e-3);
+        assert!(s > 0.8);
+    }
+
+    #[test]
+    fn in_the_plane_volumes_are_areas_and_r_may_begin_below_zero() {
+        let shape = |r: f64| -1e-6 * (-r * r).exp();
+        let (width, u) = profile(801, [-8.0, 8.0], shape);
+        let pit = Profile { begin: -8.0, width, geometry: Geometry::Planar, displacement: &u }.pit();
+        near("on the axis", pit.depth_axis, 1e-6, 1e-6);
+        near("volume", pit.volume, 1e-6 * std::f64::consts::PI.sqrt(), 1e-3);
+        near("radius", pit.radius.expect("there is one"), std::f64::consts::LN_2.sqrt(), 1e-3);
+    }
+
+    #[test]
+    fn a_plane_surface_and_a_hill_have_no_pit() {
+        for shape in [|_: f64| -3e-5, |r: f64| 1e-6 * (-r * r).exp()] {
+            let (width, u) = profile(100, [0.0, 10.0], shape);
+            let pit = Profile { begin: 0.0, width, geometry: AXISYMMETRIC, displacement: &u }.pit();
+            assert!(pit.depth < 1e-20 && pit.volume < 1e-17, "{pit:?}");
+        }
+    }
+}
