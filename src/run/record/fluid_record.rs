@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::case::{Case, Medium};
-use crate::output::run_directory::{FLUID_FIELDS as FIELDS_FILE, FLUID_HISTORY};
 use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 use crate::run::record::collapse::CollapseFinder;
 use crate::run::record::interface_history::InterfaceHistory;
-use crate::run::record::side_files::{SideFiles, SideNames};
+use crate::run::record::side_files::SideFiles;
 use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
 use crate::run::schedule::Plan;
 use crate::run::side::wall_faces::WallFaces;
 
+mod files;
 mod fixups;
 pub mod saved;
 
@@ -59,7 +59,7 @@ impl FluidRecord {
         directory: Option<&RunDirectory>,
         solver: &FluidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
-        let mut record = Self::on(case, SideFiles::create(case, directory, names(solver))?, solver)?;
+        let mut record = Self::on(case, SideFiles::create(case, directory, files::names(solver))?, solver)?;
         record.cells.see(solver.mesh().cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
@@ -292,9 +292,9 @@ impl FluidRecord {
         match value {
             Value::Object(mut map) => {
                 map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
-                if solver.has_field("tracer") {
-                    map.insert("tracer_mass".to_owned(), json!(solver.tracer_mass()));
-                }
+                map.extend(
+                    solver.has_field("tracer").then(|| ("tracer_mass".into(), json!(solver.tracer_mass()))),
+                );
                 map
             }
             _ => unreachable!("an object was written"),
@@ -395,8 +395,3 @@ const PROBE_COLUMNS: [Column<'static>; 6] = [
     column("velocity_r", "m/s", "radial velocity"),
     column("gas_fraction", "1", "gas fraction"),
 ];
-
-fn names(solver: &FluidSolver<BLOCK>) -> SideNames<fluid::Snapshot> {
-    let fields = fluid::CELL_FIELDS.iter().filter(|field| solver.has_field(field.name));
-    SideNames { history: FLUID_HISTORY, snapshots: FIELDS_FILE, fields: fields.collect() }
-}

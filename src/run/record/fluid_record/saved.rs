@@ -4,7 +4,8 @@ use fluid::{Bubble, BubbleCuts, FluidSolver};
 use mesh::{BLOCK, Misfit};
 use serde::{Deserialize, Serialize};
 
-use super::{FluidRecord, Peaks, names};
+use super::files::names;
+use super::{FluidRecord, Peaks};
 use crate::case::Case;
 use crate::output::RunDirectory;
 use crate::run::RunError;
