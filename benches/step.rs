@@ -333,6 +333,7 @@ fn solid_with_a_pulse<const N: usize>(cells: usize, limiter: Limiter) -> Result<
         boundaries: [NonReflecting, Free, Axis, NonReflecting],
         adaptation: None,
         stress_scale: 1e6,
+        weight: None,
     };
     SolidSolver::new(setup, |[z, r]| ElasticState {
         stress_zz: 1e5 * (-((z + 0.01) * (z + 0.01) + r * r) / 1e-5).exp(),

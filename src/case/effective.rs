@@ -174,6 +174,9 @@ fn write_solid(text: &mut Lines, solid: &SolidCase) {
     text.name("initial_stress", &solid::InitialStress::NAMES, solid.initial_stress);
     text.name("limiter", &mesh::Limiter::NAMES, solid.limiter);
     text.number("scale_stress", solid.scale_stress);
+    if let Some(weight) = solid.weight {
+        text.number("gravity", weight.acceleration);
+    }
     write_refine(text, "[[solid.refine]]", &solid.grid);
     // The numbers, not only the name: a case stays what it is when the library changes.
     text.head("[solid.material]");

@@ -30,7 +30,7 @@ use std::path::{Path, PathBuf};
 use coupler::{Kappa, Participant, Scheme, StarSolver};
 use fluid::{Gravity, InitialCondition, Model, PhaseState, RiemannSolver, Shape, Sharpening, StiffenedGas};
 use mesh::{Adaptation, Geometry, Limiter, Side};
-use solid::{InitialStress, Material, PotentialPulse};
+use solid::{InitialStress, Material, PotentialPulse, Weight};
 
 pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
@@ -205,6 +205,8 @@ pub struct SolidCase {
     pub material: Material,
     /// How it yields and hardens; elastic without.
     pub plasticity: Option<solid::plasticity::Hardening>,
+    /// Its own weight, if it counts.
+    pub weight: Option<Weight>,
     /// The stress at t = 0 that carries the fluid's ambient pressure.
     pub initial_stress: InitialStress,
     /// The four sides in the order of [`Side::ALL`].

@@ -157,16 +157,17 @@ fn gravity(
         faults.of(&given, message, "remove it, or make the ambient phase \"liquid\"");
         return None;
     }
-    let highest = ambient.pressure + gravity.head(ambient.density, grid.z[1]);
-    let lowest = setting.liquid.map_or(0.0, |eos| -eos.pi);
-    if !(highest > lowest && highest.is_finite()) {
+    // As much as the pressure that the liquid can lose, either way.
+    let bearable = ambient.pressure + setting.liquid.map_or(0.0, |eos| eos.pi);
+    let head = gravity.head(ambient.density, grid.z[1]);
+    if head.abs() >= bearable || !head.is_finite() {
         let message =
-            format!("{:?} m/s2 means a pressure of {highest:?} Pa at z = {:?} m", given.value, grid.z[1]);
-        let most = (ambient.pressure - lowest) / (ambient.density * (grid.z[1] - grid.z[0]));
+            format!("{:?} m/s2 changes the pressure by {head:?} Pa up to z = {:?} m", given.value, grid.z[1]);
+        let most = bearable / (ambient.density * (grid.z[1] - grid.z[0]));
         faults.of(
             &given,
             message,
-            format!("the liquid bears more than {lowest:?} Pa: above {:?} m/s2", -most),
+            format!("the liquid bears less than {bearable:?} Pa: below {most:?} m/s2"),
         );
         return None;
     }

@@ -2,15 +2,15 @@
 
 use coupler::Scheme;
 use mesh::{Geometry, Limiter, Side};
-use solid::{Boundary, InitialStress, Material, MaterialError, PotentialPulse};
+use solid::{Boundary, InitialStress, Material, MaterialError, PotentialPulse, Weight};
 use toml::de::DeValue;
 
 use super::error::suggest;
 use super::read_grid::{GridPlace, grid};
 use super::read_plasticity::plasticity;
-use super::reader::{Faults, LARGEST, SMALLEST, Table, describe};
+use super::reader::{Faults, Given, LARGEST, SMALLEST, Table, describe};
 use super::shared::{Context, boundaries};
-use super::{SolidCase, scales};
+use super::{GridCase, SolidCase, scales};
 
 /// - `acting`: what acts on the solid from outside.
 pub(super) fn solid(
@@ -23,6 +23,7 @@ pub(super) fn solid(
     let material = material(&mut table, faults);
     let initial_stress = table.choice("initial_stress", &InitialStress::NAMES, faults);
     let boundary = sides(&mut table, context, faults);
+    let gravity = table.number("gravity", "m/s2", faults).filter(|given| given.value != 0.0);
     let limiter = table.choice("limiter", &Limiter::NAMES, faults);
     let given = table.table("plasticity", faults);
     let is_plastic = given.is_some();
@@ -36,18 +37,39 @@ pub(super) fn solid(
     }
     let (grid, place) = placed?;
     let material = material?;
+    let weight = match gravity {
+        Some(given) => Some(weight(&given, &grid, &material, faults)?),
+        None => None,
+    };
     let pulses: Vec<PotentialPulse> = pulses.into_iter().collect::<Option<_>>()?;
     let case = SolidCase {
         grid,
         scale_stress: scale_stress.unwrap_or_else(|| scales::stress(acting, &pulses, &material)),
         material,
         plasticity,
+        weight,
         initial_stress: initial_stress.map_or(InitialStress::Uniaxial, |given| given.value),
         boundary,
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),
         pulses,
     };
     Some((case, place))
+}
+
+/// Its own weight; the stress that the case says is that on the surface.
+fn weight(given: &Given<f64>, grid: &GridCase, material: &Material, faults: &mut Faults) -> Option<Weight> {
+    /// The largest strain that it may mean.
+    const SMALL_STRAIN: f64 = 0.01;
+    let [low, high] = grid.z;
+    let strain = (given.value * (high - low)).abs() / (material.c1() * material.c1());
+    if strain > SMALL_STRAIN {
+        let message =
+            format!("{:?} m/s2 means a stress of {strain:?} of the modulus at z = {low:?} m", given.value);
+        let most = SMALL_STRAIN * material.c1() * material.c1() / (high - low);
+        faults.of(given, message, format!("strains are small: at most {SMALL_STRAIN}, below {most:?} m/s2"));
+        return None;
+    }
+    Some(Weight { acceleration: given.value, level: high })
 }
 
 /// `material = "name"`, or a table with density and one pair of moduli or speeds.

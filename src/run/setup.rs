@@ -81,6 +81,7 @@ pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
         boundaries: solid.boundary,
         adaptation: solid.grid.adaptation.clone(),
         stress_scale: solid.scale_stress,
+        weight: solid.weight,
     }
 }
 
@@ -105,6 +106,9 @@ pub fn solid_solver(case: &Case, solid: &SolidCase) -> Result<SolidSolver<BLOCK>
     let (lambda, mu) = (solid.material.lambda(), solid.material.mu());
     SolidSolver::new(setup, |point| {
         let mut state = ElasticState { stress_zz: -on_wall(point[1]), ..ElasticState::default() };
+        if let Some(weight) = solid.weight {
+            state.stress_zz += weight.stress(solid.material.density(), point[0]);
+        }
         if solid.initial_stress == InitialStress::Hydrostatic {
             (state.stress_rr, state.stress_phiphi) = (-pressure, -pressure);
         }

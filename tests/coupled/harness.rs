@@ -241,6 +241,7 @@ pub fn elastic(
         boundaries,
         adaptation: None,
         stress_scale: 1e6,
+        weight: None,
     };
     Solid::new(setup, state).expect("a solid")
 }

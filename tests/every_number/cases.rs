@@ -7,7 +7,7 @@ fn full() -> String {
     let fluid = grid([0.0, 0.01], 0.01, [16, 16])
         + "levels = 1\nepsilon = 1e-3\nadapt_every = 2\nscale_pressure = 1e6\nscale_density = 1e3\ngravity = -9.81\n";
     let solid = grid([-0.01, 0.0], 0.01, [16, 16])
-        + "levels = 1\nepsilon = 1e-3\nadapt_every = 2\nscale_stress = 1e6\n";
+        + "levels = 1\nepsilon = 1e-3\nadapt_every = 2\nscale_stress = 1e6\ngravity = -9.81\n";
     let at_rest = "velocity = [0.0, 0.0]\n";
     let text = [
         "[time]\nend = 4e-8\ncfl = 0.4\nlocal_steps = true\nsnapshots = [1e-8, 2e-8]\n",

@@ -21,6 +21,7 @@ mod setup;
 mod solver;
 mod state;
 mod step;
+mod terms;
 
 pub use boundary::participant::{SurfaceTrace, WeakExchange};
 pub use diagnostics::ledger::{BoundaryLedger, PlasticLedger};
@@ -35,3 +36,4 @@ pub use riemann::WaveSpeeds;
 pub use setup::SolidSetup;
 pub use solver::{SolidSolver, SolidState};
 pub use state::ElasticState;
+pub use terms::weight::Weight;

@@ -77,6 +77,10 @@ impl<const N: usize> Model<N> for Solid {
         [self.setup.speeds.c1; 2]
     }
 
+    fn step_limit(&self, _: &BlockReport, widths: [f64; 2]) -> f64 {
+        self.terms.step_limit(widths)
+    }
+
     fn inadmissible_cell(&self, report: &BlockReport, block: &[f64]) -> Option<usize> {
         if report.mises_squared.is_finite() {
             return None;

@@ -8,6 +8,7 @@ use crate::boundary::absorbing::SideMemory;
 use crate::components::Component;
 use crate::plasticity::Plasticity;
 use crate::step::rows::Elasticity;
+use crate::terms::Terms;
 use crate::{BoundaryLedger, PlasticLedger, SolidSetup};
 
 /// An elastic or elastoplastic solid: what its cells obey, and what bounds them.
@@ -18,6 +19,7 @@ pub struct Solid {
     pub(crate) plasticity: Option<Plasticity>,
     /// What fields hold beyond velocity and stress.
     pub(crate) components: Vec<Component>,
+    pub(crate) terms: Terms,
     pub(crate) boundaries: Boundaries,
     pub(crate) sides: SideMemory,
     pub(crate) analysis: Analysis,

@@ -3,7 +3,7 @@
 use mesh::{Adaptation, Domain, Limiter};
 
 use crate::plasticity::Hardening;
-use crate::{Boundary, WaveSpeeds};
+use crate::{Boundary, WaveSpeeds, Weight};
 
 /// Everything that defines a solid.
 #[derive(Clone, Debug)]
@@ -28,4 +28,6 @@ pub struct SolidSetup {
     pub adaptation: Option<Adaptation>,
     /// Reference value of stresses, by which adaptation measures details, Pa; velocities count with ρ̄c₁.
     pub stress_scale: f64,
+    /// Its own weight, if it counts.
+    pub weight: Option<Weight>,
 }

@@ -14,6 +14,7 @@ use crate::plasticity::Plasticity;
 use crate::step::BlockScratch;
 use crate::step::report::BlockReport;
 use crate::step::rows::Elasticity;
+use crate::terms::Terms;
 use crate::{BoundaryLedger, ElasticState, PlasticLedger, SolidError, SolidSetup};
 
 /// The solid: a [`BlockSolver`] of elastic and plastic waves, which says how it is advanced, adapted, kept and taken up again.
@@ -50,6 +51,7 @@ impl<const N: usize> SolidSolver<N> {
             elasticity: Elasticity::new(setup.speeds),
             plasticity,
             components,
+            terms: Terms::of(&setup),
             boundaries: Boundaries::new(kinds, initial_states),
             sides: SideMemory::new(&mesh, kinds),
             analysis,

@@ -84,6 +84,10 @@ impl<const N: usize> SolidSolver<N> {
                         let state = [own(PLASTIC_STRAIN), own(TEMPERATURE)];
                         rate_with_flow(plasticity, w, state, 0.5 * dt, &mut rate);
                     }
+                    if let Some([gain_z, gain_r]) = self.model().terms.velocity_gain(1.0) {
+                        rate[V_Z] += gain_z;
+                        rate[V_R] += gain_r;
+                    }
                     let trace = |c: usize| w[c] + 0.5 * of(s_z, c);
                     // What face states within get besides, with the differences continued in a line beyond the surface.
                     let more = |c: usize| share * (of(s_z, c) - s_z.component(c)[k - 1]);

@@ -26,13 +26,14 @@ enum Stage {
     Faces,
     Register,
     Update,
+    Terms,
     Plastic,
     Report,
 }
 
 /// Their names.
 pub(crate) const STAGES: &[&str] =
-    &["assemble", "predict", "boundary", "faces", "register", "update", "plastic", "report"];
+    &["assemble", "predict", "boundary", "faces", "register", "update", "terms", "plastic", "report"];
 
 /// A block in a step.
 struct BlockStep<'a, const N: usize> {
@@ -69,6 +70,8 @@ pub(crate) fn step_block<const N: usize>(
     done(Stage::Register);
     block.update(scratch, new, &mut report);
     done(Stage::Update);
+    block.add_sources(new);
+    done(Stage::Terms);
     block.flow(new, &mut report);
     done(Stage::Plastic);
     block.report(scratch, new, &mut report);

@@ -7,7 +7,7 @@ use super::scratch::{BlockScratch, split_block};
 use crate::boundary::Boundaries;
 use crate::physics::{Solid, SolidStep};
 use crate::reconstruction::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
-use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R};
+use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R, V_Z};
 use crate::step::reflux::register_stars;
 use crate::step::report::{BlockReport, boundary_inflow, yielded_volume};
 use crate::step::rows::{self, Elasticity, Reconstruction};
@@ -85,6 +85,11 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             [r0, r1, r3, r4],
             scratch.half.split_mut(),
         );
+        if let Some(gain) = self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt) {
+            for (component, gain) in [V_Z, V_R].into_iter().zip(gain) {
+                scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);
+            }
+        }
     }
 
     /// States beyond the sides of the domain, and slopes on the surface under another medium.
@@ -125,6 +130,12 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr], dispersion };
         let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         rows::faces(&along_r, stride, stride, r_range, &ctx.model.elasticity, &mut scratch.r_faces);
+        ctx.model.terms.add_to_faces(self.inverse_h, [&mut scratch.z_faces, &mut scratch.r_faces]);
+    }
+
+    /// What terms add to the new cells, before they yield.
+    pub(super) fn add_sources(&self, new: &mut [f64]) {
+        self.ctx.model.terms.add_sources(self.ctx.dt, N * N, new);
     }
 
     /// What passes to blocks of other levels.

@@ -29,6 +29,7 @@ pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -
         boundaries,
         adaptation: None,
         stress_scale: 1e6,
+        weight: None,
     }
 }
 

@@ -14,3 +14,4 @@ mod plastic_waves;
 mod sides;
 mod surface;
 mod symmetry;
+mod weight;
