@@ -161,13 +161,16 @@ fn gravity(
     let bearable = ambient.pressure + setting.liquid.map_or(0.0, |eos| eos.pi);
     let head = gravity.head(ambient.density, grid.z[1]);
     if head.abs() >= bearable || !head.is_finite() {
-        let message =
-            format!("{:?} m/s2 changes the pressure by {head:?} Pa up to z = {:?} m", given.value, grid.z[1]);
-        let most = bearable / (ambient.density * (grid.z[1] - grid.z[0]));
+        let (g, density, z) = (given.value, ambient.density, grid.z[1]);
+        let message = format!(
+            "{g:?} m/s2 changes the pressure by {head:?} Pa up to fluid.z = {z:?} m, with fluid.ambient.density = {density:?} kg/m3"
+        );
+        let most = bearable / (density * (z - grid.z[0]));
+        let bears = format!("fluid.ambient.pressure + fluid.liquid.pi = {bearable:?} Pa");
         faults.of(
             &given,
             message,
-            format!("the liquid bears less than {bearable:?} Pa: below {most:?} m/s2"),
+            format!("the liquid bears less than {bears}: give less than {most:?} m/s2"),
         );
         return None;
     }

@@ -63,10 +63,16 @@ fn weight(given: &Given<f64>, grid: &GridCase, material: &Material, faults: &mut
     let [low, high] = grid.z;
     let strain = (given.value * (high - low)).abs() / (material.c1() * material.c1());
     if strain > SMALL_STRAIN {
-        let message =
-            format!("{:?} m/s2 means a stress of {strain:?} of the modulus at z = {low:?} m", given.value);
-        let most = SMALL_STRAIN * material.c1() * material.c1() / (high - low);
-        faults.of(given, message, format!("strains are small: at most {SMALL_STRAIN}, below {most:?} m/s2"));
+        let (g, c1) = (given.value, material.c1());
+        let message = format!(
+            "{g:?} m/s2 means a stress of {strain:?} of the modulus at solid.z = {low:?} m, with c1 = {c1:?} m/s (solid.material)"
+        );
+        let most = SMALL_STRAIN * c1 * c1 / (high - low);
+        faults.of(
+            given,
+            message,
+            format!("strains are small: at most {SMALL_STRAIN}; give less than {most:?} m/s2"),
+        );
         return None;
     }
     Some(Weight { acceleration: given.value, level: high })

@@ -61,7 +61,7 @@ fn the_plateau_is_the_half_riemann_solution() {
 /// are those of V − f(p*) = v_s(p* − p₀), v_s straight up to the elastic limit and beyond it.
 #[test]
 fn the_plateau_on_steel_that_yields_is_that_of_both_waves() {
-    let yielding = "[solid.plasticity]\nlaw = \"perfect\"\nyield_strength = 4e8";
+    let yielding = "[solid.plasticity]\nlaw = \"perfect\"\nyield_strength = 4e8\n";
     for star in ["exact", "acoustic"] {
         let (mean, off) = plateau(500.0, star, yielding, 100..180);
         for (c, exact) in [1.264_675_050_74e9, -31.923_171_947_7].into_iter().enumerate() {

@@ -7,7 +7,7 @@ use mesh::{
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
-use crate::boundary::far_field::{SideImpulses, SourceHistory};
+use crate::boundary::far_field::FarFieldMemory;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
 use crate::state::finished::{FinishedCell, measure_cell};
@@ -21,8 +21,7 @@ use crate::{Boundary, BoundaryLedger, Fixups, FluidError};
 /// What of a fluid changes in time besides its cells.
 #[derive(Serialize, Deserialize)]
 pub struct FluidMemory {
-    impulses: SideImpulses,
-    sources: SourceHistory,
+    far: FarFieldMemory,
     fixups: Fixups,
     ledger: BoundaryLedger,
 }
@@ -174,7 +173,7 @@ impl<const N: usize> Model<N> for Fluid {
         for side in Side::ALL {
             if self.boundaries.has_far_field(side) && mesh.touches(slot, side) {
                 for (along, gain) in report.impulse[side as usize].0.into_iter().enumerate() {
-                    self.impulses.add(side, id.level, id.first_face::<N>(side) + along, gain);
+                    self.far.impulses.add(side, id.level, id.first_face::<N>(side) + along, gain);
                 }
             }
         }
@@ -209,8 +208,7 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn memory(&self) -> FluidMemory {
         FluidMemory {
-            impulses: self.impulses.clone(),
-            sources: self.sources.clone(),
+            far: self.far.clone(),
             // Those of the traces shown are among them.
             fixups: self.tally.all_fixups(),
             ledger: self.tally.ledger,
@@ -218,11 +216,11 @@ impl<const N: usize> Model<N> for Fluid {
     }
 
     fn restore(&mut self, memory: FluidMemory) -> Result<(), Misfit> {
-        let FluidMemory { impulses, sources, fixups, ledger } = memory;
-        if !impulses.fits(&self.impulses) {
+        let FluidMemory { far, fixups, ledger } = memory;
+        if !far.impulses.fits(&self.far.impulses) {
             return Err(Misfit("the far field's faces are not those of the fluid's sides".to_owned()));
         }
-        (self.impulses, self.sources) = (impulses, sources);
+        self.far = far;
         self.tally = Tally { fixups, ledger, scaled_traces: SharedCount::default() };
         Ok(())
     }

@@ -4,7 +4,7 @@ use mesh::{Limiter, Mesh, Step};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
-use crate::boundary::far_field::{Moment, SideImpulses, SourceHistory};
+use crate::boundary::far_field::{FarFieldMemory, Moment};
 use crate::components::Component;
 use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
@@ -20,10 +20,8 @@ pub struct Fluid {
     pub(crate) terms: Terms,
     /// What the mass carries besides, in the order of the field's components after the model's own.
     pub(crate) carried: Vec<Component>,
-    /// What the far field remembers along the open sides.
-    pub(crate) impulses: SideImpulses,
-    /// What the bubbles have done lately.
-    pub(crate) sources: SourceHistory,
+    /// What the far field remembers.
+    pub(crate) far: FarFieldMemory,
     pub(crate) analysis: Analysis,
     /// Whether there is gas in each block, or will be at the end of the step it is in, as the reports have it.
     pub(crate) has_gas: Vec<bool>,
@@ -71,7 +69,7 @@ pub(crate) type FluidStep<'a, const N: usize> = Step<'a, Fluid, N>;
 impl Fluid {
     /// A step as the far field sees it.
     pub(crate) fn moment<const N: usize>(&self, step: &FluidStep<'_, N>) -> Moment<'_> {
-        Moment { middle: step.middle(), dt: step.dt, history: &self.sources }
+        Moment { middle: step.middle(), dt: step.dt, history: &self.far.sources }
     }
 }
 

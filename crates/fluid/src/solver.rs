@@ -6,6 +6,7 @@ use mesh::{BlockSolver, Domain, SavedBlocks, Side, SideStates};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
+use crate::boundary::far_field::FarFieldMemory;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::initial::fill;
 use crate::model::FluidMemory;
@@ -88,8 +89,10 @@ impl<const N: usize> FluidSolver<N> {
         });
         let boundaries = Boundaries::new(kinds, sides, setup.inflow.clone(), setup.far_field.clone());
         let fluid = Fluid {
-            impulses: boundaries.initial_impulses(&mesh, &mixture),
-            sources: boundaries.source_history(&setup.domain),
+            far: FarFieldMemory {
+                impulses: boundaries.initial_impulses(&mesh, &mixture),
+                sources: boundaries.source_history(&setup.domain),
+            },
             has_gas: Vec::new(),
             axis_blocks: Vec::new(),
             scheme: Scheme {

@@ -20,8 +20,7 @@ ROOT = Path(__file__).parents[3]
 
 def table():
     """The program's own table of bad cases: what is done to a good case, as text and `--set`."""
-    source = "".join((ROOT / "tests" / name).read_text() for name in ("case_errors.rs", "case_errors/bad.rs"))
-    good = re.search(r'const GOOD: &str = r#"(.*?)"#;', source, re.S)[1]
+    source, good = ((ROOT / "tests/case_errors" / name).read_text() for name in ("bad.rs", "good.toml"))
     rows = []
     for kind, arguments in re.findall(r"^    \((Whole|Replace|Append|Sets)\((.*?)\), &\[", source, re.M):
         given = ast.literal_eval(f"({arguments.replace('&[', '[')},)")

@@ -91,7 +91,7 @@ fn far_state<const N: usize>(
     if !(is_liquid(&trace) && is_liquid(&initial) && is_state) {
         return None;
     }
-    let impulse = ctx.model.impulses.at(side, level, along);
+    let impulse = ctx.model.far.impulses.at(side, level, along);
     let inner = Inner([trace.density, trace.v_z, trace.v_r, trace.pressure]);
     let centre = face_centre(ctx.mesh, side, level, along);
     let outer = far_field.outer(side, centre, inner, mixture, ctx.model.moment(ctx), impulse);

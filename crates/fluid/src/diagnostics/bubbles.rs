@@ -96,13 +96,13 @@ fn bubbles<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> 
 
 /// Tells the far field what the bubbles do; between two steps of the whole.
 pub(crate) fn follow_sources<const N: usize>(fluid: &mut BlockSolver<Fluid, N>) {
-    if !fluid.model().sources.is_due(fluid.time()) {
+    if !fluid.model().far.sources.is_due(fluid.time()) {
         return;
     }
-    let mut sources = std::mem::take(&mut fluid.model_mut().sources);
+    let mut sources = std::mem::take(&mut fluid.model_mut().far.sources);
     sources.cuts.follow(fluid);
     sources.sample(fluid.time(), &bubbles(fluid, &sources.cuts));
-    fluid.model_mut().sources = sources;
+    fluid.model_mut().far.sources = sources;
 }
 
 fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> Vec<Sums> {

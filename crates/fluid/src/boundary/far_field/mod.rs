@@ -13,6 +13,7 @@ mod incident;
 use std::f64::consts::PI;
 
 use mesh::{Domain, Geometry, Side};
+use serde::{Deserialize, Serialize};
 
 use crate::{
     Boundary, BubbleCuts, InitialCondition, InitialPressure, Mixture, Phase, PhaseState, PressureHistory,
@@ -24,6 +25,15 @@ use history::Motion;
 pub(crate) use history::SourceHistory;
 pub(crate) use impulse::{SideImpulses, face_centre};
 use incident::Incident;
+
+/// What the far field remembers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct FarFieldMemory {
+    /// Along the open sides.
+    pub impulses: SideImpulses,
+    /// What the bubbles have done lately.
+    pub sources: SourceHistory,
+}
 
 /// Why open sides of a fluid have no far field.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -14,10 +14,8 @@ const N: usize = 8;
 const LEN: usize = Padded::<N>::LEN;
 const STRIDE: usize = Padded::<N>::STRIDE;
 
-/// What a block of liquid goes through in a step, row by row; the gas fraction's rows hold zeros before it.
-fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
-    let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
-    // Waves along both axes, and one cell that keeps no slopes.
+/// Liquid with waves along both axes, and one cell that keeps no slopes; conserved variables.
+fn waves() -> Padded<N> {
     let wave = |k: usize| (k as f64 * 0.37).sin() + ((k / STRIDE) as f64 * 0.9).cos();
     let mut cells = Padded::<N>::zeros(COUNT);
     for k in 0..LEN {
@@ -27,6 +25,13 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
         let cell = [rho, rho * v_z, rho * v_r, internal + 0.5 * rho * (v_z * v_z + v_r * v_r), 0.0];
         cell.into_iter().enumerate().for_each(|(c, value)| cells.component_mut(c)[k] = value);
     }
+    cells
+}
+
+/// What a block of liquid goes through in a step, row by row; the gas fraction's rows hold zeros before it.
+fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
+    let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+    let mut cells = waves();
     let own = |c: usize| -> Vec<f64> {
         (0..N as isize).flat_map(|j| cells.component(c)[Padded::<N>::index(0, j)..][..N].to_vec()).collect()
     };
