@@ -103,7 +103,7 @@ impl<const N: usize> Model<N> for Solid {
         self.sides.take_over(mesh, slot);
     }
 
-    /// What can yield stays within its yield surface, see [`Admissible`]; what rounding and laws that soften by heat leave outside
+    /// What can yield stays within its yield surface, see `Admissible`; what rounding and laws that soften by heat leave outside
     /// is returned, and counted.
     fn remap(
         &mut self,
