@@ -58,10 +58,14 @@ struct Stencil<'a> {
 impl<'a> Stencil<'a> {
     #[inline(always)]
     fn cut(w: &Rows<'a>, p: &Predictor<'a>, at: usize, n: usize) -> Self {
-        let around = [at - 1, at + 1, at - p.stride, at + p.stride];
         Self {
             here: cut(w, at, n),
-            around: around.map(|at| cut(w, at, n)),
+            around: [
+                cut(w, at - 1, n),
+                cut(w, at + 1, n),
+                cut(w, at - p.stride, n),
+                cut(w, at + p.stride, n),
+            ],
             inverse_r: &p.inverse_r[at..][..n],
         }
     }
@@ -187,6 +191,7 @@ fn differences_and_half<const WITH_GAS: bool>(
     sound: &mut [f64],
 ) {
     let Stencil { here: w, around: [west, east, south, north], inverse_r } = cells;
+    let (inverse_h, half_dt, mixture) = (p.inverse_h, p.half_dt, p.mixture);
     for k in 0..n {
         let phi = fraction::<WITH_GAS>(w[PHI][k]);
         let here = [w[RHO][k], w[V_Z][k], w[V_R][k], w[PRESSURE][k], phi];
@@ -194,11 +199,11 @@ fn differences_and_half<const WITH_GAS: bool>(
         let along_r = |c: usize| limit(here[c] - south[c][k], north[c][k] - here[c]);
         let fraction_along_z = limit_fraction(phi - west[PHI][k], east[PHI][k] - phi);
         let fraction_along_r = limit_fraction(phi - south[PHI][k], north[PHI][k] - phi);
-        let [z_phi, r_phi] = [fraction_along_z, fraction_along_r].map(fraction::<WITH_GAS>);
+        let (z_phi, r_phi) = (fraction::<WITH_GAS>(fraction_along_z), fraction::<WITH_GAS>(fraction_along_r));
         let s_z = [along_z(RHO), along_z(V_Z), along_z(V_R), along_z(PRESSURE), z_phi];
         let s_r = [along_r(RHO), along_r(V_Z), along_r(V_R), along_r(PRESSURE), r_phi];
         let (half, kept, speed) =
-            whole_half_step::<WITH_GAS>(here, s_z, s_r, p.inverse_h, inverse_r[k], p.half_dt, &p.mixture);
+            whole_half_step::<WITH_GAS>(here, s_z, s_r, inverse_h, inverse_r[k], half_dt, &mixture);
         [z0[k], z1[k], z2[k], z3[k], _] = s_z;
         [r0[k], r1[k], r2[k], r3[k], _] = s_r;
         [h0[k], h1[k], h2[k], h3[k], _] = half;
@@ -218,9 +223,10 @@ fn half_again(
     [h0, h1, h2, h3, h4]: RowsMut<'_>,
     keep: &mut [f64],
 ) {
+    let (inverse_h, half_dt, mixture) = (p.inverse_h, p.half_dt, p.mixture);
     for k in 0..keep.len() {
-        let [w, s_z, s_r] = [&cells.here, &s_z, &s_r].map(|rows| at(rows, k));
-        let (half, kept) = half_step(w, s_z, s_r, p.inverse_h, cells.inverse_r[k], p.half_dt, &p.mixture);
+        let (w, s_z, s_r) = (at(&cells.here, k), at(&s_z, k), at(&s_r, k));
+        let (half, kept) = half_step(w, s_z, s_r, inverse_h, cells.inverse_r[k], half_dt, &mixture);
         [h0[k], h1[k], h2[k], h3[k], h4[k]] = half;
         keep[k] = kept;
     }

@@ -113,18 +113,16 @@ fn update_rows<const N: usize, const WITH_GAS: bool>(
     new: NewCells<'_>,
 ) {
     let NewCells { conserved: [rho, mz, mr, energy, phi], speeds: [speed_z, speed_r, floor] } = new;
-    let [z_faces, r_faces] = faces.map(FaceRows::fluxes);
+    let (z_faces, r_faces) = (faces[0].fluxes(), faces[1].fluxes());
     for j in 0..N {
         let at = j * N;
         let k = metric.origin + j * metric.stride;
         update_row::<N, WITH_GAS>(
             [row(old[0], at), row(old[1], at), row(old[2], at), row(old[3], at), row(old[4], at)],
-            [
-                FaceSlices::cut(z_faces, k - 1),
-                FaceSlices::cut(z_faces, k),
-                FaceSlices::cut(r_faces, k - metric.stride),
-                FaceSlices::cut(r_faces, k),
-            ],
+            FaceSlices::cut(z_faces, k - 1),
+            FaceSlices::cut(z_faces, k),
+            FaceSlices::cut(r_faces, k - metric.stride),
+            FaceSlices::cut(r_faces, k),
             metric.row(j),
             *mixture,
             row_mut(rho, at),
@@ -253,7 +251,10 @@ pub(crate) fn balance(
 #[inline(always)]
 fn update_row<const N: usize, const WITH_GAS: bool>(
     old: [&[f64; N]; COUNT],
-    [west, east, south, north]: [FaceSlices<'_, N>; 4],
+    west: FaceSlices<'_, N>,
+    east: FaceSlices<'_, N>,
+    south: FaceSlices<'_, N>,
+    north: FaceSlices<'_, N>,
     metric: RowMetric,
     mixture: Mixture,
     rho: &mut [f64; N],
