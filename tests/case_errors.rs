@@ -8,15 +8,17 @@ use cav::case::{Case, CaseErrors};
 
 #[path = "case_errors/bad.rs"]
 mod bad;
+mod fixture;
 #[path = "case_errors/good.rs"]
 mod good_cases;
 
 use bad::BAD;
+use fixture::SMALL;
 use good_cases::round_trip;
 
-/// A small coupled case that is right; Python's tests read it, too.
+/// A small coupled case that is right.
 fn good_text() -> String {
-    include_str!("case_errors/good.toml").to_owned()
+    SMALL.to_owned()
 }
 
 /// What is done to the good case.

@@ -1,5 +1,7 @@
 //! What the cells of a fluid obey, and what bounds them.
 
+use std::ops::Range;
+
 use mesh::{Limiter, Mesh, Step};
 
 use crate::analysis::Analysis;
@@ -67,6 +69,11 @@ impl Tally {
 pub(crate) type FluidStep<'a, const N: usize> = Step<'a, Fluid, N>;
 
 impl Fluid {
+    /// The components of the field that hold what the mass carries.
+    pub(crate) fn carried_components(&self) -> Range<usize> {
+        self.analysis.carried.clone()
+    }
+
     /// A step as the far field sees it.
     pub(crate) fn moment<const N: usize>(&self, step: &FluidStep<'_, N>) -> Moment<'_> {
         Moment { middle: step.middle(), dt: step.dt, history: &self.far.sources }

@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[3]
 
 def table():
     """The program's own table of bad cases: what is done to a good case, as text and `--set`."""
-    source, good = ((ROOT / "tests/case_errors" / name).read_text() for name in ("bad.rs", "good.toml"))
+    source, good = ((ROOT / "tests" / name).read_text() for name in ("case_errors/bad.rs", "fixture/small.toml"))
     rows = []
     for kind, arguments in re.findall(r"^    \((Whole|Replace|Append|Sets)\((.*?)\), &\[", source, re.M):
         given = ast.literal_eval(f"({arguments.replace('&[', '[')},)")

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hdf5::{Dataset, File};
+use nalgebra::{Matrix4, Vector4};
 use ndarray::{Array2, s};
 use serde_json::{Map, Value, json};
 
@@ -91,7 +92,7 @@ impl WallPressure {
         let (mut cost, mut damping) = (self.cost(&load), 1e-3);
         for _ in 0..MOST_STEPS {
             let (matrix, right) = self.normal_equations(&load);
-            let Some(step) = damped_step(matrix, right, damping) else { break };
+            let Some(step) = damped_step(matrix, &right, damping) else { break };
             let next = load.moved(step);
             let next_cost = self.cost(&next);
             if next_cost <= cost {
@@ -151,29 +152,29 @@ impl WallPressure {
     }
 
     /// The normal equations of a step in ln P₀, ln Δr, t₀/Δt, ln Δt.
-    fn normal_equations(&self, load: &EquivalentLoad) -> ([[f64; 4]; 4], [f64; 4]) {
+    fn normal_equations(&self, load: &EquivalentLoad) -> (Matrix4<f64>, Vector4<f64>) {
         let (in_time, in_radius) = self.factors(load);
-        let (mut matrix, mut right) = ([[0.0; 4]; 4], [0.0; 4]);
+        let (mut matrix, mut right) = (Matrix4::zeros(), Vector4::zeros());
         for ((row, cell), p) in self.values.indexed_iter() {
             let ([of_time, twice_time], [of_radius, twice_radius]) = (in_time[row], in_radius[cell]);
             let model = load.amplitude * of_time * of_radius;
-            let slopes = [
-                model,
-                model * 0.5 * twice_radius * twice_radius,
-                model * twice_time,
-                model * 0.5 * twice_time * twice_time,
-            ];
-            for i in 0..4 {
-                right[i] += slopes[i] * (p - model);
-                (0..4).for_each(|j| matrix[i][j] += slopes[i] * slopes[j]);
-            }
+            let slopes = model
+                * Vector4::new(
+                    1.0,
+                    0.5 * twice_radius * twice_radius,
+                    twice_time,
+                    0.5 * twice_time * twice_time,
+                );
+            right += slopes * (p - model);
+            matrix += slopes * slopes.transpose();
         }
         (matrix, right)
     }
 }
 
 impl EquivalentLoad {
-    fn moved(self, [amplitude, radius, time, duration]: [f64; 4]) -> Self {
+    fn moved(self, step: Vector4<f64>) -> Self {
+        let [amplitude, radius, time, duration] = step.into();
         Self {
             amplitude: self.amplitude * amplitude.exp(),
             radius: self.radius * radius.exp(),
@@ -184,26 +185,10 @@ impl EquivalentLoad {
     }
 }
 
-/// Solves (A + damping diag A) x = b by elimination; A is symmetric and positive. `None` if it is singular.
-fn damped_step(mut matrix: [[f64; 4]; 4], mut right: [f64; 4], damping: f64) -> Option<[f64; 4]> {
-    (0..4).for_each(|i| matrix[i][i] *= 1.0 + damping);
-    for i in 0..4 {
-        let pivot = matrix[i];
-        if !(pivot[i] > 0.0 && pivot[i].is_finite()) {
-            return None;
-        }
-        for k in i + 1..4 {
-            let factor = matrix[k][i] / pivot[i];
-            (i..4).for_each(|j| matrix[k][j] -= factor * pivot[j]);
-            right[k] -= factor * right[i];
-        }
-    }
-    let mut solution = [0.0; 4];
-    for i in (0..4).rev() {
-        let known: f64 = (i + 1..4).map(|j| matrix[i][j] * solution[j]).sum();
-        solution[i] = (right[i] - known) / matrix[i][i];
-    }
-    Some(solution)
+/// Solves (A + damping diag A) x = b; A is symmetric. `None` if it is not positive.
+fn damped_step(mut matrix: Matrix4<f64>, right: &Vector4<f64>, damping: f64) -> Option<Vector4<f64>> {
+    (0..4).for_each(|i| matrix[(i, i)] *= 1.0 + damping);
+    Some(matrix.cholesky()?.solve(right))
 }
 
 #[cfg(test)]

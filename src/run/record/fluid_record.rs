@@ -118,8 +118,7 @@ impl FluidRecord {
             last_bubble: Bubble::default(),
             largest_thin_volume: 0.0,
             collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
-                let turn = if case.geometry == Geometry::Axisymmetric { std::f64::consts::TAU } else { 1.0 };
-                fluid.initial.ambient.pressure * solver.bubble().volume / turn
+                fluid.initial.ambient.pressure * solver.bubble().volume / case.geometry.turn()
             }),
             cuts,
             bubbles,
@@ -292,9 +291,8 @@ impl FluidRecord {
         match value {
             Value::Object(mut map) => {
                 map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
-                map.extend(
-                    solver.has_field("tracer").then(|| ("tracer_mass".into(), json!(solver.tracer_mass()))),
-                );
+                let masses = solver.carried_masses();
+                map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));
                 map
             }
             _ => unreachable!("an object was written"),

@@ -42,23 +42,22 @@ impl Boundaries {
                 continue;
             }
             let first = id.first_face::<N>(side);
+            let outwards = if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 };
+            // What is kept is the state of the cell: half a width on, the pressure is that of liquid at rest there.
+            let per_density =
+                outwards * ctx.model.terms.acceleration()[axis(side)] * mesh.widths(id.level)[axis(side)];
             let far_field = self.far_field.as_ref().filter(|_| self.kind(side) == Boundary::FarField);
             for along in 0..N {
                 let (mut state, _) = *self.initial.at(side, id.level, first + along);
-                // What is kept is the state of the cell: half a width on, the pressure is that of liquid at rest there.
-                let outwards = if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 };
-                let acceleration = ctx.model.terms.acceleration()[axis(side)];
-                if acceleration != 0.0 {
-                    let width = mesh.widths(id.level)[axis(side)];
-                    state.pressure += outwards * state.density * acceleration * width;
+                if per_density != 0.0 {
+                    state.pressure += state.density * per_density;
                 }
                 let [inner, k] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
                 if let Some(history) = inflow {
                     state = entering(state, side, history.at(ctx.middle()), mixture);
                 }
                 if let Some(far_field) = far_field {
-                    let reach =
-                        if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 } * keep[inner];
+                    let reach = outwards * keep[inner];
                     let across = slopes[axis(side)];
                     let on_face = |c: usize| half.component(c)[inner] + reach * across.component(c)[inner];
                     let trace = Primitive::from_array(std::array::from_fn(on_face));

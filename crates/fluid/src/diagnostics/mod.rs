@@ -5,9 +5,10 @@ pub(crate) mod bubbles;
 pub(crate) mod ledger;
 
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
-use mesh::{Field, GHOSTS, Geometry, Padded, limited_differences};
+use mesh::{Field, GHOSTS, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
+use crate::components::is_component;
 use crate::state::COUNT;
 use crate::state::conserved::{ENERGY, MOMENTUM_Z, PHI, RHO};
 use crate::step::{BlockScratch, reconstruct};
@@ -156,24 +157,21 @@ impl<const N: usize> FluidSolver<N> {
 
     /// Whether its snapshots have a field.
     pub fn has_field(&self, name: &str) -> bool {
-        name != "tracer" || !self.model().carried.is_empty()
+        !is_component(name) || self.model().carried.iter().any(|carried| carried.name == name)
     }
 
-    /// The mass of the tracer, kg (planar: kg per metre of depth); 0 without one.
-    pub fn tracer_mass(&self) -> f64 {
-        if self.model().carried.is_empty() {
-            return 0.0;
-        }
-        let first = self.state().components() - self.model().carried.len();
-        let leaves = self.mesh().tree().leaves().iter().enumerate();
-        let mass = leaves.fold(0.0, |sum, (slot, id)| {
-            let rows = self.state().component(slot, first).chunks_exact(N).enumerate();
-            sum + rows.map(|(j, row)| self.mesh().volume(*id, j) * row.iter().sum::<f64>()).sum::<f64>()
-        });
-        match self.mesh().domain().geometry {
-            Geometry::Axisymmetric => 2.0 * std::f64::consts::PI * mass,
-            Geometry::Planar => mass,
-        }
+    /// The names and masses of what the mass carries besides, kg (planar: kg per metre of depth).
+    pub fn carried_masses(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let leaves = self.mesh().tree().leaves();
+        let of_block = move |component: usize, slot: usize| {
+            let rows = self.state().component(slot, component).chunks_exact(N).enumerate();
+            rows.map(|(j, row)| self.mesh().volume(leaves[slot], j) * row.iter().sum::<f64>()).sum::<f64>()
+        };
+        let carried = self.model().carried.iter().zip(self.model().carried_components());
+        carried.map(move |(carried, component)| {
+            let mass = (0..leaves.len()).fold(0.0, |sum, slot| sum + of_block(component, slot));
+            (carried.name, self.mesh().domain().geometry.turn() * mass)
+        })
     }
 
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
@@ -195,7 +193,6 @@ impl<const N: usize> FluidSolver<N> {
     /// All fields, cell by cell.
     pub fn snapshot(&self) -> Snapshot {
         let mut snapshot = Snapshot::default();
-        let first_carried = self.state().components() - self.model().carried.len();
         for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
             let [h_z, h_r] = self.mesh().widths(id.level);
             self.with_scratch(|scratch| {
@@ -218,9 +215,13 @@ impl<const N: usize> FluidSolver<N> {
                         let gradient = [s_z.component(RHO)[k] / h_z, s_r.component(RHO)[k] / h_r];
                         snapshot.schlieren.push(gradient[0].hypot(gradient[1]));
                         snapshot.level.push(f64::from(id.level));
-                        for (number, carried) in self.model().carried.iter().enumerate() {
-                            (carried.field)(&mut snapshot).push(at(first_carried + number));
-                        }
+                    }
+                }
+                for (carried, component) in self.model().carried.iter().zip(self.model().carried_components())
+                {
+                    let (cells, values) = (cells.component(component), carried.values(&mut snapshot));
+                    for j in 0..N as isize {
+                        values.extend_from_slice(&cells[Padded::<N>::index(0, j)..][..N]);
                     }
                 }
             });

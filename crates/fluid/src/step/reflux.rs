@@ -96,13 +96,12 @@ pub(crate) fn correct<const N: usize>(
         }
         phases.correct_gas(new, j * N + i, changes[GAS], ctx.mesh.volume(id, j), report);
     });
-    let first = ctx.old.components() - ctx.model.carried.len();
-    for number in 0..ctx.model.carried.len() {
+    for (number, component) in ctx.model.carried_components().enumerate() {
         finer.for_corrected_faces(ctx.mesh, slot, QUANTITIES + number, |face: CorrectedFace<1>| {
             let CorrectedFace { side, outward, cell: [i, j], difference: [flux] } = face;
             let is_along_z = matches!(side, Side::ZMin | Side::ZMax);
             let change = if is_along_z { dt_z * flux } else { dt_r * weight(side, j) * flux };
-            new[((first + number) * N + j) * N + i] -= outward * change;
+            new[(component * N + j) * N + i] -= outward * change;
         });
     }
 }

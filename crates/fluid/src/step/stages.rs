@@ -33,7 +33,7 @@ fn assemble<const N: usize>(
     }
     scratch.has_gas = with_gas;
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    let carried = ctx.old.components() - ctx.model.carried.len()..ctx.old.components();
+    let carried = ctx.model.carried_components();
     let components = if with_gas || !carried.is_empty() { ctx.old.components() } else { PHI };
     let analysis = CountedAnalysis::new(&ctx.model.analysis);
     cells.assemble_first(components, ctx.mesh, ctx.old, slot, &analysis, patch);
@@ -162,10 +162,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             ctx.model.terms.add(&block, [z_faces, r_faces], with_sources);
         }
         let BlockScratch { cells, carried, z_faces, r_faces, .. } = scratch;
-        let first = ctx.old.components() - carried.len();
-        for (number, carried) in carried.iter_mut().enumerate() {
+        for (component, carried) in ctx.model.carried_components().zip(carried) {
             let cells = CarriedCells {
-                fraction: cells.component(first + number),
+                fraction: cells.component(component),
                 velocity: VELOCITY.map(|c| cells.component(c)),
                 stride: Padded::<N>::STRIDE,
                 inverse_h: self.inverse_h,
@@ -210,9 +209,8 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         } else if !self.gas.is_present() {
             new[PHI * N * N..].fill(0.0);
         }
-        let first = ctx.old.components() - carried.len();
-        for (number, carried) in carried.iter().enumerate() {
-            let rows = (first + number) * N * N..(first + number + 1) * N * N;
+        for (component, carried) in ctx.model.carried_components().zip(carried) {
+            let rows = component * N * N..(component + 1) * N * N;
             carried.update::<N>(&old[rows.clone()], &metric, &mut new[rows]);
         }
     }

@@ -17,9 +17,6 @@ pub const KINDS: [Kind; 2] = [SHARP, MIXTURE];
 pub const SHARP: Kind = (Model::FiveEquation, Sharpening::Thinc);
 pub const MIXTURE: Kind = (Model::SaurelAbgrall, Sharpening::None);
 
-/// Courant number of the runs, that of the cases.
-pub const CFL: f64 = 0.45;
-
 pub const PERIODIC: [Boundary; 4] = [Boundary::Periodic; 4];
 pub const WALLS: [Boundary; 4] = [Boundary::Wall; 4];
 /// Axis, and walls elsewhere.
@@ -83,24 +80,6 @@ pub fn run_steps<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) {
     }
 }
 
-/// A step of all levels; its length, and that it is one.
-pub fn step_together<const N: usize>(fluid: &mut FluidSolver<N>) -> (f64, u32) {
-    let dt = fluid.time_step_limit(CFL);
-    fluid.step(dt).unwrap();
-    (dt, 1)
-}
-
-/// A step in which levels make steps of their own; its length, and how many of the finest level it holds.
-pub fn step_locally<const N: usize>(fluid: &mut FluidSolver<N>) -> (f64, u32) {
-    let (base, before) = (fluid.mesh().coarsest_base(), fluid.steps());
-    let dt = fluid.local_step_limit(CFL, base);
-    fluid.begin_step(dt, base);
-    while !fluid.clock().is_over() {
-        fluid.sub_step(CFL).unwrap();
-    }
-    (dt, (fluid.steps() - before) as u32)
-}
-
 /// Visits every cell: its place, its global indices, its state.
 pub fn each_cell<const N: usize>(
     fluid: &FluidSolver<N>,
@@ -156,4 +135,4 @@ pub fn l1<const N: usize, const K: usize>(
 #[path = "../../../../tests/fixture/verification.rs"]
 mod shared;
 
-pub use shared::{J1_ZEROS, j0, j1, order, scientific, strips};
+pub use shared::{CFL, J1_ZEROS, j0, j1, order, scientific, step_locally, step_together, strips};

@@ -13,6 +13,14 @@ impl Geometry {
     /// Names as they stand in case files.
     pub const NAMES: [(&'static str, Self); 2] =
         [("axisymmetric", Self::Axisymmetric), ("planar", Self::Planar)];
+
+    /// The whole of what is counted per radian: 2π, or 1 in planar geometry, where it is counted per metre of depth.
+    pub fn turn(self) -> f64 {
+        match self {
+            Self::Axisymmetric => std::f64::consts::TAU,
+            Self::Planar => 1.0,
+        }
+    }
 }
 
 /// A side of a rectangle, of a block or of the whole domain.

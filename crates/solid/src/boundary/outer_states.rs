@@ -32,6 +32,11 @@ impl Boundaries {
             }
             let across_z = side.axis_across() == 0;
             let first = id.first_face::<N>(side);
+            let inwards = if matches!(side, Side::ZMin | Side::RMin) { 0.5 } else { -0.5 };
+            // What is kept is the state of the cell; its weight changes the axial stress with every width.
+            let [acceleration, _] = ctx.model.terms.acceleration();
+            let per_width = if across_z { acceleration * mesh.widths(id.level)[0] } else { 0.0 };
+            let weight = 2.0 * inwards * ctx.model.setup.speeds.density * per_width;
             let mut absorption = (kind == Boundary::Absorbing).then(|| {
                 (
                     Absorption::new(mesh, side, id.level, ctx.dt, &ctx.model.elasticity),
@@ -57,11 +62,6 @@ impl Boundaries {
                 }
                 let mut outer = *self.initial.at(side, id.level, first + along);
                 let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
-                let inwards = if matches!(side, Side::ZMin | Side::RMin) { 0.5 } else { -0.5 };
-                // What is kept is the state of the cell; its weight changes the axial stress with every width.
-                let [acceleration, _] = ctx.model.terms.acceleration();
-                let per_width = if across_z { acceleration * mesh.widths(id.level)[0] } else { 0.0 };
-                let weight = 2.0 * inwards * ctx.model.setup.speeds.density * per_width;
                 if let Some((absorption, followed)) = &mut absorption {
                     let before = ctx.model.sides.at(side, id.level, first + along);
                     let (di, dj) = (i - i.clamp(0, n - 1), j - j.clamp(0, n - 1));

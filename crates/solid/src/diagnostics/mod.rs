@@ -3,7 +3,7 @@
 pub(crate) mod ledger;
 pub(crate) mod plastic;
 
-use mesh::{Geometry, Padded};
+use mesh::Padded;
 
 use crate::state::component::{COUNT, S_PHIPHI};
 use crate::step::{BlockScratch, reconstruct};
@@ -78,11 +78,8 @@ impl<const N: usize> SolidSolver<N> {
 
     /// The volume in which the von Mises stress exceeds the yield strength, m³ (planar: m² per metre of depth).
     pub fn yielded_volume(&self) -> f64 {
-        let turn = match self.mesh().domain().geometry {
-            Geometry::Axisymmetric => std::f64::consts::TAU,
-            Geometry::Planar => 1.0,
-        };
-        turn * self.reports().finished.iter().map(|report| report.yielded).sum::<f64>()
+        self.mesh().domain().geometry.turn()
+            * self.reports().finished.iter().map(|report| report.yielded).sum::<f64>()
     }
 
     /// Mass, axial momentum, kinetic and elastic energy in the domain.

@@ -1,7 +1,5 @@
 //! Numbers of plastic flow.
 
-use mesh::Geometry;
-
 use crate::SolidSolver;
 use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
 
@@ -81,10 +79,6 @@ impl<const N: usize> SolidSolver<N> {
     /// The cells whose plastic strain exceeds a threshold.
     pub fn plastic_zone(&self, threshold: f64) -> PlasticZone {
         let domain = self.mesh().domain();
-        let turn = match domain.geometry {
-            Geometry::Axisymmetric => std::f64::consts::TAU,
-            Geometry::Planar => 1.0,
-        };
         let mut zone = PlasticZone::default();
         for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
             if self.reports().finished[slot].plastic.strain <= threshold {
@@ -96,7 +90,7 @@ impl<const N: usize> SolidSolver<N> {
                     let [z, r] = self.mesh().centre(*id, i, j);
                     zone.depth = zone.depth.max(domain.z[1] - (z - 0.5 * h_z));
                     zone.radius = zone.radius.max(r + 0.5 * h_r);
-                    zone.volume += turn * self.mesh().volume(*id, j);
+                    zone.volume += domain.geometry.turn() * self.mesh().volume(*id, j);
                 }
             }
         }

@@ -5,9 +5,6 @@ use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
 
 pub const STEEL: WaveSpeeds = WaveSpeeds { density: 7800.0, c1: 5990.0, c2: 3458.0 };
 
-/// Courant number of the runs, that of the cases.
-pub const CFL: f64 = 0.45;
-
 pub const PERIODIC: [Boundary; 4] = [Boundary::Periodic; 4];
 /// Axis, and frictionless walls elsewhere.
 pub const CYLINDER: [Boundary; 4] =
@@ -92,4 +89,4 @@ pub fn l1<const N: usize>(
 #[path = "../../../../tests/fixture/verification.rs"]
 mod shared;
 
-pub use shared::{J1_ZEROS, j0, j1, j1_over, order, strips};
+pub use shared::{CFL, J1_ZEROS, j0, j1, j1_over, order, step_locally, step_together, strips};

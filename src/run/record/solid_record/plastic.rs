@@ -1,6 +1,6 @@
 //! What is written of plastic flow, in runs whose solid can yield.
 
-use mesh::{BLOCK, Geometry};
+use mesh::BLOCK;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use solid::SolidSolver;
@@ -43,7 +43,7 @@ impl PlasticPeak {
             (self.strain, self.position, self.time) = (peak.strain, peak.position, solver.time());
         }
         self.temperature = self.temperature.max(solver.temperature_max());
-        [largest, whole(solver, solver.plastic_ledger().work)]
+        [largest, whole_work(solver)]
     }
 
     /// The solid's part of the summary that is about plastic flow.
@@ -55,7 +55,7 @@ impl PlasticPeak {
         put("plastic_strain_peak_position", json!(has_flowed.then_some(self.position)));
         put("plastic_strain_peak_time", json!(has_flowed.then_some(self.time)));
         put("plastic_strain_rate_peak", json!(solver.plastic_ledger().rate_peak));
-        put("plastic_work", json!(whole(solver, solver.plastic_ledger().work)));
+        put("plastic_work", json!(whole_work(solver)));
         if solver.has_heat() {
             put("temperature_peak", json!(self.temperature));
         }
@@ -69,10 +69,7 @@ impl PlasticPeak {
     }
 }
 
-/// The whole of what is per radian in axial symmetry.
-fn whole(solver: &SolidSolver<BLOCK>, per_radian: f64) -> f64 {
-    match solver.mesh().domain().geometry {
-        Geometry::Axisymmetric => std::f64::consts::TAU * per_radian,
-        Geometry::Planar => per_radian,
-    }
+/// Plastic work so far, J (planar: J/m).
+fn whole_work(solver: &SolidSolver<BLOCK>) -> f64 {
+    solver.mesh().domain().geometry.turn() * solver.plastic_ledger().work
 }
