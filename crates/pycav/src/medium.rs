@@ -100,9 +100,8 @@ impl Medium for solid::SolidSolver<BLOCK> {
     fn traces(&self, dt: f64) -> Vec<SolidFace> {
         let mut traces = Vec::new();
         self.traces_at_mid_step(dt, &mut traces);
-        let impedance = self.setup().speeds.z1();
         let face = |own: solid::SurfaceTrace| SolidFace {
-            trace: SolidTrace { pressure: own.pressure, velocity: own.velocity, impedance },
+            trace: SolidTrace { pressure: own.pressure, velocity: own.velocity, impedance: own.impedance },
             shear: own.shear,
         };
         traces.into_iter().map(face).collect()

@@ -44,9 +44,8 @@ impl Load {
             self.measure(geometry);
         }
         solver.group_traces_at_mid_step(step, &mut self.traces);
-        let impedance = solver.setup().speeds.z1();
         let now = self.amplitude * self.factor.at(step.begin + 0.5 * step.dt);
-        for (face, &SurfaceTrace { pressure, velocity, .. }) in self.traces.iter().enumerate() {
+        for (face, &SurfaceTrace { pressure, velocity, impedance, .. }) in self.traces.iter().enumerate() {
             if solver.group_of_face(face) == step.group {
                 let trace = SolidTrace { pressure, velocity, impedance };
                 let star = solid_under_pressure(&trace, now * self.profile[face]);

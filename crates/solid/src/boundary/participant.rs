@@ -6,9 +6,9 @@ use mesh::{Geometry, GroupStep, Padded, Side};
 use crate::SolidSolver;
 use crate::boundary::Boundaries;
 use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
-use crate::plasticity::{Plasticity, Stress};
+use crate::plasticity::{Plasticity, Returned, Stress};
 use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
-use crate::step::rows::rates;
+use crate::step::rows::{Elasticity, rates};
 use crate::step::{BlockScratch, reconstruct};
 
 /// What the solid knows of its interface with the fluid in the weak scheme: faces, sub-faces, and the last step's states.
@@ -35,6 +35,8 @@ pub struct SurfaceTrace {
     pub tangential_velocity: f64,
     /// σ_zr, Pa.
     pub shear: f64,
+    /// Of the wave that leaves the surface, Pa s/m: ρ̄c₁, where the cell below flows ρ̄ times the speed of the plastic wave.
+    pub impedance: f64,
 }
 
 impl<const N: usize> SolidSolver<N> {
@@ -79,10 +81,15 @@ impl<const N: usize> SolidSolver<N> {
                     let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
                     let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
                     let mut rate = rates(w, d_z, d_r, inverse_r[k], &self.model().elasticity);
+                    let mut impedance = self.model().elasticity.z1;
                     if let Some(plasticity) = &self.model().plasticity {
                         let own = |c: usize| if c < cells.components() { cells.component(c)[k] } else { 0.0 };
                         let state = [own(PLASTIC_STRAIN), own(TEMPERATURE)];
-                        rate_with_flow(plasticity, w, state, 0.5 * dt, &mut rate);
+                        if let Some(end) = rate_with_flow(plasticity, w, state, 0.5 * dt, &mut rate) {
+                            let Elasticity { p_modulus, inverse_density, .. } = self.model().elasticity;
+                            let modulus = plasticity.tangent_modulus(p_modulus, &end, 0.5 * dt);
+                            impedance = (modulus / inverse_density).sqrt();
+                        }
                     }
                     if let Some([gain_z, gain_r]) = self.model().terms.velocity_gain(1.0) {
                         rate[V_Z] += gain_z;
@@ -102,7 +109,7 @@ impl<const N: usize> SolidSolver<N> {
                     put(TraceRow::TangentialVelocityRate, face, rate[V_R]);
                     put(TraceRow::PressureSlope, face, -of(s_r, S_NORMAL[0]) * inverse_h[1]);
                     put(TraceRow::NormalVelocitySlope, face, d_r[V_Z]);
-                    put(TraceRow::Impedance, face, self.model().elasticity.z1);
+                    put(TraceRow::Impedance, face, impedance);
                     for row in [TraceRow::DensityRate, TraceRow::DensitySlope, TraceRow::Gamma, TraceRow::Pi]
                     {
                         put(row, face, 0.0);
@@ -190,6 +197,7 @@ impl<const N: usize> SolidSolver<N> {
                 TraceRow::TangentialVelocity => trace.tangential_velocity += value,
                 TraceRow::TangentialVelocityRate => trace.tangential_velocity += half * value,
                 TraceRow::Shear => trace.shear = value,
+                TraceRow::Impedance => trace.impedance = value,
                 _ => {}
             }
         });
@@ -229,7 +237,7 @@ impl<const N: usize> SolidSolver<N> {
     }
 }
 
-/// Where a cell flows by mid-step, the rates of its stresses that lead to where it is then, as the step itself has it.
+/// Where a cell flows by mid-step, the rates of its stresses that lead to where it is then, as the step itself has it, and that state.
 ///
 /// - `half`: half the step, s; none where it is 0.
 fn rate_with_flow(
@@ -238,15 +246,15 @@ fn rate_with_flow(
     [strain, temperature]: [f64; 2],
     half: f64,
     rate: &mut [f64; 6],
-) {
-    let [_, _, zz, zr, rr, phiphi]: [f64; 6] = std::array::from_fn(|c| w[c] + half * rate[c]);
-    if half > 0.0
-        && let Some(returned) =
-            plasticity.return_map(Stress { zz, zr, rr, phiphi }, strain, temperature, half)
-    {
-        let Stress { zz, zr, rr, phiphi } = returned.stress;
-        for (c, stress) in [zz, zr, rr, phiphi].into_iter().enumerate() {
-            rate[2 + c] = (stress - w[2 + c]) / half;
-        }
+) -> Option<Returned> {
+    if !(half > 0.0) {
+        return None;
     }
+    let [_, _, zz, zr, rr, phiphi]: [f64; 6] = std::array::from_fn(|c| w[c] + half * rate[c]);
+    let returned = plasticity.return_map(Stress { zz, zr, rr, phiphi }, strain, temperature, half)?;
+    let Stress { zz, zr, rr, phiphi } = returned.stress;
+    for (c, stress) in [zz, zr, rr, phiphi].into_iter().enumerate() {
+        rate[2 + c] = (stress - w[2 + c]) / half;
+    }
+    Some(returned)
 }

@@ -106,6 +106,32 @@ impl Plasticity {
         if beyond { self.flow_back(trial, squared.sqrt(), strain, temperature, dt) } else { None }
     }
 
+    /// The modulus that a wave along z meets while the material flows: C_zzzz of the elastoplastic tangent,
+    ///
+    /// λ + 2μ − 9 μ² s_zz² / (q² (3μ + H)),  H = dY/dε_p at the end of the step, with what rate and heat do in it.
+    ///
+    /// Simo & Hughes (1998) eq. (2.2.22). Behind a plane wave, s_zz = ⅔ q, it is that of the plastic wave, K + 4μ/3 · H/(3μ + H).
+    /// Paper: none.
+    ///
+    /// - `p_modulus`: λ + 2μ, Pa. `end`: what [`Plasticity::return_map`] gave over `dt` > 0, s.
+    /// - returns: Pa, between K and λ + 2μ; a law that softens counts as perfect, as its waves are no waves.
+    /// - errors: none.  tested by: the plane wave's modulus, differences of returns.
+    #[must_use]
+    pub fn tangent_modulus(&self, p_modulus: f64, end: &Returned, dt: f64) -> f64 {
+        let q = end.von_mises;
+        if !(q > 0.0 && end.increment > 0.0) {
+            return p_modulus;
+        }
+        let rise = end.temperature - self.reference;
+        let flow = self.hardening.flow_at_rise(end.strain, end.increment / dt, rise);
+        let mut slope = flow.per_log_strain / end.strain + flow.per_log_rate / end.increment;
+        if rise > 0.0 {
+            slope += flow.per_log_rise / rise * self.heating * q;
+        }
+        let ratio = end.stress.deviator_zz() / q;
+        p_modulus - 9.0 * (self.mu * ratio).powi(2) / (3.0 * self.mu + slope.max(0.0))
+    }
+
     /// The return of what may lie outside; `von_mises` is the trial's q, Pa.
     fn flow_back(
         &self,

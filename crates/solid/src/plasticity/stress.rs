@@ -30,6 +30,13 @@ impl Stress {
         (self.zz + self.rr + self.phiphi) / 3.0
     }
 
+    /// s_zz, of the deviator.
+    #[inline(always)]
+    #[must_use]
+    pub fn deviator_zz(self) -> f64 {
+        self.zz - self.mean()
+    }
+
     /// The stress of the same mean with `factor` times the deviator; 0 leaves the mean alone.
     #[inline(always)]
     #[must_use]

@@ -24,7 +24,7 @@ fn dented(hardening: Option<Hardening>, adapts: bool) -> SolidSolver<8> {
 
 /// Whole steps with subcycling under A exp(−r²/b²) f(t); `after` is called at the end of each step of the finest level.
 fn press(solid: &mut SolidSolver<8>, amplitude: f64, steps: usize, mut after: impl FnMut(&SolidSolver<8>)) {
-    let (mut traces, impedance) = (vec![], STEEL.z1());
+    let mut traces = vec![];
     for _ in 0..steps {
         let base = solid.mesh().coarsest_base();
         let dt = solid.local_step_limit(CFL, base);
@@ -43,7 +43,7 @@ fn press(solid: &mut SolidSolver<8>, amplitude: f64, steps: usize, mut after: im
                 for (face, trace) in traces.iter().enumerate() {
                     if solid.group_of_face(face) == step.group {
                         let load = amplitude * factor * (-(edges[face] / 0.15).powi(2)).exp();
-                        let velocity = trace.velocity + (trace.pressure - load) / impedance;
+                        let velocity = trace.velocity + (trace.pressure - load) / trace.impedance;
                         let state = FaceState { pressure: load, velocity, power: load * velocity };
                         solid.interface_mut().set(face, state);
                     }

@@ -41,7 +41,6 @@ pub fn press<const N: usize>(
     mut after: impl FnMut(&mut SolidSolver<N>, f64),
 ) {
     let mut traces = vec![];
-    let impedance = solid.setup().speeds.z1();
     while solid.time() < end * (1.0 - 1e-12) {
         let left = end - solid.time();
         let dt = left / (left / solid.time_step_limit(CFL)).ceil();
@@ -52,7 +51,7 @@ pub fn press<const N: usize>(
         solid.interface_mut().set_all(|face| {
             let before = if face == 0 { low } else { edges[face - 1] };
             let load = pressure(0.5 * (before + edges[face]), middle);
-            let velocity = traces[face].velocity + (traces[face].pressure - load) / impedance;
+            let velocity = traces[face].velocity + (traces[face].pressure - load) / traces[face].impedance;
             FaceState { pressure: load, velocity, power: load * velocity }
         });
         solid.step(dt).unwrap();
@@ -118,6 +117,11 @@ fn both_waves_of_a_step_load_are_the_exact_ones() {
                 assert!(error.abs() < 1e-3, "{constants:?}: {c}: {found:?} of {expected:?}");
             }
         }
+        // Of a load that jumps, the surface's own cell has too much, on any grid: an overshoot that stays. 0.15 to 0.29 where the surface
+        // answers with the elastic impedance while it flows.
+        let excess = cells[0].1[3] / plateau[3] - 1.0;
+        eprintln!("{constants:?}: surface's own cell {excess:.3}");
+        assert!(excess.abs() < 0.19, "{constants:?}: {excess}");
         let middles = [0.5 * precursor[0], 0.5 * (precursor[0] + plateau[0])];
         for (middle, exact) in middles.into_iter().zip([fast, slow]) {
             let off = front(&cells, middle) / exact - 1.0;

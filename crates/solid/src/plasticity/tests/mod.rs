@@ -4,6 +4,7 @@ mod cavity;
 mod limits;
 mod random;
 mod rows;
+mod tangent;
 mod uniaxial;
 
 use super::{Hardening, JohnsonCook, RateFactor, Stress, Table, ThermalSoftening};
