@@ -13,7 +13,7 @@ use crate::run::process::drive::Joining;
 use crate::run::process::launch::run_side;
 use crate::run::process::launch_options::Options;
 use crate::run::process::stop::Stop;
-use crate::run::{RunError, resume, run};
+use crate::run::{RunError, resume, run, wall};
 use clap::{Args, Parser, Subcommand};
 use coupler::Participant;
 use tracing::Level;
@@ -183,7 +183,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, program: &[OsString])
         None => print(NEXT),
         Some(Commands::Materials) => print(&materials_table()),
         Some(Commands::Check { case, sets }) => {
-            Case::load(&case, &sets).map_err(RunError::from).and_then(|case| print(&report(&case)))
+            let checked = |case: &Case| wall::check(case).and_then(|()| print(&report(case)));
+            Case::load(&case, &sets).map_err(RunError::from).and_then(|case| checked(&case))
         }
         Some(Commands::Run(args)) => run_case(&args, program),
         Some(Commands::Fluid(args)) => side(&args, Participant::Fluid),

@@ -8,7 +8,7 @@ use mesh::{LevelBound, Side, Zone};
 use sha2::{Digest, Sha256};
 use solid::plasticity::Hardening;
 
-use super::{Case, FluidCase, GridCase, SolidCase};
+use super::{Case, FluidCase, GridCase, LoadCase, SolidCase};
 
 impl Case {
     /// The case as TOML with all defaults filled in; reading it gives this case again.
@@ -81,9 +81,14 @@ impl Case {
         }
         if let Some(load) = &self.coupling.load {
             text.head("[coupling.load]");
-            text.number("amplitude", load.amplitude);
-            text.number("radius", load.radius);
-            text.rows("history", &load.history);
+            match load {
+                LoadCase::Gaussian(load) => {
+                    text.number("amplitude", load.amplitude);
+                    text.number("radius", load.radius);
+                    text.rows("history", &load.history);
+                }
+                LoadCase::Recorded(load) => text.key("run", quoted(&load.run().to_string_lossy())),
+            }
         }
         for probe in &self.probes {
             text.head("[[probe]]");
@@ -172,6 +177,9 @@ fn write_solid(text: &mut Lines, solid: &SolidCase) {
     text.head("[solid]");
     write_grid(text, &solid.grid);
     text.name("initial_stress", &solid::InitialStress::NAMES, solid.initial_stress);
+    if let Some(run) = &solid.initial {
+        text.key("initial", quoted(&run.to_string_lossy()));
+    }
     text.name("limiter", &mesh::Limiter::NAMES, solid.limiter);
     text.number("scale_stress", solid.scale_stress);
     if let Some(weight) = solid.weight {

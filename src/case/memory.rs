@@ -38,9 +38,10 @@ struct Numbers {
 }
 
 fn of_solid(solid: &SolidCase) -> Numbers {
-    // Plastic strain, and temperature where heat matters.
-    let own = solid.plasticity.as_ref().map_or(0, |law| 1 + usize::from(law.softening().is_some()));
-    Numbers { components: 6 + own, registered: 4, values: SOLID_VALUES + own as f64 }
+    // Plastic strain, its rate, two of displacement (three in a snapshot), and temperature where heat matters.
+    let own = solid.plasticity.as_ref().map_or(0, |law| 4 + usize::from(law.softening().is_some()));
+    let values = if own > 0 { SOLID_VALUES + own as f64 + 1.0 } else { SOLID_VALUES };
+    Numbers { components: 6 + own, registered: 4, values }
 }
 
 fn of_fluid(fluid: &FluidCase) -> Numbers {

@@ -7,6 +7,7 @@ mod error;
 mod far_field;
 mod format;
 mod initial_pressure;
+mod load;
 mod memory;
 mod read;
 mod read_adaptation;
@@ -17,6 +18,7 @@ mod read_plasticity;
 mod read_shape;
 mod read_solid;
 mod reader;
+mod recorded_load;
 mod scales;
 mod set;
 mod shared;
@@ -34,8 +36,10 @@ use solid::{InitialStress, Material, PotentialPulse, Weight};
 
 pub use check::{materials_table, report};
 pub use error::{CaseError, CaseErrors};
+pub use load::{GaussianLoad, LoadCase};
 pub use memory::{Memory, available_memory};
 pub use read_adaptation::{DEFAULT_ADAPT_EVERY, DEFAULT_ERROR};
+pub use recorded_load::RecordedLoad;
 pub use steps::SMALLEST_STEP;
 
 /// A case: everything that says what a run computes, checked and with all defaults filled in.
@@ -211,6 +215,8 @@ pub struct SolidCase {
     pub initial_stress: InitialStress,
     /// The four sides in the order of [`Side::ALL`].
     pub boundary: [solid::Boundary; 4],
+    /// The run whose wall this one begins with, if it has been hit before.
+    pub initial: Option<PathBuf>,
     /// The limiter of the reconstruction.
     pub limiter: Limiter,
     /// Waves that are there at t = 0.
@@ -252,17 +258,6 @@ pub struct CouplingCase {
     pub connect_timeout: f64,
     /// How long a side waits for the other within a step, s.
     pub patience: f64,
-}
-
-/// `[coupling.load]`: the pressure A exp(−r²/b²) f(t) on the surface of a solid.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LoadCase {
-    /// A, Pa.
-    pub amplitude: f64,
-    /// b, m.
-    pub radius: f64,
-    /// Times (s, ascending) and factors f, linear in between, constant before and after.
-    pub history: Vec<[f64; 2]>,
 }
 
 /// One of the two media.
@@ -307,6 +302,17 @@ pub struct OutputCase {
 }
 
 impl Case {
+    /// The pressure that the solid's initial stress carries far from what is in the fluid, Pa; 0 where there is neither a fluid nor a
+    /// record of one.
+    #[must_use]
+    pub fn ambient_pressure(&self) -> f64 {
+        match (&self.fluid, &self.coupling.load) {
+            (Some(fluid), _) => fluid.initial.ambient.pressure,
+            (None, Some(LoadCase::Recorded(load))) => load.ambient(),
+            (None, _) => 0.0,
+        }
+    }
+
     /// Reads a case file, with `--set KEY=VALUE` changes applied to it.
     ///
     /// # Errors

@@ -1,10 +1,13 @@
 //! The `[coupling]` table.
 
+use std::path::Path;
+
 use coupler::{Kappa, Participant, Scheme, StarSolver};
 
 use super::reader::{Faults, Given, Table};
+use super::recorded_load::RecordedLoad;
 use super::shared::history;
-use super::{CouplingCase, LoadCase};
+use super::{CouplingCase, GaussianLoad, LoadCase};
 
 /// The most steps that one side makes within one of the other.
 const MOST_STEPS_IN_ONE: u32 = 16;
@@ -100,7 +103,7 @@ pub(super) fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCa
 fn load(coupling: &mut Table<'_>, scheme: Option<&Given<Scheme>>, faults: &mut Faults) -> Option<LoadCase> {
     if !coupling.has("load") {
         if let Some(scheme) = scheme.filter(|given| given.value == Scheme::Load) {
-            let help = "write [coupling.load] with `amplitude`, `radius` and `history`";
+            let help = "write [coupling.load] with `amplitude`, `radius` and `history`, or with `run`";
             faults.of(scheme, "scheme = \"load\" needs a load", help);
         }
         coupling.table("load", faults);
@@ -111,9 +114,34 @@ fn load(coupling: &mut Table<'_>, scheme: Option<&Given<Scheme>>, faults: &mut F
         let help = "remove it, or take scheme = \"load\" for a solid alone";
         faults.at(&table.path, &table.span, "only scheme = \"load\" has a load", help);
     }
+    if table.has("run") {
+        return recorded(table, faults);
+    }
     let amplitude = table.required("amplitude", "Pa", faults);
     let radius = table.required_positive("radius", "m", faults);
     let history = history(&mut table, "history", "s and 1", faults);
     table.finish(faults);
-    Some(LoadCase { amplitude: amplitude?.value, radius: radius?, history: history?.value })
+    let load = GaussianLoad { amplitude: amplitude?.value, radius: radius?, history: history?.value };
+    Some(LoadCase::Gaussian(load))
+}
+
+/// `run = "DIR"`: what the wall got there.
+fn recorded(mut table: Table<'_>, faults: &mut Faults) -> Option<LoadCase> {
+    let run = table.string("run", faults);
+    for key in ["amplitude", "radius", "history"] {
+        if let Some(given) = table.raw(key) {
+            let help = format!("remove `{key}`, or `run`");
+            faults.of(&given, "a load is either a pulse or what a run has recorded", help);
+        }
+    }
+    table.finish(faults);
+    let run = run?;
+    match RecordedLoad::read(Path::new(run.value)) {
+        Ok(load) => Some(LoadCase::Recorded(load)),
+        Err(fault) => {
+            let help = "give the directory of a finished run with a wall, as `cav run` has left it";
+            faults.of(&run, format!("cannot repeat the load of that run: {fault}"), help);
+            None
+        }
+    }
 }

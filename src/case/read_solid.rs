@@ -1,5 +1,7 @@
 //! The `[solid]` table.
 
+use std::path::PathBuf;
+
 use coupler::Scheme;
 use mesh::{Geometry, Limiter, Side};
 use solid::{Boundary, InitialStress, Material, MaterialError, PotentialPulse, Weight};
@@ -22,6 +24,7 @@ pub(super) fn solid(
     let placed = grid(&mut table, context, Side::ZMax, faults);
     let material = material(&mut table, faults);
     let initial_stress = table.choice("initial_stress", &InitialStress::NAMES, faults);
+    let initial = table.string("initial", faults);
     let boundary = sides(&mut table, context, faults);
     let gravity = table.number("gravity", "m/s2", faults).filter(|given| given.value != 0.0);
     let limiter = table.choice("limiter", &Limiter::NAMES, faults);
@@ -49,6 +52,7 @@ pub(super) fn solid(
         plasticity,
         weight,
         initial_stress: initial_stress.map_or(InitialStress::Uniaxial, |given| given.value),
+        initial: initial.map(|given| PathBuf::from(given.value)),
         boundary,
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),
         pulses,

@@ -58,8 +58,7 @@ pub(super) fn pulse_stress(pulse: &PotentialPulse, material: &Material) -> f64 {
 /// The largest stress in a solid, Pa: under a fluid the fluid's pressure scale, else that of its load and its pulses.
 pub(super) fn stress(acting: Acting<'_>, pulses: &[PotentialPulse], material: &Material) -> f64 {
     let of_pulse = |pulse: &PotentialPulse| pulse_stress(pulse, material);
-    let of_load =
-        acting.load.into_iter().flat_map(|load| load.history.iter().map(|row| load.amplitude * row[1]));
+    let of_load = acting.load.map(LoadCase::largest);
     acting.fluid.or_else(|| largest(pulses.iter().map(of_pulse).chain(of_load))).unwrap_or(QUIET_STRESS)
 }
 
@@ -72,6 +71,7 @@ fn largest(values: impl IntoIterator<Item = f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::GaussianLoad;
     use fluid::{Phase, Pulse, PulseShape, Region, Shape};
 
     const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
@@ -119,7 +119,8 @@ mod tests {
         let nothing = Acting::default();
         assert_eq!(stress(Acting { fluid: Some(5e7), load: None }, &[pulse(1.0)], &steel), 5e7);
         assert_eq!(stress(nothing, &[], &steel), QUIET_STRESS);
-        let load = LoadCase { amplitude: 2e6, radius: 1e-3, history: vec![[0.0, 0.0], [1e-6, -1.5]] };
+        let load = GaussianLoad { amplitude: 2e6, radius: 1e-3, history: vec![[0.0, 0.0], [1e-6, -1.5]] };
+        let load = LoadCase::Gaussian(load);
         assert_eq!(stress(Acting { fluid: None, load: Some(&load) }, &[], &steel), 3e6);
         let expected = 2.0 * 7800.0 * 3.6e7 * 3e-9 / 1e-6;
         assert!((stress(nothing, &[pulse(1e-9), pulse(-3e-9)], &steel) / expected - 1.0).abs() < 1e-12);

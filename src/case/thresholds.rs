@@ -41,10 +41,7 @@ fn prescribed(fluid: Option<&FluidCase>, solid: Option<&SolidCase>, load: Option
         };
         solid.pulses.iter().map(wave)
     });
-    let pressing = load.map(|load| {
-        let largest = load.history.iter().fold(0.0, |most: f64, row| most.max(row[1].abs()));
-        Wave { amplitude: load.amplitude.abs() * largest, width: load.radius }
-    });
+    let pressing = load.and_then(|load| Some(Wave { amplitude: load.largest(), width: load.width()? }));
     in_fluid.chain(in_solid).chain(pressing).filter(|wave| wave.amplitude > 0.0).collect()
 }
 

@@ -24,7 +24,7 @@ use super::{OutputError, safe_file};
 
 /// Format of the file and meaning of what states hold; a change of either counts it up. Names and types of what they hold need
 /// nobody's care, see [`layout_of`].
-pub const VERSION: u32 = 6;
+pub const VERSION: u32 = 7;
 
 const MAGIC: [u8; 8] = *b"cav\0ckpt";
 const CHECKSUM: usize = 32;
@@ -42,6 +42,14 @@ pub struct Head {
     pub side: String,
     /// Number of the step before which it was taken.
     pub step: u64,
+}
+
+impl Head {
+    /// Of this program.
+    pub fn of(case: [u8; 32], side: &str, step: u64) -> Self {
+        let program = format!("{} {}", env!("CARGO_PKG_VERSION"), env!("CAV_GIT_REVISION"));
+        Self { program, case, side: side.to_owned(), step }
+    }
 }
 
 /// Why a file is no checkpoint that can be used.

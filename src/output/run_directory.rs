@@ -29,13 +29,15 @@ pub const SOLID_SUMMARY: &str = "solid.json";
 pub const SUMMARY: &str = "summary.json";
 /// The effective case.
 pub const CASE: &str = "case.toml";
+/// What stays in a wall that can yield, for a run that goes on from it.
+pub const WALL: &str = "wall.state";
 /// The checkpoints of both sides, while the run is not finished.
 pub const CHECKPOINTS: &str = "checkpoints";
 /// The log.
 pub const LOG: &str = "log";
 
 /// All files that a run writes, so all that replacing one may delete.
-pub const FILES: [&str; 10] = [
+pub const FILES: [&str; 11] = [
     FLUID_FIELDS,
     SOLID_FIELDS,
     FLUID_HISTORY,
@@ -46,6 +48,7 @@ pub const FILES: [&str; 10] = [
     SUMMARY,
     CASE,
     LOG,
+    WALL,
 ];
 
 /// The directory of a run. The value that [`prepare`](Self::prepare) returns holds it against other runs until dropped.

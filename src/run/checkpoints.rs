@@ -79,8 +79,7 @@ impl Checkpoints {
             _ => {}
         }
         let path = self.path(side, step);
-        let program = format!("{} {}", env!("CARGO_PKG_VERSION"), env!("CAV_GIT_REVISION"));
-        let head = Head { program, case: self.case, side: side.name().to_owned(), step };
+        let head = Head::of(self.case, side.name(), step);
         checkpoint::write(&path, &head, state)?;
         let bytes = fs::metadata(&path).map_or(0, |file| file.len());
         tracing::info!(%side, step, bytes, seconds = start.elapsed().as_secs_f64(), "checkpoint");

@@ -94,6 +94,14 @@ pub enum RunError {
         /// Why not, and what helps.
         reason: String,
     },
+    /// The wall of an earlier run cannot be taken up.
+    #[error("solid.initial = \"{}\": {reason}", run.display())]
+    Wall {
+        /// The run's directory.
+        run: std::path::PathBuf,
+        /// Why not, and what helps.
+        reason: String,
+    },
     /// A checkpoint does not belong to what the case makes.
     #[error("the checkpoint does not fit the case: {0}; run the case anew in another directory")]
     Misfit(#[from] mesh::Misfit),
@@ -131,6 +139,7 @@ impl RunError {
             | Self::NoPeer { .. }
             | Self::PeerIsElsewhere { .. }
             | Self::Resume { .. }
+            | Self::Wall { .. }
             | Self::Misfit(_) => 2,
             Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
             Self::Coupler(CouplerError::NoState { .. }) => 3,
@@ -155,6 +164,7 @@ impl RunError {
             | Self::NoPeer { .. }
             | Self::PeerIsElsewhere { .. }
             | Self::Resume { .. }
+            | Self::Wall { .. }
             | Self::Misfit(_)
             | Self::Child { .. }
             | Self::Start { .. } => Fault::Other,

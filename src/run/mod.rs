@@ -9,6 +9,7 @@
 //! | [`process`] | `cav run`, one process or two; the step loops; signals; a run taken up again |
 //! | [`checkpoints`] | states to go on from: written, kept, chosen |
 //! | [`memory`] | whether a grid that grows still has room |
+//! | [`wall`] | what stays in a wall, for the run that hits it next |
 //! | [`error`] | what can go wrong, and the exit code it means |
 
 pub mod checkpoints;
@@ -19,6 +20,7 @@ pub mod record;
 pub mod schedule;
 pub mod setup;
 pub mod side;
+pub mod wall;
 
 pub use error::RunError;
 pub use process::launch::run;

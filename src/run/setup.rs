@@ -4,9 +4,11 @@ use fluid::{
     Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory, RayleighField,
 };
 use mesh::{BLOCK, Domain, Side};
-use solid::{ElasticState, InitialStress, PotentialPulse, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
+use solid::{ElasticState, InitialStress, PotentialPulse, SolidSetup, SolidSolver, WaveSpeeds};
 
-use crate::case::{Case, FluidCase, GridCase, SolidCase};
+use crate::case::{Case, FluidCase, GridCase, LoadCase, SolidCase};
+use crate::run::RunError;
+use crate::run::wall::Wall;
 
 fn domain(case: &Case, grid: &GridCase) -> Domain {
     Domain { geometry: case.geometry, z: grid.z, r: grid.r }
@@ -97,14 +99,30 @@ fn rayleigh_field(case: &Case) -> Option<RayleighField> {
 ///
 /// Where that pressure varies along the wall, σ_zz does so throughout the depth, and what is across stays as it is under
 /// the ambient pressure: div σ = 0, so nothing moves before the fluid does.
-pub fn solid_solver(case: &Case, solid: &SolidCase) -> Result<SolidSolver<BLOCK>, SolidError> {
-    let pressure = case.fluid.as_ref().map_or(0.0, |fluid| fluid.initial.ambient.pressure);
+pub fn solid_solver(case: &Case, solid: &SolidCase) -> Result<SolidSolver<BLOCK>, RunError> {
+    Ok(solid_and_displacement(case, solid)?.0)
+}
+
+/// The same with the displacement (u_z, u_r) of its surface on the faces of the finest level at t = 0, m, of a wall that has been hit before.
+pub fn solid_and_displacement(
+    case: &Case,
+    solid: &SolidCase,
+) -> Result<(SolidSolver<BLOCK>, Option<Vec<[f64; 2]>>), RunError> {
+    let pressure = case.ambient_pressure();
     let field = rayleigh_field(case);
     let surface = solid.grid.z[1];
-    let on_wall = |r: f64| field.as_ref().map_or(pressure, |field| field.pressure([surface, r]));
+    let recorded = match &case.coupling.load {
+        Some(LoadCase::Recorded(load)) => Some(load.at_start()),
+        _ => None,
+    };
+    let on_wall = |r: f64| match (&field, &recorded) {
+        (Some(field), _) => field.pressure([surface, r]),
+        (None, Some(start)) => start(r),
+        (None, None) => pressure,
+    };
     let setup = solid_setup(case, solid);
     let (lambda, mu) = (solid.material.lambda(), solid.material.mu());
-    SolidSolver::new(setup, |point| {
+    let initial = |point: [f64; 2]| {
         let mut state = ElasticState { stress_zz: -on_wall(point[1]), ..ElasticState::default() };
         if let Some(weight) = solid.weight {
             state.stress_zz += weight.stress(solid.material.density(), point[0]);
@@ -116,7 +134,14 @@ pub fn solid_solver(case: &Case, solid: &SolidCase) -> Result<SolidSolver<BLOCK>
             add_pulse(pulse, point, lambda, mu, &mut state);
         }
         state
-    })
+    };
+    match Wall::of(case, solid)? {
+        Some(wall) => {
+            let displacement = wall.displacement().to_vec();
+            Ok((wall.solver(setup, initial)?, Some(displacement)))
+        }
+        None => Ok((SolidSolver::new(setup, initial)?, None)),
+    }
 }
 
 /// Adds the stress of the displacement u = ∇(Φ exp(−R²/a²)), R the distance to the centre on the axis.

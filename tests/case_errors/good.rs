@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use cav::case::Case;
+use cav::case::{Case, LoadCase};
 use fluid::PulseShape;
 
 use crate::{good, good_text, with};
@@ -174,7 +174,7 @@ fn a_load_on_a_solid_alone_survives_being_written_out() {
         history = [[0, 0], [1e-7, 1.5]]\n[[probe]]\nname = \"s\"\nposition = [0, 0]\nmedium = \"solid\"\n";
     let case = Case::from_toml(text, "load", &[]).unwrap_or_else(|errors| panic!("{errors}"));
     round_trip(&case);
-    let load = case.coupling.load.as_ref().expect("the load");
+    let Some(LoadCase::Gaussian(load)) = &case.coupling.load else { panic!("{:?}", case.coupling.load) };
     assert_eq!((load.amplitude, load.radius, load.history.len()), (-2e6, 1e-3, 2));
     let solid = case.solid.as_ref().expect("the solid");
     // Thresholds are relative to the largest pressure of the history.

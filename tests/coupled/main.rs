@@ -7,6 +7,7 @@ mod exchange;
 mod fixture;
 mod hammer;
 mod harness;
+mod hits;
 mod ledgers;
 mod load;
 mod modes;

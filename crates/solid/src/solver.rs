@@ -2,15 +2,16 @@
 
 use std::ops::{Deref, DerefMut};
 
-use mesh::{BlockSolver, SavedBlocks, SideStates};
+use mesh::{BlockId, BlockSolver, Field, Mesh, SavedBlocks, SideStates};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::absorbing::SideMemory;
-use crate::components;
+use crate::components::{self, Component};
 use crate::model::SolidMemory;
 use crate::physics::Solid;
 use crate::plasticity::Plasticity;
+use crate::state::component::COUNT;
 use crate::step::BlockScratch;
 use crate::step::report::BlockReport;
 use crate::step::rows::Elasticity;
@@ -34,17 +35,45 @@ impl<const N: usize> SolidSolver<N> {
         setup: SolidSetup,
         initial: impl Fn([f64; 2]) -> ElasticState + Sync,
     ) -> Result<Self, SolidError> {
-        let kinds = setup.boundaries;
-        let plasticity = setup.plasticity.clone().map(|law| Plasticity::new(law, setup.speeds));
+        let plasticity = plasticity(&setup);
         let components = components::of(plasticity.as_ref(), setup.speeds);
-        let analysis = Analysis {
-            boundaries: kinds,
-            stress_scale: setup.stress_scale,
-            impedance: setup.speeds.z1(),
-            strain_modulus: components.iter().map(|component| component.as_stress).fold(0.0, f64::max),
-        };
+        let analysis = analysis(&setup, &components);
         let (mesh, state) = crate::initial::initial_mesh(&setup, &analysis, &components, &initial)?;
-        let initial_states = SideStates::new(&mesh, |centre, _| initial(centre));
+        let beyond = SideStates::new(&mesh, |centre, _| initial(centre));
+        Self::with(setup, plasticity, (components, analysis), (mesh, state), beyond)
+    }
+
+    /// A solid at rest in the cells of an earlier one, with the stress, plastic strain and temperature that it had.
+    ///
+    /// - `leaves`, `cells`: of a solid of the same domain and coarsest cells, in their order. A temperature that it has not is that of
+    ///   what never yielded. `change`: added to the stresses at a cell's centre (z, r); its velocities are not looked at.
+    /// - errors: [`SolidError::Mesh`] where the leaves are not those of such a domain, [`SolidError::NotFinite`].
+    pub fn at_rest_with(
+        setup: SolidSetup,
+        leaves: Vec<BlockId>,
+        cells: &Field,
+        change: impl Fn([f64; 2]) -> ElasticState + Sync,
+    ) -> Result<Self, SolidError> {
+        let plasticity = plasticity(&setup);
+        let components = components::of(plasticity.as_ref(), setup.speeds);
+        let analysis = analysis(&setup, &components);
+        let (mesh, state) = crate::initial::earlier_cells(&setup, &components, leaves, cells, &change)?;
+        let at = |point: [f64; 2]| {
+            let (slot, i, j) = mesh.locate(point).expect("cells along the sides are in the domain");
+            ElasticState::from_array(std::array::from_fn(|c| state.component(slot, c)[j * N + i]))
+        };
+        let beyond = SideStates::new(&mesh, |centre, _| at(centre));
+        Self::with(setup, plasticity, (components, analysis), (mesh, state), beyond)
+    }
+
+    fn with(
+        setup: SolidSetup,
+        plasticity: Option<Plasticity>,
+        (components, analysis): (Vec<Component>, Analysis),
+        (mesh, state): (Mesh<N>, Field),
+        beyond: SideStates<ElasticState>,
+    ) -> Result<Self, SolidError> {
+        let kinds = setup.boundaries;
         let adaptation = setup.adaptation.clone();
         let count = state.components();
         let solid = Solid {
@@ -52,7 +81,7 @@ impl<const N: usize> SolidSolver<N> {
             plasticity,
             components,
             terms: Terms::of(&setup),
-            boundaries: Boundaries::new(kinds, initial_states),
+            boundaries: Boundaries::new(kinds, beyond),
             sides: SideMemory::new(&mesh, kinds),
             analysis,
             ledger: BoundaryLedger::default(),
@@ -75,6 +104,20 @@ impl<const N: usize> SolidSolver<N> {
     /// What crossed the domain's sides so far.
     pub fn ledger(&self) -> &BoundaryLedger {
         &self.model().ledger
+    }
+}
+
+fn plasticity(setup: &SolidSetup) -> Option<Plasticity> {
+    setup.plasticity.clone().map(|law| Plasticity::new(law, setup.speeds))
+}
+
+fn analysis(setup: &SolidSetup, components: &[Component]) -> Analysis {
+    Analysis {
+        boundaries: setup.boundaries,
+        stress_scale: setup.stress_scale,
+        impedance: setup.speeds.z1(),
+        strain_modulus: components.iter().map(|component| component.as_stress).fold(0.0, f64::max),
+        displacement: components::displacement(COUNT + components.len()),
     }
 }
 

@@ -17,6 +17,7 @@ use crate::run::process::drive::in_process;
 use crate::run::process::launch_options::Options;
 use crate::run::process::stop::Stop;
 use crate::run::record::conclusion::{closing_words, conclude};
+use crate::run::wall;
 
 /// The run directory: the command line's, the case's, or one by the case's name.
 pub fn directory_of(case: &Case, out: Option<&Path>) -> PathBuf {
@@ -39,6 +40,7 @@ pub fn run(
 ) -> Result<PathBuf, RunError> {
     RunError::unless_whole(case)?;
     case.fits_memory([true; 2])?;
+    wall::check(case)?;
     let directory = prepare(case, options)?;
     on_directory(directory.path());
     carry_out(case, options, &directory, stop)
@@ -134,6 +136,7 @@ pub fn run_side(
     if !is_side(case, joining.participant) {
         return Err(RunError::NoPeer { side: joining.participant.name() });
     }
+    wall::check(case)?;
     case.fits_memory([Participant::Fluid, Participant::Solid].map(|side| side == joining.participant))?;
     let path = directory_of(case, options.out.as_deref());
     let alone = case.coupling.scheme == Scheme::External;

@@ -16,7 +16,7 @@ use crate::run::process::stop::Stop;
 use crate::run::record::fluid_record::FluidRecord;
 use crate::run::record::solid_record::SolidRecord;
 use crate::run::schedule::Schedule;
-use crate::run::setup::{fluid_solver, solid_solver};
+use crate::run::setup::{fluid_solver, solid_and_displacement};
 use crate::run::side::fluid_side::{FluidSide, Turn};
 use crate::run::side::solid_side::SolidSide;
 use crate::run::side::{RunSide, end, line, part};
@@ -89,8 +89,9 @@ impl Session {
         };
         let solid = match &case.solid {
             Some(solid) => {
-                let solver = solvers.solid.map_or_else(|| solid_solver(case, solid), Ok)?;
-                let record = SolidRecord::create(case, directory, &solver)?;
+                let made = solvers.solid.map(|solver| (solver, None));
+                let (solver, displacement) = made.map_or_else(|| solid_and_displacement(case, solid), Ok)?;
+                let record = SolidRecord::create(case, directory, &solver, displacement.as_deref())?;
                 Some(SolidSide::with(case, solver, Some(record)))
             }
             None => None,

@@ -37,6 +37,10 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
         }
     }
     whole.extend(equivalent_load::summary(&directory.file(HISTORY)));
+    let number = |key: &str| whole.get(key).and_then(Value::as_f64);
+    if let Some((work, volume)) = number("work_on_solid").zip(number("pit_volume")) {
+        whole.insert("work_per_pit_volume".to_owned(), json!((volume > 0.0).then_some(work / volume)));
+    }
     let warnings = warnings(&whole);
     for warning in &warnings {
         tracing::warn!("{warning}");

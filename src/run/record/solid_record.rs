@@ -61,12 +61,16 @@ pub struct SolidRecordState {
 impl SolidRecord {
     /// Makes the files of the solid's side and writes the state at t = 0. Without a directory histories stay in memory
     /// and there are no snapshots.
+    ///
+    /// - `displacement`: of the surface at t = 0, if the wall has been hit before, see [`SurfaceRecord::create`].
     pub fn create(
         case: &Case,
         directory: Option<&RunDirectory>,
         solver: &SolidSolver<BLOCK>,
+        displacement: Option<&[[f64; 2]]>,
     ) -> Result<Self, OutputError> {
-        let mut record = Self::on(case, SideFiles::create(case, directory, names(solver))?, solver)?;
+        let files = SideFiles::create(case, directory, names(solver))?;
+        let mut record = Self::on(case, files, solver, displacement)?;
         record.cells.see(solver.mesh().cells());
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
@@ -82,7 +86,7 @@ impl SolidRecord {
         saved: SolidRecordState,
     ) -> Result<Self, RunError> {
         let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
-        let mut record = Self::on(case, files, solver)?;
+        let mut record = Self::on(case, files, solver, None)?;
         let SolidRecordState { files, ticker, probes, surface, cells, peak, plastic, initial_energy } = saved;
         record.ticker = ticker;
         restore_probes(&mut record.probes, probes)?;
@@ -140,6 +144,7 @@ impl SolidRecord {
         case: &Case,
         mut files: SideFiles<solid::Snapshot>,
         solver: &SolidSolver<BLOCK>,
+        displacement: Option<&[[f64; 2]]>,
     ) -> Result<Self, OutputError> {
         let mesh = solver.mesh();
         let history = &mut files.history;
@@ -155,7 +160,7 @@ impl SolidRecord {
         let interface_z = covered.then(|| mesh.domain().z[1]);
         let probes = probe_series(case, Medium::Solid, interface_z, &PROBE_COLUMNS, history)?;
         let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
-        let surface = SurfaceRecord::create(case, solver, &faces, history)?;
+        let surface = SurfaceRecord::create(case, solver, (&faces, displacement), history)?;
         let totals = solver.totals();
         Ok(Self {
             files,
@@ -364,7 +369,7 @@ fn names(solver: &SolidSolver<BLOCK>) -> SideNames<solid::Snapshot> {
     let has_yield_strength = solver.setup().yield_strength.is_finite();
     let is_there = |name: &str| match name {
         "yield_function" => has_yield_strength,
-        "plastic_strain" => solver.is_plastic(),
+        "plastic_strain" | "plastic_strain_rate" | "displacement" => solver.is_plastic(),
         "temperature" => solver.has_heat(),
         _ => true,
     };

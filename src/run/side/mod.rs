@@ -43,6 +43,10 @@ pub trait RunSide {
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError>;
     /// Writes what is still in memory; after a numerical failure the last good state, too.
     fn close(&mut self, failed: bool) -> Result<(), RunError>;
+    /// Leaves what another run can begin with, once this one is complete.
+    fn leave(&self, _directory: &RunDirectory) -> Result<(), RunError> {
+        Ok(())
+    }
     /// Its part of the summary.
     fn summary(&self) -> Map<String, Value>;
     /// Its solver.
@@ -73,6 +77,9 @@ pub(super) fn end<S: RunSide>(
     let failed = matches!(&result, Err(error) if error.exit_code() == 3);
     side.close(failed)?;
     if let Some(directory) = directory {
+        if matches!(result, Ok(Turn::Over(0))) {
+            side.leave(directory)?;
+        }
         summary::write(directory, S::SUMMARY, &part(side, &result, counters))?;
     }
     concluded(result)

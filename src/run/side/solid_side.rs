@@ -22,10 +22,11 @@ use crate::run::process::stop::Stop;
 use crate::run::record::solid_record::SolidRecord;
 use crate::run::record::timed::{Clock, Timed};
 use crate::run::schedule::{Plan, Schedule};
-use crate::run::setup::solid_solver;
+use crate::run::setup::solid_and_displacement;
 use crate::run::side::coupled_solver::{self, StepRule};
 use crate::run::side::load::Load;
 use crate::run::side::past::{Done, Past};
+use crate::run::wall::WallLeaver;
 
 pub mod saved;
 
@@ -60,14 +61,17 @@ pub struct SolidSide {
     clock: Clock,
     memory: MemoryWatch,
     keeper: Option<Keeper>,
+    /// Where something can stay in the wall.
+    wall: Option<WallLeaver>,
     past: Past,
 }
 
 impl SolidSide {
     /// The solid of a case; with a directory it writes what happens.
     pub fn new(case: &Case, solid: &SolidCase, directory: Option<&RunDirectory>) -> Result<Self, RunError> {
-        let solver = solid_solver(case, solid)?;
-        let record = directory.map(|d| SolidRecord::create(case, Some(d), &solver)).transpose()?;
+        let (solver, displacement) = solid_and_displacement(case, solid)?;
+        let create = |d| SolidRecord::create(case, Some(d), &solver, displacement.as_deref());
+        let record = directory.map(create).transpose()?;
         Ok(Self::with(case, solver, record))
     }
 
@@ -99,6 +103,7 @@ impl SolidSide {
             clock: Clock::default(),
             memory: MemoryWatch::of(case.solid_memory()),
             keeper: None,
+            wall: WallLeaver::of(case),
             past: Past::after(Done::default()),
         }
     }

@@ -15,7 +15,7 @@ pub(crate) mod radial;
 pub(crate) mod remap;
 
 /// The most components a field may have.
-pub const MOST_COMPONENTS: usize = 8;
+pub const MOST_COMPONENTS: usize = 12;
 
 /// What the analysis must know of the fields.
 pub trait Multiresolution: Sync {

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ._animate import animate
     from .case import Case, Material, materials
     from .cells import Cells
+    from ._hits import hits
     from ._report import report
     from .result import Result, Snapshot
     from .result import open_run as open
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Case", "CaseError", "Cells", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
-    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "consistent_runs", "materials",
+    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "consistent_runs", "hits", "materials",
     "open", "plot", "report", "run", "stand_off_map", "sweep", "theory",
 ]
 
@@ -39,7 +40,7 @@ __all__ = [
 _PLACES = {
     "Case": "case", "Cells": "cells", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
-    "consistent_runs": "_sweep", "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
+    "consistent_runs": "_sweep", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
 }
 
 

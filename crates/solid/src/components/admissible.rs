@@ -96,13 +96,24 @@ mod tests {
             stress_scale: 1e6,
             impedance: speeds.z1(),
             strain_modulus: 3.0 * speeds.shear_modulus(),
+            displacement: 0..0,
         };
         let rule = Admissible { analysis: &analysis, plasticity: &plasticity };
         for size in [1e7, 3e8, 2e9] {
             let mean = [0.0, 0.0, 2e8, 0.0, -1e8, 0.0, 1e-3];
             let deviations: [[f64; MOST_COMPONENTS]; 4] = std::array::from_fn(|child| {
                 let sign = if child % 2 == 0 { 1.0 } else { -1.0 };
-                [1.0, 0.0, sign * size, 0.2 * size, 0.0, 0.3 * sign * size, -sign * 2e-3, 0.0]
+                let mut d = [0.0; MOST_COMPONENTS];
+                d[..7].copy_from_slice(&[
+                    1.0,
+                    0.0,
+                    sign * size,
+                    0.2 * size,
+                    0.0,
+                    0.3 * sign * size,
+                    -sign * 2e-3,
+                ]);
+                d
             });
             let share = rule.share(&mean, &deviations);
             assert!(share <= 0.5 && share > 0.01, "{share}");

@@ -42,6 +42,8 @@ mesh::cell_fields! {
         von_mises: 1, "Pa", "von Mises stress";
         yield_function: 1, "Pa", "von Mises stress minus yield strength";
         plastic_strain: 1, "1", "plastic strain";
+        plastic_strain_rate: 1, "1/s", "rate of the plastic strain in the last step";
+        displacement: 3, "m", "displacement (u_z, u_r, 0) since t = 0";
         temperature: 1, "K", "temperature";
         level: 1, "1", "refinement level";
     }
@@ -162,7 +164,7 @@ impl<const N: usize> SolidSolver<N> {
                 }
             }
             for (number, component) in self.model().components.iter().enumerate() {
-                (component.field)(&mut snapshot).extend(self.state().component(slot, COUNT + number));
+                (component.put)(&mut snapshot, self.state().component(slot, COUNT + number));
             }
         }
         snapshot

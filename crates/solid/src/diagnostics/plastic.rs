@@ -1,7 +1,7 @@
 //! Numbers of plastic flow.
 
 use crate::SolidSolver;
-use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
+use crate::components::{self, PLASTIC_STRAIN, TEMPERATURE};
 
 /// The largest plastic strain and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl<const N: usize> SolidSolver<N> {
 
     /// Whether temperature is a part of its state.
     pub fn has_heat(&self) -> bool {
-        self.state().components() > TEMPERATURE
+        components::acting(self.state().components()) > TEMPERATURE
     }
 
     /// The plastic strain of one cell; 0 where nothing can yield.
@@ -41,7 +41,15 @@ impl<const N: usize> SolidSolver<N> {
 
     /// The temperature of one cell, K; NaN where it is no part of the state.
     pub fn temperature(&self, slot: usize, i: usize, j: usize) -> f64 {
-        self.component_or(f64::NAN, TEMPERATURE, slot, j * N + i)
+        if self.has_heat() { self.component_or(f64::NAN, TEMPERATURE, slot, j * N + i) } else { f64::NAN }
+    }
+
+    /// The displacement (u_z, u_r) of one cell since t = 0, m: the integral of its velocity; `None` where nothing can yield, and none is
+    /// kept.
+    pub fn displacement(&self, slot: usize, i: usize, j: usize) -> Option<[f64; 2]> {
+        let mut places = components::displacement(self.state().components());
+        let mut next = || places.next().map(|place| self.state().component(slot, place)[j * N + i]);
+        Some([next()?, next()?])
     }
 
     fn component_or(&self, other: f64, component: usize, slot: usize, cell: usize) -> f64 {

@@ -1,10 +1,10 @@
 //! The mesh that the initial state asks for, and the state on it.
 
-use mesh::{Field, Mesh, Side, for_some_blocks};
+use mesh::{BlockId, Field, Mesh, MeshError, Side, for_some_blocks};
 
 use crate::analysis::Analysis;
-use crate::components::Component;
-use crate::state::component::COUNT;
+use crate::components::{self, Component};
+use crate::state::component::{COUNT, V_R, V_Z};
 use crate::{Boundary, ElasticState, SolidError, SolidSetup};
 
 /// The mesh that the initial state asks for, filled with it.
@@ -14,12 +14,53 @@ pub(crate) fn initial_mesh<const N: usize>(
     components: &[Component],
     initial: &(impl Fn([f64; 2]) -> ElasticState + Sync),
 ) -> Result<(Mesh<N>, Field), SolidError> {
-    let kinds = setup.boundaries;
-    let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
+    let periodic = periodic(setup);
     let fill = |mesh: &Mesh<N>| fill(mesh, components, initial);
     let adaptation = setup.adaptation.as_ref();
     let SolidSetup { domain, coarsest, levels, .. } = *setup;
     Ok(Mesh::initial(domain, coarsest, levels, periodic, adaptation, analysis, fill, |_, _| 0)?)
+}
+
+/// Which pairs of sides are one.
+fn periodic(setup: &SolidSetup) -> [bool; 2] {
+    [Side::ZMin, Side::RMin].map(|side| setup.boundaries[side as usize] == Boundary::Periodic)
+}
+
+/// The mesh of an earlier solid, with its cells at rest and their stresses changed.
+pub(crate) fn earlier_cells<const N: usize>(
+    setup: &SolidSetup,
+    components: &[Component],
+    leaves: Vec<BlockId>,
+    cells: &Field,
+    change: &(impl Fn([f64; 2]) -> ElasticState + Sync),
+) -> Result<(Mesh<N>, Field), SolidError> {
+    let SolidSetup { domain, coarsest, levels, .. } = *setup;
+    let blocks = leaves.len();
+    let mesh = Mesh::<N>::uniform(domain, coarsest, levels, periodic(setup))?.restored(leaves, 0)?;
+    if !cells.has_shape(blocks, N * N, cells.components()) || cells.components() < COUNT {
+        return Err(MeshError::NoTiling { blocks }.into());
+    }
+    let mut state = fill(&mesh, components, &|point| change(point));
+    let counts = [state.components(), cells.components()];
+    let [own_acting, acting] = counts.map(components::acting);
+    let displacements = counts.map(components::displacement);
+    for slot in 0..blocks {
+        let block = state.block_mut(slot);
+        for component in [V_Z, V_R] {
+            block[component * N * N..(component + 1) * N * N].fill(0.0);
+        }
+        for component in V_R + 1..COUNT {
+            let own = &mut block[component * N * N..(component + 1) * N * N];
+            own.iter_mut().zip(cells.component(slot, component)).for_each(|(own, earlier)| *own += earlier);
+        }
+        // Plastic strain, and the temperature if both have one; displacement. Nothing flows at first.
+        let stays = (COUNT..own_acting.min(acting)).map(|component| (component, component));
+        let [own, earlier] = displacements.clone();
+        for (own, earlier) in stays.chain(own.zip(earlier)) {
+            block[own * N * N..(own + 1) * N * N].copy_from_slice(cells.component(slot, earlier));
+        }
+    }
+    Ok((mesh, state))
 }
 
 /// The initial state at the cells' centres.

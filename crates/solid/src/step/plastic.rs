@@ -8,7 +8,7 @@ use mesh::{BlockId, Mesh, Padded, maximum};
 
 use super::BlockStep;
 use super::scratch::BlockScratch;
-use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
+use crate::components::{self, PLASTIC_STRAIN, TEMPERATURE, acting};
 use crate::plasticity::{PlasticRows, Plasticity, Returned};
 use crate::state::component::COUNT;
 use crate::step::report::{BlockReport, PlasticReport, report_stresses};
@@ -34,7 +34,7 @@ pub(crate) fn return_block<const N: usize>(
     let mut components = block.chunks_exact_mut(N * N);
     let mut next = || components.next().expect("fields of what can yield have plastic strain");
     let [_, _, stress_zz, stress_zr, stress_rr, stress_phiphi, strain] = std::array::from_fn(|_| next());
-    let temperature = components.next().unwrap_or_default();
+    let temperature = if plasticity.has_heat() { components.next().unwrap_or_default() } else { &mut [] };
     let mut rows = PlasticRows { stress_zz, stress_zr, stress_rr, stress_phiphi, strain, temperature };
     let (mut sums, mut largest): ([[f64; 2]; N], f64) = ([[0.0; 2]; N], 0.0);
     let count = plasticity.return_rows(&mut rows, dt, |cell, returned: &Returned| {
@@ -60,8 +60,10 @@ pub(crate) fn return_block<const N: usize>(
 
 /// Takes the largest plastic strain and the highest temperature of a block's cells into its report.
 pub(crate) fn measure_flow<const N: usize>(block: &[f64], report: &mut PlasticReport) {
-    let largest =
-        |component: usize| block.get(component * N * N..(component + 1) * N * N).map_or(0.0, maximum);
+    let acting = acting(block.len() / (N * N));
+    let largest = |component: usize| {
+        if component < acting { maximum(&block[component * N * N..(component + 1) * N * N]) } else { 0.0 }
+    };
     report.strain = largest(PLASTIC_STRAIN);
     report.temperature = largest(TEMPERATURE);
 }
@@ -99,12 +101,29 @@ impl<const N: usize> BlockStep<'_, N> {
         plasticity.return_rows(&mut rows, 0.5 * self.ctx.dt, |_, _| {});
     }
 
+    /// Moves the cells by the mean of their velocities before and after the step.
+    fn displace(&self, new: &mut [f64]) {
+        let old = self.ctx.old.block(self.slot);
+        let half = 0.5 * self.ctx.dt;
+        let (velocities, rest) = new.split_at_mut(2 * N * N);
+        let first = components::displacement(old.len() / (N * N)).start * N * N;
+        let displacement = &mut rest[first - 2 * N * N..][..2 * N * N];
+        let before = old[..2 * N * N].iter().zip(&old[first..]);
+        for ((u, v), (v_old, u_old)) in displacement.iter_mut().zip(velocities).zip(before) {
+            *u = u_old + half * (v_old + *v);
+        }
+    }
+
     /// The return of the new cells.
     pub(super) fn flow(&self, new: &mut [f64], report: &mut BlockReport) {
         let Self { ctx, slot, id, .. } = *self;
         let Some(plasticity) = &ctx.model.plasticity else { return };
         let old = ctx.old.block(slot);
-        new[COUNT * N * N..].copy_from_slice(&old[COUNT * N * N..]);
+        let places = new.len() / (N * N);
+        let (stays, rate) = (COUNT * N * N..acting(places) * N * N, components::rate(places) * N * N);
+        new[stays.clone()].copy_from_slice(&old[stays]);
+        new[rate..rate + N * N].fill(0.0);
+        self.displace(new);
         // Flow stress never falls with plastic strain, so most blocks need no look at their cells.
         measure_flow::<N>(new, &mut report.plastic);
         let least = plasticity.hardening().yield_stress(0.0, 0.0, report.plastic.temperature);
@@ -113,6 +132,11 @@ impl<const N: usize> BlockStep<'_, N> {
         }
         report.plastic.returned = return_block(plasticity, ctx.mesh, id, new, ctx.dt, &mut report.plastic);
         if report.plastic.returned > 0 {
+            let per_second = 1.0 / ctx.dt;
+            for k in 0..N * N {
+                let at = PLASTIC_STRAIN * N * N + k;
+                new[rate + k] = (new[at] - old[at]) * per_second;
+            }
             report_stresses(ctx.mesh, slot, new, ctx.model.yield_squared(), report);
         }
     }
@@ -136,8 +160,8 @@ mod tests {
         let id = mesh.tree().leaves()[0];
         for law in [Hardening::perfect(4e8), Hardening::linear(4e8, 8e9)] {
             let plasticity = Plasticity::new(law.unwrap_or_else(|e| panic!("{e}")), speeds);
-            let mut block: Vec<f64> = (0..7 * N * N).map(|k| 1e9 * (k as f64 * 0.37).sin()).collect();
-            block[6 * N * N..].fill(1e-3);
+            let mut block: Vec<f64> = (0..10 * N * N).map(|k| 1e9 * (k as f64 * 0.37).sin()).collect();
+            block[6 * N * N..7 * N * N].fill(1e-3);
             let energy = |block: &[f64]| -> f64 {
                 let at = |c: usize, k: usize| block[c * N * N + k];
                 let of = |k: usize| {

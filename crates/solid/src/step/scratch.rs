@@ -2,6 +2,7 @@
 
 use mesh::{Padded, Patch};
 
+use crate::components::acting;
 use crate::state::component::COUNT;
 use crate::step::rows::FaceRows;
 
@@ -29,7 +30,7 @@ impl<const N: usize> BlockScratch<N> {
             s_z: Padded::zeros(COUNT),
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
-            flow: vec![0.0; (components - COUNT) * len],
+            flow: vec![0.0; (acting(components) - COUNT) * len],
             inverse_r: vec![0.0; len],
             z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
             r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),

@@ -5,6 +5,7 @@ use mesh::{Mesh, Padded, dispersion_share, limited_differences};
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
 use crate::boundary::Boundaries;
+use crate::components::acting;
 use crate::physics::{Solid, SolidStep};
 use crate::reconstruction::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R, V_Z};
@@ -31,7 +32,7 @@ impl Solid {
 /// Assembles a block with its ghosts: the state in `cells`.
 fn assemble<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    cells.assemble(ctx.mesh, ctx.old, slot, &ctx.model.analysis, patch);
+    cells.assemble_first(acting(cells.components()), ctx.mesh, ctx.old, slot, &ctx.model.analysis, patch);
     ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     ctx.mesh.inverse_radii(ctx.mesh.tree().leaves()[slot], inverse_r);
 }

@@ -1,6 +1,6 @@
 //! What is written of plastic flow, in runs whose solid can yield.
 
-use mesh::BLOCK;
+use mesh::{BLOCK, Side};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use solid::SolidSolver;
@@ -56,6 +56,11 @@ impl PlasticPeak {
         put("plastic_strain_peak_time", json!(has_flowed.then_some(self.time)));
         put("plastic_strain_rate_peak", json!(solver.plastic_ledger().rate_peak));
         put("plastic_work", json!(whole_work(solver)));
+        if solver.interface().faces() > 0 {
+            let given = work_on_solid(solver);
+            put("work_on_solid", json!(given));
+            put("plastic_work_share", json!((given != 0.0).then_some(whole_work(solver) / given)));
+        }
         if solver.has_heat() {
             put("temperature_peak", json!(self.temperature));
         }
@@ -67,6 +72,11 @@ impl PlasticPeak {
         }
         map
     }
+}
+
+/// Work done on the surface so far, J (planar: J/m).
+fn work_on_solid(solver: &SolidSolver<BLOCK>) -> f64 {
+    solver.mesh().domain().geometry.turn() * solver.ledger().energy[Side::ZMax as usize]
 }
 
 /// Plastic work so far, J (planar: J/m).

@@ -45,6 +45,24 @@ impl SurfaceDisplacement {
         }
     }
 
+    /// Of a surface that lies so, (u_z, u_r) face by face of a finest level that may have been another one, m.
+    pub fn starting(solver: &SolidSolver<BLOCK>, earlier: &[[f64; 2]]) -> Self {
+        let mut surface = Self::new(solver);
+        let count = surface.len();
+        let blocks = surface.blocks.clone();
+        let mut next = 0;
+        for (level, along) in faces_of(&blocks) {
+            for sums in surface.before.of_mut(level, along) {
+                // Of the middle of the face.
+                let same = ((2 * next + 1) * earlier.len()) / (2 * count);
+                let value = earlier.get(same).copied().unwrap_or_default();
+                (0..2).for_each(|c| sums[c].add(value[c]));
+                next += 1;
+            }
+        }
+        surface
+    }
+
     /// Whether it can be of this solver's surface, `solver` being as the displacement was kept with it.
     pub fn fits(&self, solver: &SolidSolver<BLOCK>) -> Result<(), Misfit> {
         let own = Self::new(solver);

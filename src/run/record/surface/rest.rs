@@ -36,6 +36,15 @@ pub struct Rest {
 }
 
 impl Rest {
+    /// A surface to which nothing has happened since t = 0.
+    ///
+    /// - `transit`, `loaded_until`: see [`Rest::new`].
+    pub fn beginning(surface: &SurfaceDisplacement, transit: f64, loaded_until: f64) -> Self {
+        let depth = depth_of(surface);
+        let past = VecDeque::from([(0.0, relative(surface))]);
+        Self { depth, deepest: depth, past, ..Self::new(0, transit, loaded_until) }
+    }
+
     /// A surface of so many faces on which nothing has happened.
     ///
     /// - `transit`: the time of a shear wave across it, s; `loaded_until`: when the last load ends, s.

@@ -40,13 +40,15 @@ pub struct SurfaceState {
 
 impl SurfaceRecord {
     /// Adds the displacement to a history; `None` for a solid without a surface on which something acts.
+    ///
+    /// - `earlier`: the displacement at t = 0, if the wall has been hit before.
     pub fn create(
         case: &Case,
         solver: &SolidSolver<BLOCK>,
-        faces: &WallFaces,
+        (faces, earlier): (&WallFaces, Option<&[[f64; 2]]>),
         history: &mut HistoryFile,
     ) -> Result<Option<Self>, OutputError> {
-        let displacement = SurfaceDisplacement::new(solver);
+        let displacement = SurfaceDisplacement::starting(solver, earlier.unwrap_or_default());
         let states = solver.interface().states();
         if states.is_empty() {
             return Ok(None);
@@ -61,8 +63,12 @@ impl SurfaceRecord {
         map.update(begin, &edges([begin, end], count), &grid, axisymmetric);
 
         let load = match &case.coupling.load {
-            Some(_) => {
-                let pressures: Vec<f64> = states.iter().map(|state| state.pressure).collect();
+            Some(load) => {
+                let pressures = match load {
+                    LoadCase::Gaussian(_) => states.iter().map(|state| state.pressure).collect(),
+                    // Its impulse is that beyond what the wall bore from the start.
+                    LoadCase::Recorded(load) => on_faces(faces, load.at_start()),
+                };
                 Some(InterfaceHistory::create(faces, cells, axisymmetric, &pressures, history)?)
             }
             None => {
@@ -80,7 +86,11 @@ impl SurfaceRecord {
         ];
         let series = history.add_series("/interface", &columns)?;
         let transit = (end - begin) / solver.setup().speeds.c2;
-        let rest = Rest::new(count, transit, case.coupling.load.as_ref().map_or(0.0, loaded_until));
+        let rest = Rest::beginning(
+            &displacement,
+            transit,
+            case.coupling.load.as_ref().map_or(0.0, LoadCase::loaded_until),
+        );
         let settles = case.time.settles;
         Ok(Some(Self { series, displacement, rest, map, cells, load, pressures: Vec::new(), settles }))
     }
@@ -168,7 +178,9 @@ impl SurfaceRecord {
         let profile =
             Profile { begin: domain.r[0], width, geometry: domain.geometry, displacement: &displacement };
         let (pit, floor) = (profile.pit(), self.rest.pit_floor());
-        let pit = if pit.depth > floor { pit } else { Pit::default() };
+        // What has not flowed only swings.
+        let has_flowed = solver.plastic_strain_max() > 0.0;
+        let pit = if has_flowed && pit.depth > floor { pit } else { Pit::default() };
         let mut part = Map::from_iter([
             ("pit_depth".to_owned(), json!(pit.depth)),
             ("pit_depth_axis".to_owned(), json!(pit.depth_axis)),
@@ -186,32 +198,15 @@ impl SurfaceRecord {
     }
 }
 
+/// A function of r at the centres of the faces.
+fn on_faces(faces: &WallFaces, value: impl Fn(f64) -> f64) -> Vec<f64> {
+    let lower = std::iter::once(faces.begin()).chain(faces.edges().iter().copied());
+    lower.zip(faces.edges()).map(|(low, high)| value(0.5 * (low + high))).collect()
+}
+
 /// Outer edges of so many cells of equal width.
 fn edges([begin, end]: [f64; 2], cells: usize) -> Vec<f64> {
     (1..=cells)
         .map(|k| if k == cells { end } else { begin + (end - begin) * k as f64 / cells as f64 })
         .collect()
-}
-
-/// When a load has become what it stays, s.
-fn loaded_until(load: &LoadCase) -> f64 {
-    let rows = &load.history;
-    let last = rows.last().map_or(0.0, |row| row[1]);
-    let changing = rows.iter().rposition(|row| row[1] != last);
-    changing.map_or(0.0, |before| rows[before + 1][0])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_load_ends_where_it_changes_for_the_last_time() {
-        let until = |history: &[[f64; 2]]| {
-            loaded_until(&LoadCase { amplitude: 1.0, radius: 1.0, history: history.to_vec() })
-        };
-        assert_eq!(until(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [9.0, 0.0]]), 2.0);
-        assert_eq!(until(&[[0.0, 0.0], [1.0, 1.0]]), 1.0);
-        assert_eq!(until(&[[3.0, 1.0], [4.0, 1.0]]), 0.0);
-    }
 }

@@ -62,6 +62,7 @@ impl SolidSide {
             clock,
             memory: _,
             keeper: _,
+            wall: _,
             past,
         } = self;
         SolidSideState {

@@ -6,11 +6,12 @@ use serde_json::{Map, Value, json};
 use solid::SolidSolver;
 
 use super::SolidSide;
-use crate::output::ProgressLine;
 use crate::output::run_directory::SOLID_SUMMARY;
+use crate::output::{ProgressLine, RunDirectory};
 use crate::run::RunError;
 use crate::run::checkpoints::Keeper;
 use crate::run::process::stop::Stop;
+use crate::run::record::solid_record::SolidRecord;
 use crate::run::record::timed::{Clock, Timed};
 use crate::run::schedule::Plan;
 use crate::run::side::RunSide;
@@ -88,6 +89,13 @@ impl RunSide for SolidSide {
             record.close(&self.solver, failed)?;
         }
         Ok(())
+    }
+
+    fn leave(&self, directory: &RunDirectory) -> Result<(), RunError> {
+        let Some(wall) = &self.wall else { return Ok(()) };
+        let surface = self.record.as_ref().and_then(SolidRecord::surface);
+        let displacement = surface.map_or_else(Vec::new, |surface| surface.displacement().profile());
+        Ok(wall.leave(&self.solver, displacement, directory)?)
     }
 
     fn summary(&self) -> Map<String, Value> {

@@ -1,0 +1,60 @@
+"""Many hits on one wall."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pycav
+
+PULSE = {
+    "time": {"end": 5e-6},
+    "solid": {
+        "z": [-0.008, 0.0], "r": [0.0, 0.008], "cells": [16, 16], "levels": 2,
+        "material": {"density": 7800.0, "c1": 5990.0, "c2": 3458.0},
+        "plasticity": {"law": "linear", "yield_strength": 4e8, "hardening_modulus": 3e9},
+    },
+    "coupling": {"scheme": "load", "load": {
+        "amplitude": 1.2e9, "radius": 1e-3, "history": [[0.0, 0.0], [0.5e-6, 1.0], [1e-6, 0.0]]}},
+}
+
+
+def test_a_wall_that_hardens_takes_less_from_every_hit(tmp_path: Path) -> None:
+    seen: list[int] = []
+    case = pycav.Case.from_dict(PULSE)
+    data = pycav.hits(case, 4, tmp_path, progress=lambda hit, result: seen.append(hit))
+    assert seen == [1, 2, 3, 4] and list(data.hit) == seen
+    first = pycav.open(tmp_path / "load").summary
+    # The record of the run, put on the same wall, does what the run's own load did.
+    assert data.pit_depth[0] == pytest.approx(first["pit_depth"], rel=3e-3)
+    assert data.plastic_work[0] == pytest.approx(first["plastic_work"], rel=3e-3)
+    assert (np.diff(data.plastic_strain_peak) > 0).all() and (np.diff(data.pit_depth) > 0).all()
+    # Isotropic hardening shakes down: each hit does less work than the one before.
+    assert (np.diff(data.plastic_work) < 0).all()
+    assert data.plastic_work.units == "J" and data.pit_depth.units == "m"
+    # What is there is not run again; more hits go on from it.
+    times = [Path(place, "summary.json").stat().st_mtime_ns for place in data.directory.values]
+    more = pycav.hits(tmp_path / "load", 5, tmp_path)
+    assert times == [Path(place, "summary.json").stat().st_mtime_ns for place in more.directory.values[:4]]
+    np.testing.assert_array_equal(more.pit_depth[:4], data.pit_depth)
+
+
+def test_perfect_plasticity_goes_on_and_changes_reach_every_hit(tmp_path: Path) -> None:
+    case = pycav.Case.from_dict(PULSE)
+    soft = pycav.hits(case, 2, tmp_path, solid={"plasticity": {"law": "perfect", "yield_strength": 4e8}})
+    for place in soft.directory.values:
+        assert pycav.open(place).parameters["solid"]["plasticity"]["law"] == "perfect"
+    first = pycav.open(tmp_path / "load").summary
+    assert soft.plastic_strain_peak[0] > first["plastic_strain_peak"]
+
+
+def test_what_cannot_be_hit_is_refused(tmp_path: Path) -> None:
+    elastic = pycav.Case.from_dict({**PULSE, "solid": {**PULSE["solid"], "plasticity": None}})
+    with pytest.raises(ValueError, match="cannot yield"):
+        pycav.hits(elastic, 1, tmp_path / "elastic")
+    with pytest.raises(ValueError, match="1 hit or more"):
+        pycav.hits(elastic, 0, tmp_path)
+    with pytest.raises(FileNotFoundError, match="no run directory"):
+        pycav.hits(tmp_path / "nowhere", 1, tmp_path)

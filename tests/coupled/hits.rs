@@ -1,0 +1,142 @@
+//! A wall that is hit again: by the load that a run has recorded, and from where the run before has left it.
+
+use std::path::Path;
+
+use cav::case::Case;
+use cav::output::RunDirectory;
+use cav::run::process::drive::{Keeping, in_process};
+use cav::run::process::stop::Stop;
+use cav::run::record::conclusion::conclude;
+use cav::run::wall::check;
+use ndarray::Array2;
+use serde_json::{Map, Value};
+
+use crate::harness::case;
+
+/// Steel that yields at 400 MPa and hardens by 3 GPa, 20 cells to the load's radius of 1 mm.
+fn steel(coupling: &str, more: &str) -> String {
+    format!(
+        "[time]\nend = 5e-6\n[solid]\nz = [-0.008, 0.0]\nr = [0.0, 0.008]\ncells = [16, 16]\nlevels = 3\n{more}\
+         material = {{ density = 7800.0, c1 = 5990.0, c2 = 3458.0 }}\n\
+         [solid.plasticity]\nlaw = \"linear\"\nyield_strength = 4e8\nhardening_modulus = 3e9\n\
+         [coupling]\nscheme = \"load\"\n[coupling.load]\n{coupling}"
+    )
+}
+
+/// Up to 1.2 GPa and back within 1 µs.
+const PULSE: &str = "amplitude = 1.2e9\nradius = 1e-3\nhistory = [[0.0, 0.0], [0.5e-6, 1.0], [1e-6, 0.0]]\n";
+
+fn repeating(run: &Path) -> String {
+    format!("run = {:?}\n", run.display().to_string())
+}
+
+fn from(run: &Path) -> String {
+    format!("initial = {:?}\n", run.display().to_string())
+}
+
+fn run(case: &Case, at: &Path) -> Map<String, Value> {
+    let directory = RunDirectory::prepare(at, false).expect("a directory");
+    directory.write_atomic("case.toml", case.effective_toml().as_bytes()).expect("its case");
+    in_process(case, &directory, Keeping::default(), &Stop::default(), &mut |_| {}).expect("a run");
+    conclude(&directory).expect("its end")
+}
+
+fn number(summary: &Map<String, Value>, key: &str) -> f64 {
+    summary[key].as_f64().unwrap_or_else(|| panic!("{key}: {}", summary[key]))
+}
+
+fn rows(run: &Path, name: &str) -> Array2<f64> {
+    hdf5::File::open(run.join("history.h5")).unwrap().dataset(name).unwrap().read_2d().unwrap()
+}
+
+#[test]
+fn a_recorded_load_does_what_it_did_and_a_wall_goes_on_from_where_it_was_left() {
+    let place = tempfile::tempdir().unwrap();
+    let at = |name: &str| place.path().join(name);
+    let first = run(&case(&steel(PULSE, "")), &at("first"));
+    assert!(
+        number(&first, "pit_depth") > 1e-6
+            && number(&first, "work_on_solid") > number(&first, "plastic_work")
+    );
+
+    // What the surface got, over again on a fresh wall.
+    let again = case(&steel(&repeating(&at("first")), ""));
+    let alone = run(&again, &at("alone"));
+    for (key, tolerance) in
+        [("pit_depth", 2e-3), ("plastic_work", 2e-3), ("plastic_strain_peak", 5e-3), ("work_on_solid", 2e-3)]
+    {
+        let ratio = number(&alone, key) / number(&first, key);
+        eprintln!("{key}: repeated over first {ratio:.5}");
+        assert!((ratio - 1.0).abs() < tolerance, "{key}: {ratio}");
+    }
+    let impulse = |name: &str| {
+        let impulse = rows(&at(name), "interface/impulse");
+        impulse.row(impulse.nrows() - 1).to_vec()
+    };
+    let largest = impulse("first")[0];
+    for (again, first) in impulse("alone").into_iter().zip(impulse("first")) {
+        assert!((again - first).abs() < 2e-3 * largest, "no impulse is lost: {again} of {first}");
+    }
+
+    // On the wall that has been hit.
+    let more = from(&at("first"));
+    let next = case(&steel(&repeating(&at("first")), &more));
+    let second = run(&next, &at("second"));
+    let displaced = |name: &str| rows(&at(name), "interface/displacement_z");
+    let (before, after) = (displaced("first"), displaced("second"));
+    assert_eq!(after.row(0), before.row(before.nrows() - 1), "the surface lies as it was left");
+    let strains: Vec<f64> = {
+        let file = hdf5::File::open(at("second").join("history.h5")).unwrap();
+        file.dataset("solid/plastic_strain_max").unwrap().read_raw().unwrap()
+    };
+    assert_eq!(strains[0], number(&first, "plastic_strain_peak"), "so does what is below it");
+    assert!(number(&second, "plastic_strain_peak") > strains[0]);
+    let (deeper, work) = (number(&second, "pit_depth") / number(&first, "pit_depth"), "plastic_work");
+    assert!(deeper > 1.2 && deeper < 2.0, "{deeper}");
+    assert!(number(&second, work) < 0.9 * number(&first, work), "it has hardened");
+
+    // The same whatever the threads.
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let once_more = one.install(|| run(&next, &at("second-again")));
+    for key in ["pit_depth", "plastic_strain_peak", work] {
+        assert_eq!(once_more[key], second[key], "{key}");
+    }
+}
+
+#[test]
+fn a_wall_of_another_kind_is_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let left = place.path().join("left");
+    let short = |text: String| text.replace("end = 5e-6", "end = 1e-7");
+    run(&case(&short(steel(PULSE, ""))), &left);
+    let begun = steel(PULSE, &from(&left));
+    let with = |old: &str, new: &str| case(&begun.replace(old, new));
+    let refusal = |case: &Case| check(case).expect_err("it is another wall");
+    for (old, new, message) in [
+        ("c1 = 5990.0", "c1 = 6000.0", "solid.material (density, c1, c2) is"),
+        ("z = [-0.008, 0.0]", "z = [-0.016, 0.0]", "solid.z is [-0.008, 0.0] there and [-0.016, 0.0] here"),
+        ("cells = [16, 16]", "cells = [32, 32]", "solid.cells is"),
+        ("levels = 3", "levels = 2", "solid.levels is 3 there and 2 here"),
+        ("left", "nowhere", "there is no wall.state in it"),
+    ] {
+        let error = refusal(&with(old, new));
+        assert!(
+            error.to_string().contains(message) && error.to_string().contains("solid.initial"),
+            "{error}"
+        );
+        assert_eq!(error.exit_code(), 2);
+    }
+    assert!(check(&with("", "")).is_ok());
+    // A file that is damaged.
+    let file = left.join("wall.state");
+    let mut bytes = std::fs::read(&file).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(&file, bytes).unwrap();
+    let error = refusal(&with("", ""));
+    assert!(error.to_string().contains("damaged"), "{error}");
+    // A load of no run.
+    let text = steel(&repeating(&place.path().join("nowhere")), "");
+    let error = Case::from_toml(&text, "hits", &[]).expect_err("there is no such run");
+    assert!(error.to_string().contains("coupling.load.run"), "{error}");
+}
