@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 import pycav
 from pycav._damage import damage, work_on_solid
 from pycav._sweep import measures
+from pycav.plot import style
 from pycav.plot.style import rounded
 
 CELLS = 128
@@ -99,6 +100,16 @@ def test_an_earlier_profile_has_no_numbers_of_the_end(pitted):
     assert figure.axes[1].findobj(mpl.collections.QuadMesh)[0].get_array().max() == pitted.solid.at(46e-6)["plastic_strain"].max()
 
 
+def test_what_bulges_fits_into_the_picture(pitted, tmp_path):
+    with pycav.Simulation(pitted.case.with_({"fluid.levels": 3, "solid.levels": 2}), out=tmp_path / "run") as simulation:
+        simulation.advance_to(4e-5)
+    above, below = pycav.plot.pit(tmp_path / "run", reach=1.0).axes[:2]
+    depth, (bottom, top) = np.asarray(above.lines[0].get_ydata()), above.get_ylim()
+    assert -depth.min() > 3 * depth.max() and top < depth.min() and depth.max() < bottom
+    assert "no pit: nothing flowed" in texts(above.figure)
+    assert below.get_xlim() == (-0.05, 0.05) and below.get_ylim()[0] == pytest.approx(0.05), "no more than there is"
+
+
 def test_profiles_stand_beside(pitted):
     figure = pycav.plot.pit(pitted, beside=[pitted])
     assert [line.get_label() for line in figure.axes[0].lines[:2]] == ["12.8 cells per radius"] * 2
@@ -145,6 +156,9 @@ def test_a_report_tells_the_damage_in_units_of_an_engineer(pitted, tmp_path):
     assert rows["largest plastic strain"][0] == f"{100 * summary['plastic_strain_peak']:.3g} %"
     assert "at z = " in rows["largest plastic strain"][1] and "µs" in rows["largest plastic strain"][1]
     assert rows["plastic zone, strains above 0.2 %"][0] == f"{1e3 * summary['plastic_zone_depth_2e-3']:.3g} mm deep"
+    work, times = (pitted.histories[f"solid/{name}"].to_numpy() for name in ("plastic_work", "time"))
+    first, last = times[np.flatnonzero(work)[0]], times[np.flatnonzero(work == work[-1])[0]]
+    assert rows["flows from, to"][0] == f"{style.si(first, 's')}, {style.si(last, 's')}" and "yields from, to" not in rows
     assert rows["pit, depth"][0] == f"{1e6 * summary['pit_depth']:.3g} µm"
     assert rows["pit, volume"][0] == f"{1e9 * summary['pit_volume']:.3g} mm³"
     assert rows["equivalent load, P₀"][0] == f"{1e-6 * summary['load_amplitude']:.3g} MPa"

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from ._health import Rows
-from .plot.style import rounded, si
+from .plot.style import percent, rounded, si
 from .plot.surface import has_pit
 from .result import Result
 
@@ -19,13 +21,13 @@ def damage(result: Result) -> Rows:
         plastic = "plasticity" in result.parameters["solid"]
         yield "yield strength", si(strength, "Pa"), "" if strength else "the material has none"
         yield "largest von Mises stress", si(summary.get("von_mises_peak"), "Pa"), _place(summary, "von_mises_peak")
-        volume = summary.get("yielded_volume_peak")
-        note = "beyond the yield strength at a time" if plastic else "the solid is elastic: where it would yield"
-        yield "yielded volume, largest", si(volume, "m³") if strength else "–", note
-        duration = data["solid/time"].to_numpy()[data["solid/yielded_volume"].to_numpy() > 0]
-        if strength and len(duration):
-            yield "yields from, to", f"{si(duration[0], 's')}, {si(duration[-1], 's')}", "anywhere"
-        if plastic:
+        if not plastic:
+            volume = summary.get("yielded_volume_peak")
+            yield "yielded volume, largest", si(volume, "m³") if strength else "–", "the solid is elastic: where it would yield"
+            duration = data["solid/time"].to_numpy()[data["solid/yielded_volume"].to_numpy() > 0]
+            if strength and len(duration):
+                yield "yields from, to", f"{si(duration[0], 's')}, {si(duration[-1], 's')}", "anywhere"
+        else:
             yield from _flowed(result)
             yield from _pit(result)
             yield from _load(summary)
@@ -49,16 +51,18 @@ def _flowed(result: Result) -> Rows:
     yield "largest plastic strain", f"{100 * strain:.3g} %", _place(summary, "plastic_strain_peak") + when if strain else ""
     rate = float(f"{summary.get('plastic_strain_rate_peak', 0.0):.3g}")
     yield "its fastest growth", f"{rate:,.0f} 1/s", "in a step"
+    grows = result.histories["solid/time"].to_numpy()[np.diff(result.histories["solid/plastic_work"].to_numpy(), prepend=0.0) > 0]
+    if len(grows):
+        yield "flows from, to", f"{si(grows[0], 's')}, {si(grows[-1], 's')}", "anywhere"
     if "temperature_peak" in summary:
         yield "highest temperature", f"{summary['temperature_peak']:.4g} K", "of plastic work, without conduction"
     for bound, shown in (("", "0.01 %"), ("_2e-3", "0.2 %")):
         depth, radius, volume = (summary.get(f"plastic_{name}{bound}") for name in ("zone_depth", "zone_radius", "volume"))
-        content = f"{rounded(volume, 'm²' if planar else 'm³')} in all"
-        yield (f"plastic zone, strains above {shown}", f"{rounded(depth, 'm')} deep",
-               f"out to r = {rounded(radius, 'm')}; {content}" if volume else "none")
+        content = f"out to r = {rounded(radius, 'm')}; {rounded(volume, 'm²' if planar else 'm³')} in all"
+        yield f"plastic zone, strains above {shown}", f"{rounded(depth, 'm')} deep" if volume else "none", content if volume else ""
     work, given = summary.get("plastic_work"), work_on_solid(result)
     unit = "J/m" if planar else "J"
-    share = f"{100 * work / given:.3g} % of the work on the solid, {rounded(given, unit)}" if work and given else ""
+    share = f"{percent(work / given)} of the work on the solid, {rounded(given, unit)}" if work and given else ""
     yield "plastic work", rounded(work, unit), share
 
 
@@ -82,7 +86,7 @@ def _pit(result: Result) -> Rows:
         yield "pit", "none", f"none deeper than {rounded(summary.get('pit_floor'), 'm')}, or nothing flowed"
         return
     still = summary.get("surface_still")
-    moves = "" if still is None else f"at the end, when it still moved by {100 * still:.2g} %"
+    moves = "" if still is None else f"at the end, when it still moved by {percent(still)}"
     yield "pit, depth", rounded(summary["pit_depth"], "m"), moves
     radius = summary.get("pit_radius")
     yield "pit, radius at half depth", rounded(radius, "m"), ""
@@ -96,6 +100,6 @@ def _load(summary: dict[str, Any]) -> Rows:
         return
     yield ("equivalent load, P₀", rounded(summary["load_amplitude"], "Pa"),
            "P₀ exp(−(r/Δr)²) exp(−((t − t₀)/Δt)²), the pulse nearest to the wall's pressure; "
-           f"misfit {100 * summary.get('load_misfit', math.nan):.2g} %")
+           f"misfit {percent(summary.get('load_misfit', math.nan))}")
     yield "equivalent load, Δr", rounded(summary.get("load_radius"), "m"), ""
     yield "equivalent load, Δt", rounded(summary.get("load_duration"), "s"), f"about t₀ = {si(summary.get('load_time'), 's')}"

@@ -47,7 +47,9 @@ def pit(
     first = profiles[0]
     section = Section.of(first.result, first.time, None)
     across, down = _reach(first) if reach is None else (reach, reach)
-    left = -across if section.mirrored else float(section.snapshots["solid"].mesh.low[1])
+    mesh = section.snapshots["solid"].mesh
+    across, down = min(across, float(mesh.high[1])), min(down, float(mesh.high[0] - mesh.low[0]))
+    left = -across if section.mirrored else float(mesh.low[1])
     width = WIDTH - LEFT - RIGHT
     lower = width * (1 + ABOVE) * down / (across - left)
     size = (WIDTH, FOOT + lower + GAP + UPPER + HEAD)
@@ -73,8 +75,9 @@ def _profiles(axes: Axes, profiles: Sequence[Profile], labels: Sequence[str], mi
     """The profiles, stretched; `span` is the panel's height at the scale of r, m."""
     first = profiles[0]
     deepest = max(1e-12, *(float(np.abs(profile.depth).max()) for profile in profiles))
+    filled = max(1e-12, *(max(float(p.depth.max()) / BELOW, -float(p.depth.min()) / (1 - BELOW)) for p in profiles))
     # 1, 2 or 5 times a power of ten, as much as leaves some room.
-    most = 0.9 * BELOW * span / deepest
+    most = 0.9 * span / filled
     power = 10.0 ** math.floor(math.log10(most))
     stretch = max(factor * power for factor in (1, 2, 5) if factor * power <= most)
     bottom = BELOW * span / stretch
@@ -136,7 +139,7 @@ def _zone(figure: Figure, axes: Axes, section: Section, profile: Profile, down: 
     if section.mirrored:
         axes.axvline(0.0, color=GREY, linewidth=0.5, dashes=(8, 3, 1.5, 3))
     scale, letter = prefix(max(high, down))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: number(abs(x) * scale)))  # both halves are the same
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: number((abs(x) if section.mirrored else x) * scale)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda z, _: number(z * scale)))
     axes.set_xlabel(f"$r$ / {letter}m", labelpad=1)
     axes.set_ylabel(f"depth / {letter}m, true scale", labelpad=2)

@@ -11,7 +11,7 @@ import numpy as np
 from ..mesh import Floats
 from ..result import Result, open_run
 from .section import Run
-from .style import rounded
+from .style import percent, rounded
 
 FAR = 0.1
 """Share of the extent in r, the outermost, whose mean level is that far away (docs/output.md, *The surface of the solid*)."""
@@ -79,7 +79,7 @@ class Profile:
         lines = [f"depth {rounded(found['pit_depth'], 'm')}", f"radius at half depth {rounded(found.get('pit_radius'), 'm')}",
                  f"rim {rounded(found.get('pit_rim'), 'm')}", f"{volume} {rounded(found.get('pit_volume'), area)}"]
         if found.get("surface_still", 0.0) > STILL:
-            lines.append(f"still moving by {100 * found['surface_still']:.2g} %")
+            lines.append(f"still moving by {percent(found['surface_still'])}")
         return "\n".join(lines)
 
 
