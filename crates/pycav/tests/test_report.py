@@ -105,7 +105,8 @@ def test_a_report_on_nothing_is_refused(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(("value", "unit", "shown"), [
-    (2.483e8, "Pa", "248.3 MPa"), (5.073e-5, "s", "50.73 µs"), (3.8e-6, "m³", "3800 mm³"), (0.0, "m³", "0 m³"), (1.1e-16, "m³", "110 µm³"), (None, "Pa", "–"),
+    (2.483e8, "Pa", "248.3 MPa"), (5.073e-5, "s", "50.73 µs"), (3.8e-6, "m³", "3800 mm³"), (0.0, "m³", "0 m³"), (1.1e-16, "m³", "110 µm³"), (3.5e-10, "m³", "0.35 mm³"), (2.41e-7, "m²", "0.241 mm²"), (5.62, "J", "5.62 J"),
+    (None, "Pa", "–"),
     (-1.5e5, "Pa", "−150 kPa"), (257.35, "m/s", "257.4 m/s"), (0.0, "Pa", "0 Pa"),
 ])
 def test_numbers_in_si(value, unit, shown):

@@ -8,14 +8,16 @@ import io
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
 
 from matplotlib.figure import Figure
 
 from . import plot
+from ._damage import damage
 from ._health import Rows, health
+from .plot.plastic import FIELD
 from .plot.section import Run, default_time
 from .plot.style import si
+from .plot.surface import DISPLACEMENT
 from .result import Result, open_run
 
 STYLE = """
@@ -46,7 +48,7 @@ def page(result: Result) -> str:
         f"<h1>{name}</h1>", _state(result),
         "<h2>Key numbers</h2>", _table(_key_numbers(result)), _resolution(result),
         "<h2>Pictures</h2>", *_pictures(result),
-        "<h2>Damage</h2>", _table(_damage(result)),
+        "<h2>Damage</h2>", _table(damage(result)),
         "<h2>Health</h2>", _table(health(result)),
         "<h2>Time spent</h2>", _table(_timings(result)),
         "<h2>The case, all defaults filled in</h2>",
@@ -108,10 +110,22 @@ def _pictures(result: Result) -> Iterable[str]:
     strength = result.summary.get("yield_strength")
     if strength is not None:
         drawings.append(("Yield function", lambda: plot.yield_function(result, float(strength), time, deep)))
+    drawings += _plastic(result, time, deep)
     if "interface/pressure" in result.histories:
         drawings.append(("Pressure on the wall over time", lambda: plot.space_time(result, "wall")))
     for name, draw in drawings:
         yield picture(draw(), name)
+
+
+def _plastic(result: Result, time: float, window: plot.Window | None) -> list[tuple[str, Callable[[], Figure]]]:
+    """What flowed and what stays, of a solid that yields."""
+    if "solid" not in result.media or FIELD not in result.solid.fields:
+        return []
+    found: list[tuple[str, Callable[[], Figure]]] = [
+        ("von Mises stress and plastic strain", lambda: plot.plastic_strain(result, time, window))]
+    if DISPLACEMENT in result.histories:
+        found.append(("The pit that stays", lambda: plot.pit(result)))
+    return found
 
 
 def _windows(result: Result) -> tuple[plot.Window | None, plot.Window | None]:
@@ -135,27 +149,6 @@ def picture(figure: Figure, name: str) -> str:
     data = base64.b64encode(buffer.getvalue()).decode()
     label = html.escape(name)
     return f'<figure><figcaption>{label}</figcaption><img alt="{label}" src="data:image/png;base64,{data}"></figure>'
-
-
-def _damage(result: Result) -> Rows:
-    summary, data = result.summary, result.histories
-    if "solid" in result.media:
-        strength = summary.get("yield_strength")
-        yield "yield strength", si(strength, "Pa"), "" if strength else "the material has none"
-        yield "largest von Mises stress", si(summary.get("von_mises_peak"), "Pa"), _place(summary)
-        volume = summary.get("yielded_volume_peak")
-        yield "yielded volume, largest", si(volume, "m³") if strength else "–", "the solid is elastic: where it would yield"
-        duration = data["solid/time"].to_numpy()[data["solid/yielded_volume"].to_numpy() > 0]
-        if strength and len(duration):
-            yield "yields from, to", f"{si(duration[0], 's')}, {si(duration[-1], 's')}", "anywhere"
-    if "interface/impulse" in data:
-        impulse = data["interface/impulse"].to_numpy()[-1]
-        yield "impulse on the wall, on the axis", f"{impulse[0]:.4g} Pa s", "∫ (p* − p at t = 0) dt"
-
-
-def _place(summary: dict[str, Any]) -> str:
-    place = summary.get("von_mises_peak_position")
-    return "" if place is None else f"at z = {si(place[0], 'm')}, r = {si(place[1], 'm')}"
 
 
 def _timings(result: Result) -> Rows:

@@ -39,7 +39,9 @@ def measures(result: Result) -> dict[str, tuple[float, str]]:
 SUMMARY = [
     ("wall_pressure_peak", "Pa"), ("wall_pressure_peak_time", "s"), ("wall_pressure_peak_anywhere", "Pa"),
     ("von_mises_peak", "Pa"), ("von_mises_peak_time", "s"), ("yielded_volume_peak", "m3"), ("collapse_time", "s"),
-    ("min_equivalent_radius", "m"), ("jet_velocity_peak", "m/s"), ("wall_seconds", "s"),
+    ("min_equivalent_radius", "m"), ("jet_velocity_peak", "m/s"), ("plastic_strain_peak", "1"), ("plastic_work", "J"),
+    ("pit_depth", "m"), ("pit_radius", "m"), ("pit_volume", "m3"), ("pit_rim", "m"), ("pit_floor", "m"), ("surface_still", "1"),
+    ("wall_seconds", "s"),
 ]
 
 

@@ -9,9 +9,11 @@ perceptually uniform and safe for the colour-blind.
 from .across import interface_continuity
 from .close_up import close_up
 from .flow import pathlines, streamlines
-from .maps import stand_off_map
+from .maps import pit_map, stand_off_map
 from .overtime import histories, space_time
 from .overview import overview
+from .pit import pit
+from .plastic import plastic_strain
 from .refinement import grid_levels
 from .section import Window, default_time
 from .volume import volume
@@ -20,5 +22,5 @@ from .yielding import yield_function
 
 __all__ = [
     "Window", "close_up", "default_time", "grid_levels", "histories", "interface_continuity", "overview", "pathlines",
-    "schlieren", "space_time", "stand_off_map", "streamlines", "volume", "yield_function",
+    "pit", "pit_map", "plastic_strain", "schlieren", "space_time", "stand_off_map", "streamlines", "volume", "yield_function",
 ]

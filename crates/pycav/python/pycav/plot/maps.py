@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import xarray
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WIDTH, legend, prefix, styled, ticks
+from ..mesh import Floats
+from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, number, part_of, prefix, rounded, styled, ticks
 
 SHOWN = [
     ("wall_pressure_peak", "wall pressure, largest", "Pa"), ("wall_impulse", "impulse on the wall", "Pa s"),
     ("von_mises_peak", "von Mises stress, largest", "Pa"), ("yielded_volume_peak", "yielded volume", "m$^3$"),
 ]
+LENGTHS = {"pit_depth": "depth of the pit", "pit_radius": "radius at half depth", "pit_rim": "height of the rim"}
+MOVES, STEEP = 0.1, 0.05
+"""Where a pit's field is marked: `surface_still`, and depth over radius; beyond the latter a run warns, too."""
 COLOURS, MARKS = (BLUE, ORANGE, GREEN, PINK, INK, GREY), "osD^vP"
 
 
@@ -41,3 +47,65 @@ def stand_off_map(data: xarray.Dataset) -> Figure:
         axes.set_xlabel("stand-off $d/R$")
     legend(panels[0])
     return figure
+
+
+@styled
+def pit_map(data: xarray.Dataset, quantity: str = "pit_depth") -> Figure:
+    """A length of the pit over stand-off and material, written into every field.
+
+    Materials are rows, the one of the largest value on top; columns reach half way to the next stand-off. A field where nothing
+    stays says so, as does one whose run failed. Marks: ≈ where the surface still moves by more than a tenth of the depth,
+    * where the pit is deeper than a twentieth of its radius, which is much for the small strains of the model.
+
+    - `data`: a sweep over `stand_off` and `solid.material` with a law of hardening, as of `pycav.stand_off_map`.
+    - `quantity`: `pit_depth`, `pit_radius`, or `pit_rim`.
+    """
+    if quantity not in LENGTHS:
+        raise ValueError(f"a map is drawn of {', '.join(LENGTHS)}, not of {quantity!r}")
+    needed = {quantity, "pit_depth", "pit_radius", "plastic_strain_peak", "surface_still"}
+    if not needed <= set(data) or set(data[quantity].dims) != {"stand_off", "solid.material"}:
+        raise ValueError("a map of pits needs a sweep over stand_off and solid.material, not over "
+                         f"{', '.join(map(str, data.dims))}")
+    if np.isnan(data["plastic_strain_peak"]).all() and not np.isnan(data["von_mises_peak"]).all():
+        raise ValueError("the solids are elastic and keep no pit: [solid.plasticity] of the case makes them yield")
+    data = data.sortby("stand_off").transpose("solid.material", "stand_off")
+    data = data.isel({"solid.material": np.argsort(data[quantity].fillna(0.0).max("stand_off").to_numpy(), kind="stable")})
+    values, depth, radius, strain, still = (data[name].to_numpy() for name in (
+        quantity, "pit_depth", "pit_radius", "plastic_strain_peak", "surface_still"))
+    stays = (depth > 0) & (strain > 0)
+    moves, steep = stays & (still > MOVES), stays & (depth > STEEP * radius)
+    distance, names = data["stand_off"].to_numpy().astype(float), [str(name) for name in data["solid.material"].to_numpy()]
+    figure = Figure(figsize=(WIDTH, 1.0 + 0.36 * len(names)), layout="constrained")
+    axes = figure.subplots()
+    axes.set_facecolor("0.95")
+    shown = np.ma.masked_array(values, ~(stays & (values > 0)))
+    low, high = (float(shown.min()), float(shown.max())) if shown.count() else (1e-6, 1e-6)
+    norm = LogNorm(0.999 * low, 1.001 * high)
+    drawn = axes.pcolormesh(_edges(distance), np.arange(len(names) + 1), shown, norm=norm, cmap=part_of("YlOrRd", 0.0, 0.9),
+                            edgecolors=WHITE, linewidth=1.0)
+    for row, column in np.ndindex(values.shape):
+        value, here = float(values[row, column]), (row, column)
+        says = "failed" if np.isnan(depth[here]) else "no pit" if not stays[here] else (
+            "≈ " * bool(moves[here]) + rounded(value, "m") + "*" * bool(steep[here]))
+        dark = stays[here] and norm(value) > 0.6
+        axes.text(float(distance[column]), row + 0.5, says, ha="center", va="center", fontsize=8, color=WHITE if dark else INK)
+    axes.set_yticks(np.arange(len(names)) + 0.5, names)
+    axes.set_xticks(distance, [number(value) for value in distance])
+    axes.tick_params(length=0)
+    notes = [f"≈ still moving by more than {100 * MOVES:g} %"] * bool(moves.any())
+    notes += [f"* deeper than {100 * STEEP:g} % of its radius: beyond small strains"] * bool(steep.any())
+    axes.set_xlabel("\n".join(["stand-off $d/R$", *(["   ".join(notes)] if notes else [])]))
+    scale, letter = prefix(high)
+    bar = figure.colorbar(drawn, ax=axes, aspect=15, pad=0.02)
+    bar.ax.yaxis.set(major_locator=LogLocator(subs=(1, 2, 5)), minor_locator=NullLocator(),
+                     major_formatter=FuncFormatter(lambda value, _: number(value * scale)))
+    bar.set_label(f"{LENGTHS[quantity]} / {letter}m")
+    return figure
+
+
+def _edges(middles: Floats) -> Floats:
+    """Where fields end about increasing values: half way between them, and as far beyond the ends."""
+    if len(middles) == 1:
+        return np.array([middles[0] - 0.5, middles[0] + 0.5])
+    half = 0.5 * np.diff(middles)
+    return np.concatenate([[middles[0] - half[0]], middles[:-1] + half, [middles[-1] + half[-1]]])

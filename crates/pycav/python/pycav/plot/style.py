@@ -69,16 +69,30 @@ def number(value: float) -> str:
     return f"{rounded:g}".replace("-", "−") if rounded else "0"
 
 
+POWERS = {"m²": 2, "m³": 3}
+
+
 def si(value: Any, unit: str) -> str:
     """A number with the prefix that fits it; pure numbers without one."""
     if value is None or (isinstance(value, float) and not np.isfinite(value)):
         return "–"
     size = abs(float(value))
-    if unit == "m³":  # the prefix is of the length whose cube it is
-        scale, letter = prefix(size ** (1 / 3))
-        return f"{_four_digits(value * scale**3)} {letter}m³"
-    scale, letter = prefix(size) if unit in ("Pa", "s", "m", "J/rad") else (1.0, "")
+    if unit in POWERS:  # the prefix is of a length; from a thousandth of its square or cube on, as the next smaller one is too small
+        power = POWERS[unit]
+        scale, letter = prefix((1e3 * size) ** (1 / power))
+        return f"{_four_digits(value * scale**power)} {letter}{unit}"
+    scale, letter = prefix(size) if unit in ("Pa", "s", "m", "J", "J/rad", "J/m") else (1.0, "")
     return f"{_four_digits(value * scale)} {letter}{unit}".strip()
+
+
+def percent(value: float) -> str:
+    """A share with two digits: 0.0773 is 7.7 %."""
+    return f"{number(float(f'{100 * value:.2g}'))} %"
+
+
+def rounded(value: float | None, unit: str) -> str:
+    """As `si`, with three digits."""
+    return si(None if value is None else float(f"{value:.3g}"), unit)
 
 
 def _four_digits(value: float) -> str:

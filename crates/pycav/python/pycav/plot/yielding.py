@@ -38,10 +38,10 @@ def yield_function(
     - `one_scale`: the same colours in all panels; else each one, side by side, has its own.
     - `levels`: outlines of the levels of refinement.
     """
-    first = _solid(run, time, window)
+    first = solid_section(run, time, window)
     panels = [(first, float(strength), names[k] if names else "") for k, strength in enumerate(np.atleast_1d(yield_strength))]
     for other in beside:
-        section = _solid(other, first.time, window)
+        section = solid_section(other, first.time, window)
         strength = section.result.summary.get("yield_strength")
         if strength is None:
             raise ValueError(f"the material of {section.result.directory} has no yield strength")
@@ -88,7 +88,7 @@ def _scale(excesses: Sequence[float], strengths: Sequence[float]) -> TwoSlopeNor
     return TwoSlopeNorm(0, -max(strengths) * MEGA, max(*excesses, 0.5 * min(strengths)) * MEGA)
 
 
-def _solid(run: Run, time: float | None, window: Window | None) -> Section:
+def solid_section(run: Run, time: float | None, window: Window | None) -> Section:
     """The section of a run's solid alone; all of it without a window."""
     section = Section.of(run, time, None)
     if "solid" not in section.snapshots:
