@@ -96,6 +96,14 @@ impl Case {
             text.list("position", &probe.position);
             text.name("medium", &super::Medium::NAMES, probe.medium);
         }
+        for sensor in &self.sensors {
+            text.head("[[sensor]]");
+            text.key("name", quoted(&sensor.name));
+            text.number("radius", sensor.radius);
+            if sensor.rise_time > 0.0 {
+                text.number("rise_time", sensor.rise_time);
+            }
+        }
         text.0
     }
 }

@@ -15,6 +15,7 @@ mod read_coupling;
 mod read_fluid;
 mod read_grid;
 mod read_plasticity;
+mod read_sensors;
 mod read_shape;
 mod read_solid;
 mod reader;
@@ -59,6 +60,8 @@ pub struct Case {
     pub coupling: CouplingCase,
     /// Points at which every step is recorded.
     pub probes: Vec<Probe>,
+    /// `[[sensor]]`.
+    pub sensors: Vec<Sensor>,
     /// What is written, and where.
     pub output: OutputCase,
     /// What was left aside in reading; see [`Case::warnings`].
@@ -75,6 +78,7 @@ impl PartialEq for Case {
             && self.solid == other.solid
             && self.coupling == other.coupling
             && self.probes == other.probes
+            && self.sensors == other.sensors
             && self.output == other.output
     }
 }
@@ -283,6 +287,17 @@ pub struct Probe {
     pub position: [f64; 2],
     /// Whose fields.
     pub medium: Medium,
+}
+
+/// `[[sensor]]`: a disc on the wall about the axis (planar: the wall up to an r), on which pressure, force and impulse are recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensor {
+    /// Name, unique; letters, digits, `_` and `-`.
+    pub name: String,
+    /// Its radius, m.
+    pub radius: f64,
+    /// Over how long it takes the mean, s; 0: over each step.
+    pub rise_time: f64,
 }
 
 /// `[output]`.

@@ -10,10 +10,10 @@ use toml::de::DeTable;
 use super::error::{CaseError, suggest};
 use super::read_grid::MOST_CELLS;
 use super::reader::{Faults, Table, array};
-use super::shared::{Context, PlacedProbe};
+use super::shared::{Context, PlacedProbe, name_of};
 use super::{
-    Case, Medium, OutputCase, Probe, Time, cross, read_coupling, read_fluid, read_solid, scales, steps,
-    thresholds,
+    Case, Medium, OutputCase, Probe, Time, cross, read_coupling, read_fluid, read_sensors, read_solid,
+    scales, steps, thresholds,
 };
 
 /// More snapshots than this are a mistake.
@@ -51,6 +51,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         coupling.load.as_ref(),
     );
     let probes = probes(&mut root, &mut faults);
+    let sensors = read_sensors::sensors(&mut root, &mut faults);
     let output = output(&mut root, time.as_ref().map(|time| time.end), &mut faults);
     root.finish(&mut faults);
 
@@ -78,6 +79,13 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         &mut faults,
     );
 
+    let fluids = fluid.as_ref().map(|(fluid, _)| &fluid.grid);
+    let wall = match context.scheme {
+        Some(Scheme::None) => None,
+        _ => fluids.or(solid.as_ref().map(|(solid, _)| &solid.grid)),
+    };
+    let sensors = read_sensors::on_wall(sensors, wall, &mut faults);
+
     let Some(time) = time.filter(|_| faults.0.is_empty()) else { return Err(faults.0) };
     let case = Case {
         name: name.to_owned(),
@@ -87,6 +95,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         solid: solid.map(|(solid, _)| solid),
         coupling,
         probes,
+        sensors,
         output,
         notes,
     };
@@ -177,21 +186,8 @@ fn resolve(mut times: Vec<f64>, end: f64) -> Vec<f64> {
 fn probes(root: &mut Table<'_>, faults: &mut Faults) -> Vec<PlacedProbe> {
     let mut probes: Vec<PlacedProbe> = Vec::new();
     for mut table in root.tables("probe", faults) {
-        if !table.has("name") {
-            table.missing("name", "give `name = \"...\"`, it names the probe's datasets", faults);
-        }
-        let name = table.string("name", faults);
-        if let Some(name) = &name {
-            let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-            if name.value.is_empty() || !name.value.chars().all(plain) {
-                let message = format!("`{}` is no name for a probe", name.value);
-                faults.of(name, message, "use letters, digits, `_` and `-` only");
-            }
-            if probes.iter().any(|other| other.probe.name == name.value) {
-                let message = format!("another probe is called `{}`", name.value);
-                faults.of(name, message, "give every probe a name of its own");
-            }
-        }
+        let name =
+            name_of(&mut table, "probe", |name| probes.iter().any(|other| other.probe.name == name), faults);
         let position = table.required_pair("position", "m, as [z, r]", faults);
         if !table.has("medium") {
             table.missing("medium", "give `medium = \"fluid\"` or \"solid\"", faults);
@@ -199,7 +195,7 @@ fn probes(root: &mut Table<'_>, faults: &mut Faults) -> Vec<PlacedProbe> {
         let medium = table.choice("medium", &Medium::NAMES, faults);
         table.finish(faults);
         if let (Some(name), Some(position), Some(medium)) = (name, position, medium) {
-            let probe = Probe { name: name.value.to_owned(), position: position.value, medium: medium.value };
+            let probe = Probe { name, position: position.value, medium: medium.value };
             probes.push(PlacedProbe { probe, position, medium });
         }
     }

@@ -89,3 +89,26 @@ pub(super) fn history(
     }
     Some(given)
 }
+
+/// The `name` of a table by which its datasets are called; `kind` is what the table is for.
+pub(super) fn name_of(
+    table: &mut Table<'_>,
+    kind: &str,
+    is_taken: impl Fn(&str) -> bool,
+    faults: &mut Faults,
+) -> Option<String> {
+    if !table.has("name") {
+        table.missing("name", format!("give `name = \"...\"`, it names the {kind}'s datasets"), faults);
+    }
+    let name = table.string("name", faults)?;
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if name.value.is_empty() || !name.value.chars().all(plain) {
+        let message = format!("`{}` is no name for a {kind}", name.value);
+        faults.of(&name, message, "use letters, digits, `_` and `-` only");
+    }
+    if is_taken(name.value) {
+        let message = format!("another {kind} is called `{}`", name.value);
+        faults.of(&name, message, format!("give every {kind} a name of its own"));
+    }
+    Some(name.value.to_owned())
+}

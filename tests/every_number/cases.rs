@@ -1,6 +1,6 @@
 //! Tiny cases that have every table and every number between them.
 
-use crate::fixture::{AIR, bubble, grid, probe, water};
+use crate::fixture::{AIR, bubble, grid, probe, sensor, water};
 
 /// Coupled, adaptive, with local steps.
 fn full() -> String {
@@ -22,6 +22,7 @@ fn full() -> String {
         "[coupling]\nscheme = \"riemann\"\nstep_ratio = 16\nconnect_timeout = 10.0\npatience = 20.0\n",
         &probe("wall", [0.0, 0.0], "fluid"),
         &probe("steel", [-0.002, 0.001], "solid"),
+        &sensor("disc", 0.001, 1e-8),
         "[output]\ncompression = 4\ninterface_cells = 32\ninterface_every = 1e-8\n",
     ];
     text.concat()

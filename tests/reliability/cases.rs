@@ -1,6 +1,6 @@
 //! Small cases in which everything happens that a checkpoint has to hold.
 
-use crate::fixture::{THIN_GAS, bubble, grid, probe, steel, water};
+use crate::fixture::{THIN_GAS, bubble, grid, probe, sensor, steel, water};
 
 /// Lines of a side that adapts.
 fn lines(z: [f64; 2], more: &str) -> String {
@@ -18,6 +18,7 @@ pub fn coupled() -> String {
         &steel(&lines([-0.04, 0.01], LIMITER)),
         &probe("wall", [0.01, 0.0], "fluid"),
         &probe("steel", [0.01, 0.004], "solid"),
+        &sensor("disc", 0.004, 1e-6),
     ];
     text.concat()
 }

@@ -9,7 +9,7 @@ use crate::output::run_directory::{
 };
 use crate::output::{Join, RunDirectory, join_histories, summary};
 use crate::run::RunError;
-use crate::run::record::equivalent_load;
+use crate::run::record::{equivalent_load, two_collapses};
 
 /// Joins the histories and the parts of the summary.
 pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError> {
@@ -36,6 +36,7 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
             whole["coupling"][key] = json!(share);
         }
     }
+    whole.extend(two_collapses::summary(directory.path()));
     whole.extend(equivalent_load::summary(&directory.file(HISTORY)));
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
     if let Some((work, volume)) = number("work_on_solid").zip(number("pit_volume")) {

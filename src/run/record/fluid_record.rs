@@ -94,8 +94,7 @@ impl FluidRecord {
         let interface = match wall {
             Some(fluid) => {
                 let cells = case.output.interface_cells.unwrap_or(fluid.grid.finest()[1]);
-                let axisymmetric = case.geometry == Geometry::Axisymmetric;
-                Some(InterfaceHistory::create(&faces, cells, axisymmetric, &wall_pressures, history)?)
+                Some(InterfaceHistory::create(case, &faces, cells, &wall_pressures, history)?)
             }
             None => None,
         };
@@ -223,7 +222,7 @@ impl FluidRecord {
         // Between the ends of whole steps levels are at different times, and nothing adds up.
         let due = solver.clock().is_over() && self.ticker.is_due(time);
         if let Some(interface) = &mut self.interface {
-            interface.add(&self.wall_pressures, dt);
+            interface.after_step(&self.wall_pressures, (time, dt), history)?;
             if due {
                 let velocity =
                     |face: usize| solver.interface().states().get(face).map_or(0.0, |wall| wall.velocity);
@@ -292,6 +291,7 @@ impl FluidRecord {
             Value::Object(mut map) => {
                 map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
                 let masses = solver.carried_masses();
+                map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
                 map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));
                 map
             }

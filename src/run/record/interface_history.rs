@@ -1,11 +1,14 @@
 //! The history of the interface on a fixed radial grid, whatever faces the mesh has there.
 
 use coupler::CommonRefinement;
-use mesh::Misfit;
+use mesh::{Geometry, Misfit};
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
+use crate::case::Case;
 use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
+use crate::run::record::sensors::{SensorState, Sensors};
 use crate::run::side::wall_faces::WallFaces;
 
 /// Pressure, velocity and impulse on the interface, as means over the cells of a fixed grid.
@@ -21,6 +24,7 @@ pub struct InterfaceHistory {
     /// Pressure of the last step.
     pressure: Vec<f64>,
     impulse: Vec<f64>,
+    sensors: Sensors,
 }
 
 /// What of it changes in time, and what hangs on the faces that there were at t = 0.
@@ -30,17 +34,19 @@ pub struct InterfaceState {
     initial: Vec<f64>,
     pressure: Vec<f64>,
     impulse: Vec<f64>,
+    sensors: Vec<SensorState>,
 }
 
 impl InterfaceHistory {
     /// What has to be kept of it.
     pub fn saved(&self) -> InterfaceState {
-        let Self { series: _, map: _, axisymmetric: _, grid, initial, pressure, impulse } = self;
+        let Self { series: _, map: _, axisymmetric: _, grid, initial, pressure, impulse, sensors } = self;
         InterfaceState {
             grid: grid.clone(),
             initial: initial.clone(),
             pressure: pressure.clone(),
             impulse: impulse.clone(),
+            sensors: sensors.saved(),
         }
     }
 
@@ -51,9 +57,12 @@ impl InterfaceHistory {
         faces: &WallFaces,
         history: &mut HistoryFile,
     ) -> Result<(), Misfit> {
-        let InterfaceState { grid, initial, pressure, impulse } = saved;
+        let InterfaceState { grid, initial, pressure, impulse, sensors } = saved;
         if [grid.len(), initial.len(), pressure.len(), impulse.len()] != [self.grid.len(); 4] {
             return Err(Misfit(format!("the interface's history has {} cells", grid.len())));
+        }
+        if !self.sensors.restore(sensors) {
+            return Err(Misfit("the sensors on the wall are others".to_owned()));
         }
         (self.grid, self.initial, self.pressure, self.impulse) = (grid, initial, pressure, impulse);
         put_centres(faces.begin(), &self.grid, history);
@@ -63,9 +72,9 @@ impl InterfaceHistory {
 
     /// Adds `/interface` to a history: `cells` of equal width, `pressures` on the faces at t = 0.
     pub fn create(
+        case: &Case,
         faces: &WallFaces,
         cells: usize,
-        axisymmetric: bool,
         pressures: &[f64],
         history: &mut HistoryFile,
     ) -> Result<Self, OutputError> {
@@ -89,11 +98,12 @@ impl InterfaceHistory {
         let mut interface = Self {
             series,
             map: CommonRefinement::default(),
-            axisymmetric,
+            axisymmetric: case.geometry == Geometry::Axisymmetric,
             grid,
             initial: zero.clone(),
             pressure: zero.clone(),
             impulse: zero,
+            sensors: Sensors::create(case, faces, pressures, history)?,
         };
         interface.follow(faces);
         interface.add(pressures, 0.0);
@@ -104,10 +114,27 @@ impl InterfaceHistory {
     /// Takes notice of other faces than before.
     pub fn follow(&mut self, faces: &WallFaces) {
         self.map.update(faces.begin(), faces.edges(), &self.grid, self.axisymmetric);
+        self.sensors.follow(faces);
+    }
+
+    /// Takes notice of a step of length `dt` with these mean pressures on the faces; sensors get their rows.
+    pub fn after_step(
+        &mut self,
+        pressures: &[f64],
+        (time, dt): (f64, f64),
+        history: &mut HistoryFile,
+    ) -> Result<(), OutputError> {
+        self.add(pressures, dt);
+        self.sensors.after_step(pressures, (time, dt), history)
+    }
+
+    /// Its part of the summary.
+    pub fn summary(&self) -> Map<String, Value> {
+        self.sensors.summary()
     }
 
     /// Takes notice of a step of length `dt` with these mean pressures on the faces.
-    pub fn add(&mut self, pressures: &[f64], dt: f64) {
+    fn add(&mut self, pressures: &[f64], dt: f64) {
         let Self { map, pressure, impulse, initial, .. } = self;
         map.means(
             true,
@@ -153,12 +180,18 @@ mod tests {
         WallFaces::new(0, 0.0, edges.to_vec())
     }
 
+    fn case() -> Case {
+        let text = "[time]\nend = 1e-6\n[solid]\nz = [-1.0, 0.0]\nr = [0.0, 1.0]\ncells = [16, 16]\nmaterial = \"structural-steel\"\n\
+                    [coupling]\nscheme = \"none\"\n";
+        Case::from_toml(text, "disc", &[]).unwrap()
+    }
+
     #[test]
     fn the_impulse_goes_on_when_the_faces_change_and_none_of_it_is_lost() {
         let directory = tempfile::tempdir().unwrap();
         let mut history = HistoryFile::create(&directory.path().join("fluid.h5"), &[]).unwrap();
         let coarse = faces(&[0.5, 1.0]);
-        let mut interface = InterfaceHistory::create(&coarse, 4, true, &[3.0, 3.0], &mut history).unwrap();
+        let mut interface = InterfaceHistory::create(&case(), &coarse, 4, &[3.0, 3.0], &mut history).unwrap();
         assert_eq!(interface.initial, [3.0; 4]);
         let area = |low: f64, high: f64| 0.5 * (high * high - low * low);
         let mut expected = 0.0;

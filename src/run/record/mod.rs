@@ -5,6 +5,8 @@
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
 //! | [`side_files`] | into which files |
 //! | [`interface_history`] | of the interface on a fixed grid |
+//! | [`sensors`] | of discs on it |
+//! | [`two_collapses`] | the rebound, the second collapse, and what either load did |
 //! | [`surface`] | of the solid's surface: its displacement and the pit in it |
 //! | [`collapse`] | the collapse time |
 //! | [`timed`] | where the wall time goes |
@@ -16,10 +18,12 @@ pub mod conclusion;
 pub mod equivalent_load;
 pub mod fluid_record;
 pub mod interface_history;
+pub mod sensors;
 pub mod side_files;
 pub mod solid_record;
 pub mod surface;
 pub mod timed;
+pub mod two_collapses;
 
 use mesh::{BLOCK, Limiter, Mesh, Misfit};
 use serde::{Deserialize, Serialize};

@@ -194,7 +194,7 @@ impl SolidRecord {
         self.cells.see(mesh.cells());
         let changed = self.faces.update(mesh.generation(), || solver.interface_edges());
         if let Some(surface) = &mut self.surface {
-            surface.after_step(solver, plan.dt, (&self.faces, changed));
+            surface.after_step(solver, plan.dt, (&self.faces, changed), &mut self.files.history)?;
         }
         self.write(solver, plan.dt)?;
         if plan.snapshot {

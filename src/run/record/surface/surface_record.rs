@@ -69,7 +69,7 @@ impl SurfaceRecord {
                     // Its impulse is that beyond what the wall bore from the start.
                     LoadCase::Recorded(load) => on_faces(faces, load.at_start()),
                 };
-                Some(InterfaceHistory::create(faces, cells, axisymmetric, &pressures, history)?)
+                Some(InterfaceHistory::create(case, faces, cells, &pressures, history)?)
             }
             None => {
                 if case.fluid.is_none() {
@@ -129,7 +129,13 @@ impl SurfaceRecord {
     /// Takes notice of a step of length `dt`.
     ///
     /// - `changed`: whether `faces` are others than before.
-    pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, dt: f64, (faces, changed): (&WallFaces, bool)) {
+    pub fn after_step(
+        &mut self,
+        solver: &SolidSolver<BLOCK>,
+        dt: f64,
+        (faces, changed): (&WallFaces, bool),
+        history: &mut HistoryFile,
+    ) -> Result<(), OutputError> {
         self.displacement.after_step(solver, dt);
         if solver.clock().is_over() {
             self.rest.look(solver.time(), &self.displacement);
@@ -140,8 +146,9 @@ impl SurfaceRecord {
             }
             self.pressures.clear();
             self.pressures.extend(solver.interface().states().iter().map(|state| state.pressure));
-            load.add(&self.pressures, dt);
+            load.after_step(&self.pressures, (solver.time(), dt), history)?;
         }
+        Ok(())
     }
 
     /// Adds a row to the histories.
@@ -191,6 +198,7 @@ impl SurfaceRecord {
             ("indentation_peak".to_owned(), json!(self.rest.deepest())),
             ("surface_still".to_owned(), json!(self.rest.still(&self.displacement))),
         ]);
+        part.extend(self.load.iter().flat_map(InterfaceHistory::summary));
         if self.settles {
             part.insert("settled".to_owned(), json!(self.rest.is_settled()));
         }

@@ -1,0 +1,217 @@
+//! Sensor discs on the wall: the mean pressure on each, its force and impulse, as a transducer would see them.
+
+use std::collections::VecDeque;
+
+use mesh::Geometry;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use crate::case::{Case, Sensor};
+use crate::output::{Column, HistoryFile, OutputError, SeriesId};
+use crate::run::record::column;
+use crate::run::side::wall_faces::WallFaces;
+
+const COLUMNS: [Column<'static>; 4] = [
+    column("time", "s", "end of the step"),
+    column("pressure", "Pa", "mean over the disc and the rise time of the pressure minus that at t = 0"),
+    column("force", "N", "force of it (planar: N/m)"),
+    column("impulse", "N s", "time integral of the force, without the rise time (planar: N s/m)"),
+];
+
+/// All sensors of a case.
+pub struct Sensors {
+    geometry: Geometry,
+    /// Where the first face begins, and where each ends, m.
+    begin: f64,
+    edges: Vec<f64>,
+    sensors: Vec<OnWall>,
+}
+
+struct OnWall {
+    sensor: Sensor,
+    area: f64,
+    series: SeriesId,
+    state: SensorState,
+}
+
+/// What of a sensor changes in time, and the pressure at t = 0.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct SensorState {
+    /// Mean pressure at t = 0, Pa.
+    initial: f64,
+    /// Time since then, s, and time integral of the pressure beyond the initial one, Pa s.
+    now: [f64; 2],
+    /// The same at the ends of earlier steps: the first at or before the beginning of the rise time, the others within it.
+    before: VecDeque<[f64; 2]>,
+    /// Largest pressure shown so far, Pa, and when, s.
+    peak: [f64; 2],
+}
+
+impl SensorState {
+    /// What a sensor shows after a step of length `dt` with a mean pressure: the mean over the rise time, as far as there has been time.
+    fn show(&mut self, rise_time: f64, dt: f64, pressure: f64) -> f64 {
+        let [time, impulse] = self.now;
+        self.now = [time + dt, impulse + dt * pressure];
+        if rise_time <= dt {
+            self.before.clear();
+            return pressure;
+        }
+        self.before.push_back([time, impulse]);
+        let begin = self.now[0] - rise_time;
+        while self.before.get(1).is_some_and(|[next, _]| *next <= begin) {
+            self.before.pop_front();
+        }
+        let [first, impulse] = self.before[0];
+        let begin = begin.max(first);
+        let [next, next_impulse] = self.before.get(1).copied().unwrap_or(self.now);
+        let at_begin = impulse + (next_impulse - impulse) * (begin - first) / (next - first);
+        (self.now[1] - at_begin) / (self.now[0] - begin)
+    }
+}
+
+impl Sensors {
+    /// Adds `/sensors` to a history, where the case has any.
+    ///
+    /// - `pressures`: on the faces at t = 0.
+    pub fn create(
+        case: &Case,
+        faces: &WallFaces,
+        pressures: &[f64],
+        history: &mut HistoryFile,
+    ) -> Result<Self, OutputError> {
+        let mut sensors =
+            Self { geometry: case.geometry, begin: 0.0, edges: Vec::new(), sensors: Vec::new() };
+        sensors.follow(faces);
+        for sensor in &case.sensors {
+            let series = history.add_series(&format!("/sensors/{}", sensor.name), &COLUMNS)?;
+            let area = sensors.area(sensors.begin, sensor.radius);
+            let state =
+                SensorState { initial: sensors.mean(sensor.radius, pressures), ..SensorState::default() };
+            history.push(series, &[0.0; 4])?;
+            sensors.sensors.push(OnWall { sensor: sensor.clone(), area, series, state });
+        }
+        Ok(sensors)
+    }
+
+    /// What has to be kept of them.
+    pub fn saved(&self) -> Vec<SensorState> {
+        self.sensors.iter().map(|own| own.state.clone()).collect()
+    }
+
+    /// Takes up what was kept of the same sensors; says whether they were.
+    pub fn restore(&mut self, saved: Vec<SensorState>) -> bool {
+        let fits = saved.len() == self.sensors.len();
+        self.sensors.iter_mut().zip(saved).for_each(|(own, state)| own.state = state);
+        fits
+    }
+
+    /// Takes notice of other faces than before.
+    pub fn follow(&mut self, faces: &WallFaces) {
+        if !(faces.begin() == self.begin && faces.edges() == self.edges) {
+            self.begin = faces.begin();
+            self.edges = faces.edges().to_vec();
+        }
+    }
+
+    /// Takes notice of a step of length `dt` with these mean pressures on the faces, and adds a row for each sensor.
+    pub fn after_step(
+        &mut self,
+        pressures: &[f64],
+        (time, dt): (f64, f64),
+        history: &mut HistoryFile,
+    ) -> Result<(), OutputError> {
+        if !(dt > 0.0) {
+            return Ok(());
+        }
+        for number in 0..self.sensors.len() {
+            let mean = self.mean(self.sensors[number].sensor.radius, pressures);
+            let OnWall { sensor, area, series, state } = &mut self.sensors[number];
+            let pressure = mean - state.initial;
+            let shown = state.show(sensor.rise_time, dt, pressure);
+            if shown > state.peak[0] {
+                state.peak = [shown, time];
+            }
+            history.push(*series, &[time, shown, shown * *area, state.now[1] * *area])?;
+        }
+        Ok(())
+    }
+
+    /// The part of the wall between two radii, m² (planar: m).
+    fn area(&self, low: f64, high: f64) -> f64 {
+        match self.geometry {
+            Geometry::Planar => high - low,
+            Geometry::Axisymmetric => std::f64::consts::PI * (high * high - low * low),
+        }
+    }
+
+    /// The mean of the pressures on the faces over the wall up to a radius; a face that reaches beyond counts with its part within.
+    fn mean(&self, radius: f64, pressures: &[f64]) -> f64 {
+        let (mut low, mut sum) = (self.begin, 0.0);
+        for (edge, pressure) in self.edges.iter().zip(pressures) {
+            if low >= radius {
+                break;
+            }
+            sum += self.area(low, edge.min(radius)) * pressure;
+            low = *edge;
+        }
+        sum / self.area(self.begin, radius)
+    }
+
+    /// Their part of the summary.
+    pub fn summary(&self) -> Map<String, Value> {
+        let of = |own: &OnWall| {
+            let [peak, time] = own.state.peak;
+            let numbers = json!({
+                "radius": own.sensor.radius,
+                "rise_time": own.sensor.rise_time,
+                "pressure_peak": peak,
+                "pressure_peak_time": time,
+                "force_peak": peak * own.area,
+                "impulse": own.state.now[1] * own.area,
+            });
+            (own.sensor.name.clone(), numbers)
+        };
+        let sensors = Map::from_iter(self.sensors.iter().map(of));
+        if sensors.is_empty() { Map::new() } else { Map::from_iter([("sensors".to_owned(), json!(sensors))]) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(geometry: Geometry, edges: &[f64]) -> Sensors {
+        Sensors { geometry, begin: 0.0, edges: edges.to_vec(), sensors: Vec::new() }
+    }
+
+    #[test]
+    fn a_disc_has_the_mean_over_its_area_whatever_the_faces() {
+        let disc = of(Geometry::Axisymmetric, &[1.0, 2.0, 4.0]);
+        // Over r < 3: areas 1, 3, 5 (of π).
+        assert!((disc.mean(3.0, &[9.0, 3.0, 1.8]) - 3.0).abs() < 1e-15);
+        let finer = of(Geometry::Axisymmetric, &[0.5, 1.0, 1.5, 2.0, 3.0, 4.0]);
+        assert!((finer.mean(3.0, &[9.0, 9.0, 3.0, 3.0, 1.8, 1.8]) - 3.0).abs() < 1e-15);
+        assert_eq!(of(Geometry::Planar, &[1.0, 2.0, 4.0]).mean(4.0, &[4.0, 2.0, 1.0]), 2.0);
+        assert_eq!(disc.mean(0.5, &[9.0, 3.0, 1.8]), 9.0, "a sensor within one face");
+    }
+
+    #[test]
+    fn a_rise_time_takes_the_mean_over_it() {
+        let mut state = SensorState::default();
+        let mut shown = |dt, pressure| state.show(1.0, dt, pressure);
+        // The mean over what there has been, until there has been enough.
+        assert!((shown(0.5, 2.0) - 2.0).abs() < 1e-15);
+        assert!((shown(0.5, 4.0) - 3.0).abs() < 1e-15);
+        // Of the first step only the last tenth remains.
+        assert!((shown(0.4, 10.0) - (0.1 * 2.0 + 0.5 * 4.0 + 0.4 * 10.0)).abs() < 1e-14);
+        // A step longer than the rise time.
+        assert_eq!(shown(3.0, 7.0), 7.0);
+        let mut at_once = SensorState::default();
+        assert_eq!([at_once.show(0.0, 0.1, 5.0), at_once.show(0.0, 0.1, 6.0)], [5.0, 6.0]);
+        assert!(at_once.before.is_empty());
+        // However long it is, no step costs more than the last.
+        let mut slow = SensorState::default();
+        (0..1000).for_each(|_| assert!((slow.show(0.05, 0.01, 3.0) - 3.0).abs() < 1e-12));
+        assert!(slow.before.len() <= 6, "{}", slow.before.len());
+    }
+}

@@ -1,0 +1,134 @@
+//! The rebound of a bubble, its second collapse, and the loads of either on the wall, from the histories of a run.
+
+use std::path::Path;
+
+use hdf5::File;
+use ndarray::Array2;
+use serde_json::{Map, Value, json};
+
+use crate::output::run_directory::HISTORY;
+
+/// What a turn of the volume must be followed by to count, as a share of it: less is ringing.
+const TURN: f64 = 0.01;
+
+/// Turns of the gas volume, by the rows of its history.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Turns {
+    /// The first minimum below half the initial volume.
+    first: Option<usize>,
+    /// The largest volume after it.
+    rebound: Option<usize>,
+    /// The smallest one after that.
+    second: Option<usize>,
+}
+
+impl Turns {
+    /// A turn counts once the volume has come back from it by [`TURN`] of its size.
+    fn of(volumes: &[f64]) -> Self {
+        let mut turns = Self::default();
+        let Some(&initial) = volumes.first() else { return turns };
+        let (mut lowest, mut highest) = (0, 0);
+        for (row, &volume) in volumes.iter().enumerate() {
+            match turns {
+                Self { first: None, .. } => {
+                    if volume < volumes[lowest] {
+                        lowest = row;
+                    }
+                    if volumes[lowest] < 0.5 * initial && volume > (1.0 + TURN) * volumes[lowest] {
+                        (turns.first, highest) = (Some(lowest), row);
+                    }
+                }
+                Self { rebound: None, .. } => {
+                    if volume > volumes[highest] {
+                        highest = row;
+                    }
+                    if volume < (1.0 - TURN) * volumes[highest] {
+                        (turns.rebound, lowest) = (Some(highest), row);
+                    }
+                }
+                Self { second: None, .. } => {
+                    if volume < volumes[lowest] {
+                        lowest = row;
+                    }
+                    if volume > (1.0 + TURN) * volumes[lowest] {
+                        turns.second = Some(lowest);
+                    }
+                }
+                _ => break,
+            }
+        }
+        turns
+    }
+}
+
+/// The part of the summary that is about the rebound and the second collapse; empty for a run without a bubble or a collapse.
+pub fn summary(directory: &Path) -> Map<String, Value> {
+    File::open(directory.join(HISTORY)).ok().and_then(|file| of_file(&file)).unwrap_or_default()
+}
+
+fn of_file(file: &File) -> Option<Map<String, Value>> {
+    let rows = |name: &str| -> Option<Vec<f64>> {
+        let is_there = name.rsplit_once('/').is_none_or(|(group, _)| file.link_exists(group));
+        if is_there && file.link_exists(name) { file.dataset(name).ok()?.read_raw().ok() } else { None }
+    };
+    let (times, volumes, radii) = (rows("time")?, rows("bubble/volume")?, rows("bubble/equivalent_radius")?);
+    if times.len() != volumes.len() || radii.len() != volumes.len() {
+        return None;
+    }
+    let turns = Turns::of(&volumes);
+    turns.first?;
+    let mut part = Map::new();
+    let mut put = |key: &str, value: Option<f64>| part.insert(key.to_owned(), json!(value));
+    put("rebound_time", turns.rebound.map(|row| times[row]));
+    put("rebound_equivalent_radius", turns.rebound.map(|row| radii[row]));
+    put("second_collapse_time", turns.second.map(|row| times[row]));
+    put("second_min_equivalent_radius", turns.second.map(|row| radii[row]));
+
+    // What comes before the rebound is at its largest is of the first collapse, what comes after of the second.
+    let split = turns.rebound.map(|row| times[row]);
+    if let (Some(ends), Some(pressure)) = (rows("interface/time"), rows("wall/pressure_axis")) {
+        let impulse: Array2<f64> = file.dataset("interface/impulse").ok()?.read_2d().ok()?;
+        let before = |time: f64| split.is_none_or(|split| time <= split);
+        let peak = |of_first: bool| {
+            let own = times.iter().zip(&pressure).filter(|(time, _)| before(**time) == of_first);
+            own.map(|(_, pressure)| *pressure).reduce(f64::max)
+        };
+        let at = |row: Option<usize>| Some(impulse[[row?, 0]]);
+        let last_of_first = ends.iter().rposition(|time| before(*time)).filter(|row| *row < impulse.nrows());
+        let whole = at(impulse.nrows().checked_sub(1));
+        let first = at(last_of_first);
+        put("wall_pressure_peak_first", peak(true));
+        put("wall_pressure_peak_second", split.and_then(|_| peak(false)));
+        put("wall_impulse_first", first);
+        put("wall_impulse_second", split.and(whole.zip(first)).map(|(whole, first)| whole - first));
+    }
+    Some(part)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_are_found_where_the_volume_comes_back_and_ringing_is_none() {
+        // Falls to 0.1, rises to 0.6, falls to 0.2, rises; with a ringing of half a per cent.
+        let volume = |t: f64| {
+            let shape = match t {
+                t if t < 1.0 => 1.0 - 0.9 * t,
+                t if t < 2.0 => 0.1 + 0.5 * (t - 1.0),
+                t if t < 3.0 => 0.6 - 0.4 * (t - 2.0),
+                _ => 0.2 + 0.1 * (t - 3.0),
+            };
+            shape * (1.0 + 0.004 * (700.0 * t).sin())
+        };
+        let volumes: Vec<f64> = (0..=400).map(|k| volume(f64::from(k) * 0.01)).collect();
+        let turns = Turns::of(&volumes);
+        for (found, expected) in [(turns.first, 100), (turns.rebound, 200), (turns.second, 300)] {
+            assert!(found.is_some_and(|row| row.abs_diff(expected) <= 2), "{turns:?}");
+        }
+        assert_eq!(Turns::of(&volumes[..105]).rebound, None, "nothing is said of what has not come yet");
+        assert_eq!(Turns::of(&volumes[..250]).second, None);
+        assert_eq!(Turns::of(&[1.0, 0.6, 1.0]), Turns::default(), "no collapse");
+        assert_eq!(Turns::of(&[]), Turns::default());
+    }
+}
