@@ -16,6 +16,7 @@ use fluid::{
     RiemannSolver, Shape,
 };
 use mesh::{Domain, Geometry, Limiter};
+use solid::plasticity::{Hardening, JohnsonCook, RateFactor, ThermalSoftening};
 use solid::{ElasticState, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
 
 /// Samples per measurement; the median is reported.
@@ -58,6 +59,25 @@ fn main() -> Result<(), Failure> {
             let (a, b, ratio) = (hllc.nanoseconds, exact.nanoseconds, exact.ratio / hllc.ratio);
             println!("| {name} | {block} | {a:.1} | {b:.1} | {ratio:.2} |");
         }
+    }
+    println!(
+        "\n## Solids that can yield against elastic ones, mc, 512 x 512 cells in blocks of 16, one thread\n"
+    );
+    println!(
+        "| law | nothing yields, ns per cell and step | over elastic | everything yields | over elastic |"
+    );
+    println!("|---|---|---|---|---|");
+    for law in ["linear", "johnson-cook"] {
+        if !wanted(&format!("solids that can yield, {law}, mc, 512 16")) {
+            continue;
+        }
+        let cost = |yielding| pool(1)?.install(|| measure::<16>(Solver::Solid(Limiter::Mc, yielding), 512));
+        let mut row = format!("| {law}");
+        for flows in [false, true] {
+            let (own, elastic) = (cost(Some(Yielding { law, flows }))?, cost(None)?);
+            row += &format!(" | {:.1} | {:.2}", own.nanoseconds, own.ratio / elastic.ratio);
+        }
+        println!("{row} |");
     }
     println!("\n## Two threads against one, 512 x 512 cells in blocks of 16\n");
     println!("| solver | one thread, ns per cell and step | two threads | speed-up |");
@@ -104,7 +124,30 @@ struct Scheme {
 #[derive(Clone, Copy)]
 enum Solver {
     Fluid(Scheme, Flow),
-    Solid(Limiter),
+    Solid(Limiter, Option<Yielding>),
+}
+
+/// How the solid yields.
+#[derive(Clone, Copy)]
+struct Yielding {
+    /// "linear" or "johnson-cook".
+    law: &'static str,
+    /// Whether it is so weak that everything that moves flows, or so strong that nothing does.
+    flows: bool,
+}
+
+impl Yielding {
+    fn hardening(self) -> Result<Hardening, Failure> {
+        let strength = if self.flows { 1.0 } else { 1e12 };
+        Ok(match self.law {
+            "linear" => Hardening::linear(strength, strength)?,
+            _ => {
+                let heat = ThermalSoftening::new(1.0, 1700.0, 293.0, 480.0, 0.9)?;
+                let law = JohnsonCook::new(strength, strength, 0.3)?;
+                Hardening::JohnsonCook(law.with_rate(RateFactor::new(0.02, 1.0)?).with_softening(heat))
+            }
+        })
+    }
 }
 
 /// What the fluid does.
@@ -133,7 +176,7 @@ const fn fluid_with(model: Model, riemann: RiemannSolver, limiter: Limiter) -> S
 }
 
 const fn solid_with(limiter: Limiter) -> Solver {
-    Solver::Solid(limiter)
+    Solver::Solid(limiter, None)
 }
 
 impl Solver {
@@ -149,7 +192,7 @@ impl Solver {
                 let riemann = if riemann == RiemannSolver::Hllc { "hllc" } else { "exact" };
                 format!("fluid, {}, {riemann}, {}", name_of(model), limiter(l))
             }
-            Self::Solid(l) => format!("solid, {}", limiter(l)),
+            Self::Solid(l, _) => format!("solid, {}", limiter(l)),
         }
     }
 }
@@ -206,8 +249,8 @@ fn measure<const N: usize>(solver: Solver, cells: usize) -> Result<Cost, Failure
                 Ok(fluid.step(dt)?)
             })
         }
-        Solver::Solid(limiter) => {
-            let mut solid = solid_with_a_pulse::<N>(cells, limiter)?;
+        Solver::Solid(limiter, yielding) => {
+            let mut solid = solid_with_a_pulse::<N>(cells, limiter, yielding)?;
             let restart: Option<fn() -> Result<_, SolidError>> = None;
             sample(cells * cells, &mut solid, restart, |solid| {
                 let dt = solid.time_step_limit(CFL);
@@ -320,7 +363,11 @@ fn patches([z, r]: [f64; 2], cells: usize) -> Primitive {
 }
 
 /// Steel with a smooth axial stress at rest, free above.
-fn solid_with_a_pulse<const N: usize>(cells: usize, limiter: Limiter) -> Result<SolidSolver<N>, SolidError> {
+fn solid_with_a_pulse<const N: usize>(
+    cells: usize,
+    limiter: Limiter,
+    yielding: Option<Yielding>,
+) -> Result<SolidSolver<N>, Failure> {
     use solid::Boundary::{Axis, Free, NonReflecting};
     let setup = SolidSetup {
         domain: Domain { geometry: Geometry::Axisymmetric, z: [-0.04, 0.01], r: [0.0, 0.05] },
@@ -328,15 +375,18 @@ fn solid_with_a_pulse<const N: usize>(cells: usize, limiter: Limiter) -> Result<
         levels: 0,
         speeds: WaveSpeeds { density: 7800.0, c1: 5990.0, c2: 3458.0 },
         yield_strength: 250e6,
-        plasticity: None,
+        plasticity: yielding.map(Yielding::hardening).transpose()?,
         limiter,
         boundaries: [NonReflecting, Free, Axis, NonReflecting],
         adaptation: None,
         stress_scale: 1e6,
         weight: None,
     };
-    SolidSolver::new(setup, |[z, r]| ElasticState {
+    // What flows dies away within a few steps: such a solid is strained all the while, at 100 1/s.
+    let strain_rate = if yielding.is_some_and(|yielding| yielding.flows) { 100.0 } else { 0.0 };
+    Ok(SolidSolver::new(setup, |[z, r]| ElasticState {
+        v_z: strain_rate * z,
         stress_zz: 1e5 * (-((z + 0.01) * (z + 0.01) + r * r) / 1e-5).exp(),
         ..ElasticState::default()
-    })
+    })?)
 }

@@ -39,7 +39,7 @@ pub enum TraceRow {
     NormalVelocitySlope,
     /// ∂ρ/∂r along the face, kg/m⁴.
     DensitySlope,
-    /// Acoustic impedance of the wave that leaves the interface into this side, Pa s/m: ρc, in a solid ρ̄c₁.
+    /// Impedance of the wave that leaves the interface into this side, Pa s/m: ρc, in a solid ρ̄c₁, where it flows that of its plastic wave.
     Impedance,
 }
 
