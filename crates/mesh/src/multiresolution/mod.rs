@@ -14,8 +14,11 @@ pub(crate) mod project;
 pub(crate) mod radial;
 pub(crate) mod remap;
 
-/// The most components a field may have.
-pub const MOST_COMPONENTS: usize = 12;
+/// The most components of a field that details and admissible states depend on.
+pub const MOST_COMPONENTS: usize = 8;
+/// The most components of a field: those after the first [`MOST_COMPONENTS`] are only projected and predicted. More of the former
+/// would cost every cell's analysis.
+pub const MOST_IN_FIELD: usize = 12;
 
 /// What the analysis must know of the fields.
 pub trait Multiresolution: Sync {
@@ -32,7 +35,7 @@ pub trait Multiresolution: Sync {
     /// admissible states. It is one for all components: prediction then stays one linear map, under which
     /// quantities that depend linearly on each other stay so.
     ///
-    /// - `mean`: the cell's components; `deviations`: of its four children.
+    /// - `mean`: the cell's first [`MOST_COMPONENTS`]; `deviations`: those of its four children.
     fn share(&self, mean: &[f64], deviations: &[[f64; MOST_COMPONENTS]; 4]) -> f64;
 
     /// The size of a cell's detail relative to the fields' reference values. It is asked for every cell, so it should

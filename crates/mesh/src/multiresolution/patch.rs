@@ -4,7 +4,7 @@ use crate::ghosts::{continue_within, ghost_range, index};
 use crate::multiresolution::details::{DetailRows, details_of_rows};
 use crate::multiresolution::project::{Window, copy_cells, project_rows, project_window};
 use crate::multiresolution::radial::RadialRow;
-use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations};
+use crate::multiresolution::{MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution, deviations};
 use crate::{Field, GHOSTS, Mesh, Padded, Side};
 
 mod beside_coarser;
@@ -19,11 +19,11 @@ pub struct Patch<const N: usize> {
     data: Vec<f64>,
     /// Rows of cells, ghosts included.
     rows: Vec<RadialRow>,
-    odd: [bool; MOST_COMPONENTS],
+    odd: [bool; MOST_IN_FIELD],
 }
 
 /// Which components are odd in r.
-pub(crate) fn odd_components(components: usize, rule: &impl Multiresolution) -> [bool; MOST_COMPONENTS] {
+pub(crate) fn odd_components(components: usize, rule: &impl Multiresolution) -> [bool; MOST_IN_FIELD] {
     let is_odd = |component| component < components && rule.parity(Side::RMin, component) == Some(-1.0);
     std::array::from_fn(is_odd)
 }
@@ -35,12 +35,12 @@ impl<const N: usize> Patch<N> {
 
     /// All zero.
     pub fn zeros(components: usize) -> Self {
-        assert!(components <= MOST_COMPONENTS, "no more than {MOST_COMPONENTS} components");
+        assert!(components <= MOST_IN_FIELD, "no more than {MOST_IN_FIELD} components");
         Self {
             components,
             data: vec![0.0; components * Self::LEN],
             rows: Vec::with_capacity(Self::STRIDE),
-            odd: [false; MOST_COMPONENTS],
+            odd: [false; MOST_IN_FIELD],
         }
     }
 
@@ -92,7 +92,7 @@ impl<const N: usize> Patch<N> {
     ) {
         let mut rows = DetailRows::<N>::ZERO;
         for j in 0..Self::HALF {
-            for component in 0..self.components {
+            for component in 0..self.components.min(MOST_COMPONENTS) {
                 for (b, row) in rows.own[component].iter_mut().enumerate() {
                     row.copy_from_slice(&own(component, 2 * j + b)[..N]);
                 }
@@ -193,10 +193,10 @@ pub(crate) fn predict<R: Multiresolution>(
     k: usize,
     radial: impl Fn(usize) -> [f64; 2],
     rule: &R,
-    cells: &mut [[f64; MOST_COMPONENTS]; 4],
+    cells: &mut [[f64; MOST_IN_FIELD]; 4],
 ) {
-    let components = rows.len() / len;
-    let mut means = [0.0; MOST_COMPONENTS];
+    let components = (rows.len() / len).min(MOST_COMPONENTS);
+    let mut means = [0.0; MOST_IN_FIELD];
     for (component, row) in rows.chunks_exact(len).enumerate() {
         means[component] = row[k];
         let deviations = deviations(row, k, stride, radial(component));
@@ -204,7 +204,9 @@ pub(crate) fn predict<R: Multiresolution>(
             cell[component] = deviation;
         }
     }
-    let share = rule.share(&means[..components], cells);
+    let leading: [[f64; MOST_COMPONENTS]; 4] =
+        std::array::from_fn(|child| std::array::from_fn(|component| cells[child][component]));
+    let share = rule.share(&means[..components], &leading);
     for cell in cells {
         for (value, mean) in cell.iter_mut().zip(means) {
             *value = mean + share * *value;

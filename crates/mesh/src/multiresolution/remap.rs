@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::ghosts::mean_of_cells;
 use crate::multiresolution::marks::wanted_levels;
 use crate::multiresolution::patch::{continue_beyond, odd_components, predict};
-use crate::multiresolution::{MOST_COMPONENTS, Multiresolution};
+use crate::multiresolution::{MOST_IN_FIELD, Multiresolution};
 use crate::{Adaptation, BlockId, Field, GHOSTS, Mesh, Padded, Patch, ScratchPool};
 
 /// Where the values of a new block come from.
@@ -172,7 +172,7 @@ fn predict_child<const N: usize>(
     let id = mesh.tree().leaves()[slot];
     let half = N / 2;
     let (first_i, first_j) = ((child % 2) * half, (child / 2) * half);
-    let mut cells = [[0.0; MOST_COMPONENTS]; 4];
+    let mut cells = [[0.0; MOST_IN_FIELD]; 4];
     let odd = odd_components(padded.components(), rule);
     let rows = mesh.radial(id.level + 1, i64::from(id.j) * N as i64);
     for j in 0..half {

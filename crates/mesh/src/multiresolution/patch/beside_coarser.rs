@@ -3,7 +3,9 @@
 use crate::ghosts::{continue_within, index};
 use crate::multiresolution::project::project_for_ghosts;
 use crate::multiresolution::radial::RadialRow;
-use crate::multiresolution::{MOST_COMPONENTS, Multiresolution, deviations_among};
+use crate::multiresolution::{
+    MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution, deviations as deviations_of, deviations_among,
+};
 use crate::{Field, GHOSTS, Mesh, Neighbour, Offset, Padded, Patch, Side};
 
 impl<const N: usize> Patch<N> {
@@ -99,7 +101,7 @@ fn predict_line<const N: usize, const ALONG_R: bool, R: Multiresolution>(
     patch: &[f64],
     Line { count, from, to }: Line,
     rows: &[RadialRow],
-    odd: &[bool; MOST_COMPONENTS],
+    odd: &[bool; MOST_IN_FIELD],
     rule: &R,
     padded: &mut [f64],
 ) {
@@ -124,7 +126,7 @@ fn predict_some<const N: usize, const L: usize, const ALONG_R: bool, R: Multires
     patch: &[f64],
     from: usize,
     rows: &[RadialRow],
-    odd: &[bool; MOST_COMPONENTS],
+    odd: &[bool; MOST_IN_FIELD],
     rule: &R,
     padded: &mut [f64],
     to: usize,
@@ -158,6 +160,17 @@ fn predict_some<const N: usize, const L: usize, const ALONG_R: bool, R: Multires
         rule.share(&mean[..components], &of_children)
     });
     let len = Padded::<N>::LEN;
+    let following = patch.chunks_exact(Patch::<N>::LEN).zip(padded.chunks_exact_mut(len)).zip(odd);
+    for ((cells, children), odd) in following.skip(MOST_COMPONENTS) {
+        for k in 0..L {
+            let weights = rows[if ALONG_R { k } else { 0 }].weights[usize::from(*odd)];
+            let at = from + k * step;
+            for (child, deviation) in deviations_of(cells, at, stride, weights).into_iter().enumerate() {
+                let place = to + 2 * k * child_step + (child / 2) * child_stride + child % 2;
+                children[place] = cells[at] + shares[k] * deviation;
+            }
+        }
+    }
     for ((cells, means), deviations) in padded.chunks_exact_mut(len).zip(&means).zip(&deviations) {
         let cells = &mut cells[to..][..2 * (L - 1) * child_step + child_stride + 2];
         for k in 0..L {
