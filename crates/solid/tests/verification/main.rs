@@ -5,6 +5,7 @@
 mod adaptation;
 mod adaptive_error;
 mod boundaries;
+mod first_yield;
 mod helpers;
 mod ledgers;
 mod orders;
