@@ -60,6 +60,8 @@ def picture(found: dict[tuple[float, str], xarray.Dataset], path: Path) -> None:
         work.semilogy(data.hit, data.plastic_work, **style)
     depth.set(xlabel="hit", ylabel="depth of the pit, µm")
     work.set(xlabel="hit", ylabel="plastic work of the hit, J")
+    for axes in (depth, work):
+        axes.xaxis.get_major_locator().set_params(integer=True)
     depth.legend(fontsize=8)
     figure.savefig(path, dpi=120)
 

@@ -103,11 +103,14 @@ pub fn solid_solver(case: &Case, solid: &SolidCase) -> Result<SolidSolver<BLOCK>
     Ok(solid_and_displacement(case, solid)?.0)
 }
 
+/// (u_z, u_r) on the faces of a surface, m.
+pub type SurfaceProfile = Vec<[f64; 2]>;
+
 /// The same with the displacement (u_z, u_r) of its surface on the faces of the finest level at t = 0, m, of a wall that has been hit before.
 pub fn solid_and_displacement(
     case: &Case,
     solid: &SolidCase,
-) -> Result<(SolidSolver<BLOCK>, Option<Vec<[f64; 2]>>), RunError> {
+) -> Result<(SolidSolver<BLOCK>, Option<SurfaceProfile>), RunError> {
     let pressure = case.ambient_pressure();
     let field = rayleigh_field(case);
     let surface = solid.grid.z[1];

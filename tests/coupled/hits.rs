@@ -46,8 +46,17 @@ fn number(summary: &Map<String, Value>, key: &str) -> f64 {
     summary[key].as_f64().unwrap_or_else(|| panic!("{key}: {}", summary[key]))
 }
 
+fn dataset(run: &Path, name: &str) -> hdf5::Dataset {
+    let file = hdf5::File::open(run.join("history.h5")).expect("the histories");
+    file.dataset(name).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
 fn rows(run: &Path, name: &str) -> Array2<f64> {
-    hdf5::File::open(run.join("history.h5")).unwrap().dataset(name).unwrap().read_2d().unwrap()
+    dataset(run, name).read_2d().expect("rows")
+}
+
+fn series(run: &Path, name: &str) -> Vec<f64> {
+    dataset(run, name).read_raw().expect("numbers")
 }
 
 #[test]
@@ -62,10 +71,7 @@ fn a_recorded_load_does_what_it_did_and_a_wall_goes_on_from_where_it_was_left() 
 
     // A sensor as wide as the wall has all of its impulse.
     let sensor = &first["sensors"]["all"];
-    let momentum: Vec<f64> = {
-        let file = hdf5::File::open(at("first").join("history.h5")).unwrap();
-        file.dataset("conservation/solid/momentum_in_z_max").unwrap().read_raw().unwrap()
-    };
+    let momentum = series(&at("first"), "conservation/solid/momentum_in_z_max");
     let whole = -std::f64::consts::TAU * momentum[momentum.len() - 1];
     let impulse = sensor["impulse"].as_f64().unwrap();
     assert!((impulse / whole - 1.0).abs() < 1e-12, "{impulse} of {whole}");
@@ -100,10 +106,7 @@ fn a_recorded_load_does_what_it_did_and_a_wall_goes_on_from_where_it_was_left() 
     let displaced = |name: &str| rows(&at(name), "interface/displacement_z");
     let (before, after) = (displaced("first"), displaced("second"));
     assert_eq!(after.row(0), before.row(before.nrows() - 1), "the surface lies as it was left");
-    let strains: Vec<f64> = {
-        let file = hdf5::File::open(at("second").join("history.h5")).unwrap();
-        file.dataset("solid/plastic_strain_max").unwrap().read_raw().unwrap()
-    };
+    let strains = series(&at("second"), "solid/plastic_strain_max");
     assert_eq!(strains[0], number(&first, "plastic_strain_peak"), "so does what is below it");
     assert!(number(&second, "plastic_strain_peak") > strains[0]);
     let (deeper, work) = (number(&second, "pit_depth") / number(&first, "pit_depth"), "plastic_work");

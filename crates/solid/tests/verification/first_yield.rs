@@ -169,7 +169,7 @@ fn a_half_space_begins_to_yield_under_boussinesqs_pressure_and_at_its_depth() {
 
 /// Beside a pressure that jumps in r the cells below it keep too much stress.
 ///
-/// Under a disc that is at its edge: there is up to 17 % more than the largest stress anywhere should be, with 40 cells a metre as with
+/// Under a disc that is at its edge: there is up to 19 % more than the largest stress anywhere should be, with 40 cells a metre as with
 /// 10, so that a solid would yield there first. With 4 cells across the edge it is gone, and on the axis it does not count.
 #[test]
 fn the_stress_under_a_disc_is_boussinesqs_on_the_axis() {
