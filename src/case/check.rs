@@ -8,6 +8,7 @@ use mesh::{Adaptation, BLOCK, Geometry, Side};
 use solid::Material;
 
 use super::format::{duration, hex, mebibytes, plain, si};
+use super::materials::law_in_words;
 use super::memory::{Memory, available_memory};
 use super::scales::sound_speed;
 use super::steps::first_steps;
@@ -51,6 +52,9 @@ pub fn report(case: &Case) -> String {
             adaptation(&mut text, adaptive, &[(adaptive.epsilon, solid.scale_stress, "Pa")]);
         }
         material(&mut text, &solid.material);
+        if let Some(law) = &solid.plasticity {
+            line(&mut text, "yields by", &law_in_words(law));
+        }
     }
     if let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) {
         impedances(&mut text, fluid, solid);
@@ -60,43 +64,6 @@ pub fn report(case: &Case) -> String {
     warnings.extend(memory_warning(case));
     for warning in &warnings {
         line(&mut text, "warning", warning);
-    }
-    text
-}
-
-/// The materials known by name.
-pub fn materials_table() -> String {
-    let mut text = format!(
-        "{:<25}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}  source\n{:<25}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}\n",
-        "name",
-        "density",
-        "c1",
-        "c2",
-        "young",
-        "poisson",
-        "yield",
-        "",
-        "kg/m3",
-        "m/s",
-        "m/s",
-        "GPa",
-        "1",
-        "MPa"
-    );
-    for material in Material::library() {
-        let strength = material.yield_strength().map_or("-".to_owned(), |y| format!("{:.0}", y / 1e6));
-        let _ = writeln!(
-            text,
-            "{:<25}{:>9.0}{:>7.0}{:>7.0}{:>9.4}{:>9.4}{:>9}  {}",
-            material.name(),
-            material.density(),
-            material.c1(),
-            material.c2(),
-            material.young() / 1e9,
-            material.poisson(),
-            strength,
-            material.source()
-        );
     }
     text
 }

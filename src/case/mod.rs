@@ -8,6 +8,7 @@ mod far_field;
 mod format;
 mod initial_pressure;
 mod load;
+mod materials;
 mod memory;
 mod read;
 mod read_adaptation;
@@ -35,9 +36,10 @@ use fluid::{Gravity, InitialCondition, Model, PhaseState, RiemannSolver, Shape, 
 use mesh::{Adaptation, Geometry, Limiter, Side};
 use solid::{InitialStress, Material, PotentialPulse, Weight};
 
-pub use check::{materials_table, report};
+pub use check::report;
 pub use error::{CaseError, CaseErrors};
 pub use load::{GaussianLoad, LoadCase};
+pub use materials::materials_table;
 pub use memory::{Memory, available_memory};
 pub use read_adaptation::{DEFAULT_ADAPT_EVERY, DEFAULT_ERROR};
 pub use recorded_load::RecordedLoad;
