@@ -61,8 +61,9 @@ def hits(
         results.append(open_run(place))
         if progress is not None:
             progress(hit, results[-1])
-    values = {name: ("hit", [_number(result.summary.get(name)) for result in results], {"units": unit})
-              for name, unit in MEASURES.items()}
+    values: dict[str, Any] = {
+        name: ("hit", [_number(result.summary.get(name)) for result in results], {"units": unit})
+        for name, unit in MEASURES.items()}
     values["directory"] = ("hit", np.array([str(result.directory) for result in results], dtype=object), {})
     return xarray.Dataset(values, {"hit": np.arange(1, n + 1)}, {"load": str(loading.directory)})
 

@@ -29,7 +29,7 @@ impl RateFactor {
 
     /// Whether the rate matters at all.
     #[inline]
-    pub(super) fn acts(self) -> bool {
+    pub fn acts(self) -> bool {
         self.rate_coefficient > 0.0
     }
 

@@ -72,10 +72,9 @@ impl Profile<'_> {
         let deepest = (0..depths.len()).fold(0, |best, k| if depths[k] > depths[best] { k } else { best });
         let Some(&depth) = depths.get(deepest).filter(|depth| **depth > 0.0) else { return Pit::default() };
         let end = self.crossing(&depths, deepest, 0.0).map_or(depths.len(), |(after, _)| after);
-        let depth_axis = self.on_axis(&depths);
         Pit {
-            depth: depth.max(depth_axis),
-            depth_axis,
+            depth,
+            depth_axis: self.on_axis(&depths),
             radius: self.crossing(&depths, deepest, 0.5 * depth).map(|(_, r)| r),
             volume: (0..end).map(|k| depths[k] * self.area(k)).sum(),
             rim: depths[end..].iter().fold(0.0, |rim, depth| rim.max(-depth)),
