@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use solid::Material;
-use solid::plasticity::{Hardening, JohnsonCook, MaterialHardening};
+use solid::plasticity::{Hardening, JohnsonCook, MaterialHardening, RateFactor, ThermalSoftening};
 
 /// The materials known by name.
 pub fn materials_table() -> String {
@@ -45,7 +45,7 @@ pub fn materials_table() -> String {
 
 /// The constants of `[solid.plasticity] law = "johnson-cook"` for those that have some.
 fn hardening_table(text: &mut String) {
-    let row = |text: &mut String, cells: [String; 10], source: &str| {
+    let row = |text: &mut String, cells: [String; 11], source: &str| {
         let [name, numbers @ ..] = cells;
         let _ = write!(text, "{name:<25}");
         for number in numbers {
@@ -53,14 +53,15 @@ fn hardening_table(text: &mut String) {
         }
         let _ = writeln!(text, "  {source}");
     };
-    let _ = writeln!(
+    let _ = writeln!(text, "\n(A + B eps^n)(1 + C ln(rate/rate0))(1 - T*^m), `law = \"johnson-cook\"`:");
+    row(
         text,
-        "\n(A + B eps^n)(1 + C ln(rate/rate0))(1 - T*^m), `law = \"johnson-cook\"`; chi = 0.9:"
+        ["name", "A", "B", "n", "C", "rate0", "m", "melts", "T_r", "c_p", "chi"].map(str::to_owned),
+        "source",
     );
-    row(text, ["name", "A", "B", "n", "C", "rate0", "m", "melts", "T_r", "c_p"].map(str::to_owned), "source");
-    row(text, ["", "MPa", "MPa", "1", "1", "1/s", "1", "K", "K", "J/(kg K)"].map(str::to_owned), "");
+    row(text, ["", "MPa", "MPa", "1", "1", "1/s", "1", "K", "K", "J/(kg K)", "1"].map(str::to_owned), "");
     for MaterialHardening { material, law, source, .. } in MaterialHardening::library() {
-        let heat = |of: fn(&solid::plasticity::ThermalSoftening) -> f64| {
+        let heat = |of: fn(&ThermalSoftening) -> f64| {
             law.softening.as_ref().map_or("-".to_owned(), |heat| of(heat).to_string())
         };
         let cells = [
@@ -74,6 +75,7 @@ fn hardening_table(text: &mut String) {
             heat(|heat| heat.melting_temperature),
             heat(|heat| heat.reference_temperature),
             heat(|heat| heat.heat_capacity),
+            heat(|heat| heat.taylor_quinney),
         ];
         row(text, cells, source);
     }
@@ -98,8 +100,7 @@ pub(super) fn law_in_words(law: &Hardening) -> String {
             let (a, b) = (mega(*yield_strength), mega(*hardening_modulus));
             let mut words = format!("johnson-cook: ({a} MPa + {b} MPa eps^{hardening_exponent})");
             if rate.acts() {
-                let _ =
-                    write!(words, " (1 + {} ln(rate/({} 1/s)))", rate.rate_coefficient, rate.reference_rate);
+                words += &format!(" {}", rate_in_words(*rate));
             }
             if let Some(heat) = softening {
                 let (low, high) = (heat.reference_temperature, heat.melting_temperature);
@@ -114,16 +115,15 @@ pub(super) fn law_in_words(law: &Hardening) -> String {
                 mega(law.points().next().map_or(0.0, |point| point[1]))
             );
             if law.rate().acts() {
-                let _ = write!(
-                    words,
-                    ", (1 + {} ln(rate/({} 1/s)))",
-                    law.rate().rate_coefficient,
-                    law.rate().reference_rate
-                );
+                words += &format!(", {}", rate_in_words(law.rate()));
             }
             words
         }
     }
+}
+
+fn rate_in_words(RateFactor { rate_coefficient, reference_rate, .. }: RateFactor) -> String {
+    format!("(1 + {rate_coefficient} ln(rate/({reference_rate} 1/s)))")
 }
 
 #[cfg(test)]

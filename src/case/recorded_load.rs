@@ -7,6 +7,7 @@ use std::sync::Arc;
 use hdf5::File;
 use ndarray::Array2;
 
+use crate::output::dataset_if_there;
 use crate::output::run_directory::{CASE, HISTORY};
 
 /// `[coupling.load] run = "DIR"`: the pressure that the wall got there, over r and t.
@@ -18,6 +19,9 @@ pub struct RecordedLoad {
     run: PathBuf,
     record: Arc<Record>,
 }
+
+/// Runs that repeat the load of another one more often than this do so in a circle.
+const MOST_REPETITIONS: usize = 100;
 
 /// What was read; shared by the copies of a case.
 #[derive(Debug)]
@@ -110,7 +114,7 @@ impl RecordedLoad {
 
 impl Record {
     fn read(file: &File, ambient: f64) -> Option<Self> {
-        let named = |name: &str| file.dataset(&format!("interface/{name}")).ok();
+        let named = |name: &str| dataset_if_there(file, &format!("interface/{name}"));
         let ends: Vec<f64> = named("time")?.read_raw().ok()?;
         let centres: Vec<f64> = named("r")?.read_raw().ok()?;
         let pressure: Array2<f64> = named("pressure")?.read_2d().ok()?;
@@ -142,17 +146,21 @@ impl Record {
 
 /// The ambient pressure of a run's fluid by its effective case, which says everything, Pa; 0 where it had none and repeated no other run.
 fn ambient_of(run: &Path) -> Result<f64, String> {
-    let path = run.join(CASE);
-    let text =
-        fs::read_to_string(&path).map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
-    let case: toml::Table =
-        toml::from_str(&text).map_err(|error| format!("{} is no case: {error}", path.display()))?;
-    let inner = |keys: [&str; 3]| case.get(keys[0])?.get(keys[1])?.get(keys[2]);
-    if let Some(pressure) = inner(["fluid", "ambient", "pressure"]).and_then(toml::Value::as_float) {
-        return Ok(pressure);
+    let mut run = run.to_path_buf();
+    for _ in 0..MOST_REPETITIONS {
+        let path = run.join(CASE);
+        let text = fs::read_to_string(&path)
+            .map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
+        let case: toml::Table =
+            toml::from_str(&text).map_err(|error| format!("{} is no case: {error}", path.display()))?;
+        let inner = |keys: [&str; 3]| case.get(keys[0])?.get(keys[1])?.get(keys[2]);
+        if let Some(pressure) = inner(["fluid", "ambient", "pressure"]).and_then(toml::Value::as_float) {
+            return Ok(pressure);
+        }
+        let Some(earlier) = inner(["coupling", "load", "run"]).and_then(toml::Value::as_str) else {
+            return Ok(0.0);
+        };
+        run = PathBuf::from(earlier);
     }
-    match inner(["coupling", "load", "run"]).and_then(toml::Value::as_str) {
-        Some(earlier) if Path::new(earlier) != run => ambient_of(Path::new(earlier)),
-        _ => Ok(0.0),
-    }
+    Err(format!("runs repeat each other's loads, {} among them, and none of them had a fluid", run.display()))
 }

@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use hdf5::{File, Group, LocationType};
+use hdf5::{Dataset, File, Group, LocationType};
 
 use super::hdf5_attributes::{set_text, text};
 use super::run_directory::HISTORY;
@@ -124,4 +124,10 @@ fn copy_text_attributes(from: &Group, to: &Group) -> hdf5::Result<()> {
         }
     }
     Ok(())
+}
+
+/// A dataset of a history by its path from the root; `None`, and no complaint of HDF5's, where there is none.
+pub fn dataset_if_there(file: &File, path: &str) -> Option<Dataset> {
+    let group_is_there = path.rsplit_once('/').is_none_or(|(group, _)| file.link_exists(group));
+    if group_is_there && file.link_exists(path) { file.dataset(path).ok() } else { None }
 }

@@ -32,7 +32,7 @@ pub mod vtkhdf;
 pub use background::{BackgroundWriter, OwnedQuadMesh, Snapshot};
 pub use error::OutputError;
 pub use history::{BufferedColumn, Column, HistoryFile, SeriesId};
-pub use join::{Join, join_histories};
+pub use join::{Join, dataset_if_there, join_histories};
 pub use progress::{Progress, ProgressLine};
 pub use run_directory::RunDirectory;
 pub use vtkhdf::{FieldSpec, QuadMesh, SeriesWriter, Storage};

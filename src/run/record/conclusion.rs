@@ -36,8 +36,9 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
             whole["coupling"][key] = json!(share);
         }
     }
-    whole.extend(two_collapses::summary(directory.path()));
-    whole.extend(equivalent_load::summary(&directory.file(HISTORY)));
+    let history = directory.file(HISTORY);
+    whole.extend(two_collapses::summary(&history, whole.get("collapse_time").and_then(Value::as_f64)));
+    whole.extend(equivalent_load::summary(&history));
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
     if let Some((work, volume)) = number("work_on_solid").zip(number("pit_volume")) {
         whole.insert("work_per_pit_volume".to_owned(), json!((volume > 0.0).then_some(work / volume)));

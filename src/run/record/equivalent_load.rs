@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use hdf5::{Dataset, File};
+use hdf5::File;
 use nalgebra::{Matrix4, Vector4};
 use ndarray::{Array2, s};
 use serde_json::{Map, Value, json};
+
+use crate::output::dataset_if_there;
 
 /// Values that are looked at, at most; of more, every other row or cell and so on.
 const MOST_VALUES: usize = 1 << 22;
@@ -55,14 +57,7 @@ pub fn summary(history: &Path) -> Map<String, Value> {
 /// What a file has of the wall's pressure; nothing where it has none or cannot be read, which is told of elsewhere.
 fn read(history: &Path) -> Option<WallPressure> {
     let file = File::open(history).ok()?;
-    let named = |name: &str| -> Option<Dataset> {
-        let path = format!("/interface/{name}");
-        if file.link_exists("/interface") && file.link_exists(&path) {
-            file.dataset(&path).ok()
-        } else {
-            None
-        }
-    };
+    let named = |name: &str| dataset_if_there(&file, &format!("interface/{name}"));
     let pressure = named("pressure")?;
     let [rows, cells] = pressure.shape()[..] else { return None };
     let few = |stride: usize| rows.div_ceil(stride) * cells <= MOST_VALUES;

@@ -222,7 +222,7 @@ impl FluidRecord {
         // Between the ends of whole steps levels are at different times, and nothing adds up.
         let due = solver.clock().is_over() && self.ticker.is_due(time);
         if let Some(interface) = &mut self.interface {
-            interface.after_step(&self.wall_pressures, (time, dt), history)?;
+            interface.after_step(&self.faces, &self.wall_pressures, (time, dt), history)?;
             if due {
                 let velocity =
                     |face: usize| solver.interface().states().get(face).map_or(0.0, |wall| wall.velocity);

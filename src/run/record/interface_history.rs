@@ -114,18 +114,18 @@ impl InterfaceHistory {
     /// Takes notice of other faces than before.
     pub fn follow(&mut self, faces: &WallFaces) {
         self.map.update(faces.begin(), faces.edges(), &self.grid, self.axisymmetric);
-        self.sensors.follow(faces);
     }
 
-    /// Takes notice of a step of length `dt` with these mean pressures on the faces; sensors get their rows.
+    /// Takes notice of a step with these mean pressures on the faces that it follows; sensors get their rows.
     pub fn after_step(
         &mut self,
+        faces: &WallFaces,
         pressures: &[f64],
         (time, dt): (f64, f64),
         history: &mut HistoryFile,
     ) -> Result<(), OutputError> {
         self.add(pressures, dt);
-        self.sensors.after_step(pressures, (time, dt), history)
+        self.sensors.after_step(faces, pressures, (time, dt), history)
     }
 
     /// Its part of the summary.

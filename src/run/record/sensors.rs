@@ -21,9 +21,6 @@ const COLUMNS: [Column<'static>; 4] = [
 /// All sensors of a case.
 pub struct Sensors {
     geometry: Geometry,
-    /// Where the first face begins, and where each ends, m.
-    begin: f64,
-    edges: Vec<f64>,
     sensors: Vec<OnWall>,
 }
 
@@ -79,18 +76,16 @@ impl Sensors {
         pressures: &[f64],
         history: &mut HistoryFile,
     ) -> Result<Self, OutputError> {
-        let mut sensors =
-            Self { geometry: case.geometry, begin: 0.0, edges: Vec::new(), sensors: Vec::new() };
-        sensors.follow(faces);
-        for sensor in &case.sensors {
+        let geometry = case.geometry;
+        let add = |sensor: &Sensor| {
             let series = history.add_series(&format!("/sensors/{}", sensor.name), &COLUMNS)?;
-            let area = sensors.area(sensors.begin, sensor.radius);
-            let state =
-                SensorState { initial: sensors.mean(sensor.radius, pressures), ..SensorState::default() };
             history.push(series, &[0.0; 4])?;
-            sensors.sensors.push(OnWall { sensor: sensor.clone(), area, series, state });
-        }
-        Ok(sensors)
+            let initial = mean(geometry, faces, sensor.radius, pressures);
+            let area = area(geometry, faces.begin(), sensor.radius);
+            let state = SensorState { initial, ..SensorState::default() };
+            Ok(OnWall { sensor: sensor.clone(), area, series, state })
+        };
+        Ok(Self { geometry, sensors: case.sensors.iter().map(add).collect::<Result<_, OutputError>>()? })
     }
 
     /// What has to be kept of them.
@@ -105,17 +100,10 @@ impl Sensors {
         fits
     }
 
-    /// Takes notice of other faces than before.
-    pub fn follow(&mut self, faces: &WallFaces) {
-        if !(faces.begin() == self.begin && faces.edges() == self.edges) {
-            self.begin = faces.begin();
-            self.edges = faces.edges().to_vec();
-        }
-    }
-
-    /// Takes notice of a step of length `dt` with these mean pressures on the faces, and adds a row for each sensor.
+    /// Takes notice of a step with these mean pressures on the faces, and adds a row for each sensor.
     pub fn after_step(
         &mut self,
+        faces: &WallFaces,
         pressures: &[f64],
         (time, dt): (f64, f64),
         history: &mut HistoryFile,
@@ -123,10 +111,8 @@ impl Sensors {
         if !(dt > 0.0) {
             return Ok(());
         }
-        for number in 0..self.sensors.len() {
-            let mean = self.mean(self.sensors[number].sensor.radius, pressures);
-            let OnWall { sensor, area, series, state } = &mut self.sensors[number];
-            let pressure = mean - state.initial;
+        for OnWall { sensor, area, series, state } in &mut self.sensors {
+            let pressure = mean(self.geometry, faces, sensor.radius, pressures) - state.initial;
             let shown = state.show(sensor.rise_time, dt, pressure);
             if shown > state.peak[0] {
                 state.peak = [shown, time];
@@ -134,27 +120,6 @@ impl Sensors {
             history.push(*series, &[time, shown, shown * *area, state.now[1] * *area])?;
         }
         Ok(())
-    }
-
-    /// The part of the wall between two radii, m² (planar: m).
-    fn area(&self, low: f64, high: f64) -> f64 {
-        match self.geometry {
-            Geometry::Planar => high - low,
-            Geometry::Axisymmetric => std::f64::consts::PI * (high * high - low * low),
-        }
-    }
-
-    /// The mean of the pressures on the faces over the wall up to a radius; a face that reaches beyond counts with its part within.
-    fn mean(&self, radius: f64, pressures: &[f64]) -> f64 {
-        let (mut low, mut sum) = (self.begin, 0.0);
-        for (edge, pressure) in self.edges.iter().zip(pressures) {
-            if low >= radius {
-                break;
-            }
-            sum += self.area(low, edge.min(radius)) * pressure;
-            low = *edge;
-        }
-        sum / self.area(self.begin, radius)
     }
 
     /// Their part of the summary.
@@ -176,23 +141,45 @@ impl Sensors {
     }
 }
 
+/// The part of the wall between two radii, m² (planar: m).
+fn area(geometry: Geometry, low: f64, high: f64) -> f64 {
+    match geometry {
+        Geometry::Planar => high - low,
+        Geometry::Axisymmetric => std::f64::consts::PI * (high * high - low * low),
+    }
+}
+
+/// The mean of the pressures on the faces over the wall up to a radius; a face that reaches beyond counts with its part within.
+fn mean(geometry: Geometry, faces: &WallFaces, radius: f64, pressures: &[f64]) -> f64 {
+    let (mut low, mut sum) = (faces.begin(), 0.0);
+    for (edge, pressure) in faces.edges().iter().zip(pressures) {
+        if low >= radius {
+            break;
+        }
+        sum += area(geometry, low, edge.min(radius)) * pressure;
+        low = *edge;
+    }
+    sum / area(geometry, faces.begin(), radius)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn of(geometry: Geometry, edges: &[f64]) -> Sensors {
-        Sensors { geometry, begin: 0.0, edges: edges.to_vec(), sensors: Vec::new() }
+    /// The mean over the wall up to a radius.
+    fn over(geometry: Geometry, edges: &[f64], radius: f64, pressures: &[f64]) -> f64 {
+        mean(geometry, &WallFaces::new(0, 0.0, edges.to_vec()), radius, pressures)
     }
 
     #[test]
     fn a_disc_has_the_mean_over_its_area_whatever_the_faces() {
-        let disc = of(Geometry::Axisymmetric, &[1.0, 2.0, 4.0]);
+        let (coarse, pressures) = ([1.0, 2.0, 4.0], [9.0, 3.0, 1.8]);
         // Over r < 3: areas 1, 3, 5 (of π).
-        assert!((disc.mean(3.0, &[9.0, 3.0, 1.8]) - 3.0).abs() < 1e-15);
-        let finer = of(Geometry::Axisymmetric, &[0.5, 1.0, 1.5, 2.0, 3.0, 4.0]);
-        assert!((finer.mean(3.0, &[9.0, 9.0, 3.0, 3.0, 1.8, 1.8]) - 3.0).abs() < 1e-15);
-        assert_eq!(of(Geometry::Planar, &[1.0, 2.0, 4.0]).mean(4.0, &[4.0, 2.0, 1.0]), 2.0);
-        assert_eq!(disc.mean(0.5, &[9.0, 3.0, 1.8]), 9.0, "a sensor within one face");
+        assert!((over(Geometry::Axisymmetric, &coarse, 3.0, &pressures) - 3.0).abs() < 1e-15);
+        let (finer, same) = ([0.5, 1.0, 1.5, 2.0, 3.0, 4.0], [9.0, 9.0, 3.0, 3.0, 1.8, 1.8]);
+        assert!((over(Geometry::Axisymmetric, &finer, 3.0, &same) - 3.0).abs() < 1e-15);
+        assert_eq!(over(Geometry::Planar, &coarse, 4.0, &[4.0, 2.0, 1.0]), 2.0);
+        assert_eq!(over(Geometry::Axisymmetric, &coarse, 0.5, &pressures), 9.0, "a sensor within one face");
     }
 
     #[test]

@@ -6,16 +6,14 @@ use hdf5::File;
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
-use crate::output::run_directory::HISTORY;
+use crate::output::dataset_if_there;
 
 /// What a turn of the volume must be followed by to count, as a share of it: less is ringing.
 const TURN: f64 = 0.01;
 
-/// Turns of the gas volume, by the rows of its history.
+/// What follows the first collapse, by the rows of the history of the gas volume.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Turns {
-    /// The first minimum below half the initial volume.
-    first: Option<usize>,
     /// The largest volume after it.
     rebound: Option<usize>,
     /// The smallest one after that.
@@ -24,37 +22,27 @@ struct Turns {
 
 impl Turns {
     /// A turn counts once the volume has come back from it by [`TURN`] of its size.
-    fn of(volumes: &[f64]) -> Self {
+    ///
+    /// - `volumes`: of the whole run; `collapse`: the row of the first collapse.
+    fn after(collapse: usize, volumes: &[f64]) -> Self {
         let mut turns = Self::default();
-        let Some(&initial) = volumes.first() else { return turns };
-        let (mut lowest, mut highest) = (0, 0);
-        for (row, &volume) in volumes.iter().enumerate() {
-            match turns {
-                Self { first: None, .. } => {
-                    if volume < volumes[lowest] {
-                        lowest = row;
-                    }
-                    if volumes[lowest] < 0.5 * initial && volume > (1.0 + TURN) * volumes[lowest] {
-                        (turns.first, highest) = (Some(lowest), row);
-                    }
+        let mut extreme = collapse;
+        for (row, &volume) in volumes.iter().enumerate().skip(collapse) {
+            if turns.rebound.is_none() {
+                if volume > volumes[extreme] {
+                    extreme = row;
                 }
-                Self { rebound: None, .. } => {
-                    if volume > volumes[highest] {
-                        highest = row;
-                    }
-                    if volume < (1.0 - TURN) * volumes[highest] {
-                        (turns.rebound, lowest) = (Some(highest), row);
-                    }
+                if volume < (1.0 - TURN) * volumes[extreme] {
+                    (turns.rebound, extreme) = (Some(extreme), row);
                 }
-                Self { second: None, .. } => {
-                    if volume < volumes[lowest] {
-                        lowest = row;
-                    }
-                    if volume > (1.0 + TURN) * volumes[lowest] {
-                        turns.second = Some(lowest);
-                    }
+            } else {
+                if volume < volumes[extreme] {
+                    extreme = row;
                 }
-                _ => break,
+                if volume > (1.0 + TURN) * volumes[extreme] {
+                    turns.second = Some(extreme);
+                    break;
+                }
             }
         }
         turns
@@ -62,21 +50,20 @@ impl Turns {
 }
 
 /// The part of the summary that is about the rebound and the second collapse; empty for a run without a bubble or a collapse.
-pub fn summary(directory: &Path) -> Map<String, Value> {
-    File::open(directory.join(HISTORY)).ok().and_then(|file| of_file(&file)).unwrap_or_default()
+///
+/// - `collapse_time`: of the first collapse, s.
+pub fn summary(history: &Path, collapse_time: Option<f64>) -> Map<String, Value> {
+    let found = collapse_time.and_then(|time| of_file(&File::open(history).ok()?, time));
+    found.unwrap_or_default()
 }
 
-fn of_file(file: &File) -> Option<Map<String, Value>> {
-    let rows = |name: &str| -> Option<Vec<f64>> {
-        let is_there = name.rsplit_once('/').is_none_or(|(group, _)| file.link_exists(group));
-        if is_there && file.link_exists(name) { file.dataset(name).ok()?.read_raw().ok() } else { None }
-    };
+fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
+    let rows = |name: &str| -> Option<Vec<f64>> { dataset_if_there(file, name)?.read_raw().ok() };
     let (times, volumes, radii) = (rows("time")?, rows("bubble/volume")?, rows("bubble/equivalent_radius")?);
     if times.len() != volumes.len() || radii.len() != volumes.len() {
         return None;
     }
-    let turns = Turns::of(&volumes);
-    turns.first?;
+    let turns = Turns::after(times.partition_point(|time| *time < collapse_time), &volumes);
     let mut part = Map::new();
     let mut put = |key: &str, value: Option<f64>| part.insert(key.to_owned(), json!(value));
     put("rebound_time", turns.rebound.map(|row| times[row]));
@@ -87,7 +74,7 @@ fn of_file(file: &File) -> Option<Map<String, Value>> {
     // What comes before the rebound is at its largest is of the first collapse, what comes after of the second.
     let split = turns.rebound.map(|row| times[row]);
     if let (Some(ends), Some(pressure)) = (rows("interface/time"), rows("wall/pressure_axis")) {
-        let impulse: Array2<f64> = file.dataset("interface/impulse").ok()?.read_2d().ok()?;
+        let impulse: Array2<f64> = dataset_if_there(file, "interface/impulse")?.read_2d().ok()?;
         let before = |time: f64| split.is_none_or(|split| time <= split);
         let peak = |of_first: bool| {
             let own = times.iter().zip(&pressure).filter(|(time, _)| before(**time) == of_first);
@@ -108,6 +95,7 @@ fn of_file(file: &File) -> Option<Map<String, Value>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::record::collapse::CollapseFinder;
 
     #[test]
     fn turns_are_found_where_the_volume_comes_back_and_ringing_is_none() {
@@ -122,13 +110,21 @@ mod tests {
             shape * (1.0 + 0.004 * (700.0 * t).sin())
         };
         let volumes: Vec<f64> = (0..=400).map(|k| volume(f64::from(k) * 0.01)).collect();
-        let turns = Turns::of(&volumes);
-        for (found, expected) in [(turns.first, 100), (turns.rebound, 200), (turns.second, 300)] {
+        let mut finder = CollapseFinder::default();
+        volumes.iter().enumerate().for_each(|(row, volume)| finder.push(row as f64, *volume));
+        let first = finder.found().map(|collapse| collapse.time.ceil() as usize);
+        let turns = Turns::after(first.unwrap_or_default(), &volumes);
+        for (found, expected) in [(first, 100), (turns.rebound, 200), (turns.second, 300)] {
             assert!(found.is_some_and(|row| row.abs_diff(expected) <= 2), "{turns:?}");
         }
-        assert_eq!(Turns::of(&volumes[..105]).rebound, None, "nothing is said of what has not come yet");
-        assert_eq!(Turns::of(&volumes[..250]).second, None);
-        assert_eq!(Turns::of(&[1.0, 0.6, 1.0]), Turns::default(), "no collapse");
-        assert_eq!(Turns::of(&[]), Turns::default());
+        assert_eq!(
+            Turns::after(100, &volumes[..105]).rebound,
+            None,
+            "nothing is said of what has not come yet"
+        );
+        assert_eq!(Turns::after(100, &volumes[..250]).second, None);
+        assert_eq!(Turns::after(1, &[1.0, 0.6, 1.0]), Turns::default(), "nor of a rise that goes on");
+        assert_eq!(Turns::after(0, &[]), Turns::default());
+        assert!(summary(Path::new("nowhere"), None).is_empty(), "no collapse");
     }
 }

@@ -40,7 +40,7 @@ pub(crate) fn earlier_cells<const N: usize>(
     if !cells.has_shape(blocks, N * N, cells.components()) || cells.components() < COUNT {
         return Err(MeshError::NoTiling { blocks }.into());
     }
-    let mut state = fill(&mesh, components, &|point| change(point));
+    let mut state = fill(&mesh, components, change);
     let counts = [state.components(), cells.components()];
     let [own_acting, acting] = counts.map(components::acting);
     let displacements = counts.map(components::displacement);

@@ -38,19 +38,14 @@ pub struct Rest {
 impl Rest {
     /// A surface to which nothing has happened since t = 0.
     ///
-    /// - `transit`, `loaded_until`: see [`Rest::new`].
-    pub fn beginning(surface: &SurfaceDisplacement, transit: f64, loaded_until: f64) -> Self {
-        let depth = depth_of(surface);
-        let past = VecDeque::from([(0.0, relative(surface))]);
-        Self { depth, deepest: depth, past, ..Self::new(0, transit, loaded_until) }
+    /// - `transit`: the time of a shear wave across it, s; `loaded_until`: when the last load ends, s.
+    pub fn new(surface: &SurfaceDisplacement, transit: f64, loaded_until: f64) -> Self {
+        Self::at(depth_of(surface), relative(surface), transit, loaded_until)
     }
 
-    /// A surface of so many faces on which nothing has happened.
-    ///
-    /// - `transit`: the time of a shear wave across it, s; `loaded_until`: when the last load ends, s.
-    pub fn new(faces: usize, transit: f64, loaded_until: f64) -> Self {
-        let past = VecDeque::from([(0.0, vec![0.0; faces])]);
-        Self { transit, loaded_until, depth: 0.0, deepest: 0.0, past, is_settled: false }
+    fn at(depth: f64, relative: Vec<f64>, transit: f64, loaded_until: f64) -> Self {
+        let past = VecDeque::from([(0.0, relative)]);
+        Self { transit, loaded_until, depth, deepest: depth, past, is_settled: false }
     }
 
     /// Whether it can be of a surface of so many faces.
@@ -145,7 +140,7 @@ mod tests {
 
     #[test]
     fn a_surface_is_settled_when_it_has_been_still_for_a_transit_after_the_last_load() {
-        let mut rest = Rest::new(1, 1.0, 5.0);
+        let mut rest = Rest::at(0.0, vec![0.0], 1.0, 5.0);
         assert!(!settled(0.0, 4.0, &mut rest, |_| 0.0), "nothing has pressed on it yet");
         assert!(!settled(4.0, 5.5, &mut rest, |_| 1e-6));
         assert!(settled(5.5, 7.0, &mut rest, |_| 1e-6));
@@ -159,7 +154,7 @@ mod tests {
 
     #[test]
     fn a_shallow_pit_is_judged_by_the_indentation_there_was() {
-        let mut rest = Rest::new(1, 1.0, 0.0);
+        let mut rest = Rest::at(0.0, vec![0.0], 1.0, 0.0);
         assert!(!settled(0.0, 3.0, &mut rest, |time| 1e-6 * (1.0 - (time - 1.0).abs())));
         // A slow return from a thousandth: over the depth it would be much.
         assert!(settled(3.0, 6.0, &mut rest, |time| 1e-9 * (1.0 - 0.3 * (time - 3.0))));

@@ -86,7 +86,7 @@ impl SurfaceRecord {
         ];
         let series = history.add_series("/interface", &columns)?;
         let transit = (end - begin) / solver.setup().speeds.c2;
-        let rest = Rest::beginning(
+        let rest = Rest::new(
             &displacement,
             transit,
             case.coupling.load.as_ref().map_or(0.0, LoadCase::loaded_until),
@@ -146,7 +146,7 @@ impl SurfaceRecord {
             }
             self.pressures.clear();
             self.pressures.extend(solver.interface().states().iter().map(|state| state.pressure));
-            load.after_step(&self.pressures, (solver.time(), dt), history)?;
+            load.after_step(faces, &self.pressures, (solver.time(), dt), history)?;
         }
         Ok(())
     }
