@@ -36,6 +36,8 @@ struct Ground {
     /// Ambient, Pa.
     pressure: f64,
     is_hydrostatic: bool,
+    /// That of its own weight, m/s²; 0 without.
+    gravity: f64,
 }
 
 impl Ground {
@@ -49,6 +51,7 @@ impl Ground {
             material: [material.density(), material.c1(), material.c2()],
             pressure: case.ambient_pressure(),
             is_hydrostatic: solid.initial_stress == InitialStress::Hydrostatic,
+            gravity: solid.weight.map_or(0.0, |weight| weight.acceleration),
         }
     }
 
@@ -67,6 +70,7 @@ impl Ground {
                 differs("solid.cells", &own, &others)
             })
             .or_else(|| differs("solid.material (density, c1, c2)", &self.material, &other.material))
+            .or_else(|| differs("solid.gravity", &[self.gravity], &[other.gravity]))
     }
 
     /// The stress under the ambient pressure.
@@ -111,6 +115,20 @@ impl WallLeaver {
         let head = Head::of(self.case, Participant::Solid.name(), solver.steps());
         checkpoint::write(&directory.file(WALL), &head, &wall)
     }
+}
+
+/// That a run does not replace the wall that it begins with.
+///
+/// - `directory`: the run's own.
+/// - errors: [`RunError::Wall`].
+pub fn keep_apart(case: &Case, directory: &Path) -> Result<(), RunError> {
+    let Some(run) = case.solid.as_ref().and_then(|solid| solid.initial.as_ref()) else { return Ok(()) };
+    let is_same =
+        |a: &Path, b: &Path| a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b);
+    if is_same(run, directory) {
+        return Err(fault(run, "that is the run's own directory; give another one with --out".to_owned()));
+    }
+    Ok(())
 }
 
 /// Whether the wall that a case begins with, if it begins with one, can be taken up.
@@ -158,7 +176,8 @@ impl Wall<'static> {
 
     /// A solid that begins as this wall, at rest; a pressure that the new case has more is carried besides.
     ///
-    /// - `pressed`: the stress of the new case under what presses on it at t = 0, at a point.
+    /// - `pressed`: the stress of the new case under what presses on it at t = 0, at a point, without its own weight: that the wall
+    ///   carries already.
     pub fn solver(
         self,
         setup: SolidSetup,

@@ -7,7 +7,7 @@ use cav::output::RunDirectory;
 use cav::run::process::drive::{Keeping, in_process};
 use cav::run::process::stop::Stop;
 use cav::run::record::conclusion::conclude;
-use cav::run::wall::check;
+use cav::run::wall::{check, keep_apart};
 use ndarray::Array2;
 use serde_json::{Map, Value};
 
@@ -122,6 +122,26 @@ fn a_recorded_load_does_what_it_did_and_a_wall_goes_on_from_where_it_was_left() 
 }
 
 #[test]
+fn a_wall_carries_its_weight_once() {
+    let place = tempfile::tempdir().unwrap();
+    let at = |name: &str| place.path().join(name);
+    let heavy = |more: &str| {
+        let text = steel(PULSE, &format!("gravity = -1e5\nadapt = false\n{more}"));
+        case(&text.replace("end = 5e-6", "end = 1e-7").replace("amplitude = 1.2e9", "amplitude = 1e-3"))
+    };
+    let first = run(&heavy(""), &at("first"));
+    let second = run(&heavy(&from(&at("first"))), &at("second"));
+    // ρ g over the depth of the domain, in the lowest cell's centre.
+    let weight = 7800.0 * 1e5 * 0.008 * (1.0 - 0.5 / 128.0);
+    for run in [&first, &second] {
+        let stress = number(run, "von_mises_peak");
+        assert!((stress / weight - 1.0).abs() < 0.03, "{stress} of {weight}");
+    }
+    let ratio = number(&second, "von_mises_peak") / number(&first, "von_mises_peak");
+    assert!((ratio - 1.0).abs() < 1e-9, "{ratio}");
+}
+
+#[test]
 fn a_wall_of_another_kind_is_refused() {
     let place = tempfile::tempdir().unwrap();
     let left = place.path().join("left");
@@ -135,6 +155,7 @@ fn a_wall_of_another_kind_is_refused() {
         ("z = [-0.008, 0.0]", "z = [-0.016, 0.0]", "solid.z is [-0.008, 0.0] there and [-0.016, 0.0] here"),
         ("cells = [16, 16]", "cells = [32, 32]", "solid.cells is"),
         ("levels = 3", "levels = 2", "solid.levels is 3 there and 2 here"),
+        ("levels = 3", "levels = 3\ngravity = -9.81", "solid.gravity is [0.0] there and [-9.81] here"),
         ("left", "nowhere", "there is no wall.state in it"),
     ] {
         let error = refusal(&with(old, new));
@@ -153,6 +174,21 @@ fn a_wall_of_another_kind_is_refused() {
     std::fs::write(&file, bytes).unwrap();
     let error = refusal(&with("", ""));
     assert!(error.to_string().contains("damaged"), "{error}");
+    // A run must not replace the wall that it begins with.
+    let error = keep_apart(&with("", ""), &left.join("../left")).expect_err("its own directory");
+    assert!(error.to_string().contains("the run's own directory"), "{error}");
+    assert!(keep_apart(&with("", ""), &place.path().join("elsewhere")).is_ok());
+    // Runs that repeat each other's loads.
+    for (name, other) in [("here", "there"), ("there", "here")] {
+        let own = place.path().join(name);
+        std::fs::create_dir(&own).unwrap();
+        std::fs::write(own.join("history.h5"), "").unwrap();
+        let text = format!("[coupling.load]\n{}", repeating(&place.path().join(other)));
+        std::fs::write(own.join("case.toml"), text).unwrap();
+    }
+    let text = steel(&repeating(&place.path().join("here")), "");
+    let error = Case::from_toml(&text, "hits", &[]).expect_err("a circle");
+    assert!(error.to_string().contains("repeat each other's loads"), "{error}");
     // A load of no run.
     let text = steel(&repeating(&place.path().join("nowhere")), "");
     let error = Case::from_toml(&text, "hits", &[]).expect_err("there is no such run");

@@ -95,6 +95,7 @@ pub(super) fn carry_out(
 /// Makes the run directory ready and puts the effective case there.
 pub fn prepare(case: &Case, options: &Options) -> Result<RunDirectory, RunError> {
     let path = directory_of(case, options.out.as_deref());
+    wall::keep_apart(case, &path)?;
     let directory = RunDirectory::prepare(&path, options.force).map_err(RunError::Directory)?;
     directory.write_atomic(CASE, case.effective_toml().as_bytes())?;
     Ok(directory)
@@ -136,7 +137,9 @@ pub fn run_side(
     if !is_side(case, joining.participant) {
         return Err(RunError::NoPeer { side: joining.participant.name() });
     }
-    wall::check(case)?;
+    if !child {
+        wall::check(case)?;
+    }
     case.fits_memory([Participant::Fluid, Participant::Solid].map(|side| side == joining.participant))?;
     let path = directory_of(case, options.out.as_deref());
     let alone = case.coupling.scheme == Scheme::External;
