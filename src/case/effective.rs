@@ -124,6 +124,13 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     if let Some(gravity) = fluid.gravity {
         text.number("gravity", gravity.acceleration);
     }
+    if fluid.grid.adaptation.is_some() {
+        let near = &fluid.near_wall;
+        text.head("[fluid.near_wall]");
+        text.key("shock_levels", near.shock_levels);
+        text.key("film_levels", near.film_levels);
+        text.key("film_cells", near.film_cells);
+    }
     write_refine(text, "[[fluid.refine]]", &fluid.grid);
     for (head, eos) in [("[fluid.liquid]", fluid.liquid), ("[fluid.gas]", fluid.gas)] {
         text.head(head);

@@ -15,6 +15,7 @@ mod read_adaptation;
 mod read_coupling;
 mod read_fluid;
 mod read_grid;
+mod read_near_wall;
 mod read_plasticity;
 mod read_sensors;
 mod read_shape;
@@ -32,7 +33,9 @@ mod warnings;
 use std::path::{Path, PathBuf};
 
 use coupler::{Kappa, Participant, Scheme, StarSolver};
-use fluid::{Gravity, InitialCondition, Model, PhaseState, RiemannSolver, Shape, Sharpening, StiffenedGas};
+use fluid::{
+    Gravity, InitialCondition, Model, NearWall, PhaseState, RiemannSolver, Shape, Sharpening, StiffenedGas,
+};
 use mesh::{Adaptation, Geometry, Limiter, Side};
 use solid::{InitialStress, Material, PotentialPulse, Weight};
 
@@ -177,6 +180,8 @@ pub struct FluidCase {
     pub sharpening: Sharpening,
     /// The limiter of the reconstruction.
     pub limiter: Limiter,
+    /// How far the grid rises above its levels next to the wall.
+    pub near_wall: NearWall,
     /// Reference value of the pressure in the thresholds of adaptation, Pa.
     pub scale_pressure: f64,
     /// The same of the density, kg/m³.

@@ -37,7 +37,8 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     if time.as_ref().is_some_and(|time| time.settles) {
         cross::settles(scheme.as_ref(), &mut faults);
     }
-    let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value) };
+    let local_steps = time.as_ref().is_some_and(|time| time.local_steps);
+    let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value), local_steps };
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
     let mut fluid =
         root.table("fluid", &mut faults).and_then(|table| read_fluid::fluid(table, context, &mut faults));

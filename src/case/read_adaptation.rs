@@ -101,6 +101,7 @@ pub(super) fn adaptation(
         epsilon: DEFAULT_ERROR,
         every: every.map_or(DEFAULT_ADAPT_EVERY, |given| given.value) as u32,
         bounds,
+        above: 0,
     });
     (adaptation, asked)
 }

@@ -8,6 +8,7 @@ use fluid::{
 use mesh::{Geometry, Limiter, Side};
 
 use super::read_grid::{GridPlace, grid};
+use super::read_near_wall::near_wall;
 use super::read_shape::{Kind, body, on_axis, shape};
 use super::reader::{Faults, Given, Table, number, pair};
 use super::shared::{Context, boundaries, history};
@@ -35,7 +36,8 @@ pub(super) fn fluid(
     context: Context,
     faults: &mut Faults,
 ) -> Option<(FluidCase, GridPlace)> {
-    let placed = grid(&mut table, context, Side::ZMin, faults);
+    let mut placed = grid(&mut table, context, Side::ZMin, faults);
+    let near_wall = near_wall(&mut table, placed.as_mut().map(|(grid, _)| grid), context, faults);
     let liquid = if table.has("liquid") {
         table.table("liquid", faults).and_then(|table| stiffened_gas(table, None, faults))
     } else {
@@ -103,6 +105,7 @@ pub(super) fn fluid(
         model,
         sharpening: sharpening.map_or(by_default, |given| given.value),
         limiter: limiter.map_or(Limiter::Mc, |given| given.value),
+        near_wall: fluid::NearWall { reference_pressure: scale_pressure, ..near_wall },
         scale_pressure,
         scale_density,
         wave_epsilon: super::read_adaptation::DEFAULT_ERROR,

@@ -12,6 +12,8 @@ pub(super) struct Context {
     pub geometry: Geometry,
     /// `None` where the name given is faulty.
     pub scheme: Option<Scheme>,
+    /// Whether levels have steps of their own.
+    pub local_steps: bool,
 }
 
 /// A probe and where its point stands.

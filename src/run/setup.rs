@@ -37,7 +37,7 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
     FluidSetup {
         domain: domain(case, &fluid.grid),
         coarsest: fluid.grid.cells,
-        levels: fluid.grid.levels as u8,
+        levels: fluid.grid.levels as u8 + fluid.near_wall.levels(),
         liquid: fluid.liquid,
         gas: fluid.gas,
         model: fluid.model,
@@ -48,6 +48,7 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         far_field: far_field(case, fluid, inflow.as_ref()),
         inflow,
         adaptation: fluid.grid.adaptation.clone(),
+        near_wall: fluid.near_wall,
         scales: scales(fluid),
         gravity: fluid.gravity,
         tracer: fluid.tracer,

@@ -81,6 +81,12 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Append("[[fluid.refine]]\nshape = \"box\"\nat_least = 3\nz = [0.002, 0.001]\nr = [0, 0.001]"), &["fluid.refine.0.z: must increase", "[0.001, 0.002]"]),
     (Append("[[fluid.refine]]\nshape = \"box\"\nwhere = \"outside\"\nat_least = 3\nz = [0, 0.001]\nr = [0, 0.001]"), &["fluid.refine.0.where: unknown key"]),
     (Whole("[time]\nend = 1\n[coupling]\nscheme = \"none\"\n[solid]\nz = [0, 1]\nr = [0, 1]\ncells = [16, 16]\nlevels = 2\nmaterial = \"copper\"\n[[solid.refine]]\nshape = \"interface\"\nat_least = 2"), &["solid.refine.0.shape: scheme = \"none\" has no interface", "\"box\""]),
+    (Append("[fluid.near_wall]\nshock_level = 2"), &["fluid.near_wall.shock_level: unknown key", "did you mean `shock_levels`?"]),
+    (Append("[fluid.near_wall]\nshock_levels = 7"), &["fluid.near_wall.shock_levels: must be from 0 to 6, got 7"]),
+    (Append("[fluid.near_wall]\nfilm_levels = 1\nfilm_cells = 1"), &["fluid.near_wall.film_cells: must be from 2 to 16, got 1"]),
+    (Replace("[fluid.liquid]", "adapt = false\nnear_wall.film_levels = 1\n[fluid.liquid]"), &["fluid.near_wall.film_levels: is 1 levels above fluid.levels = 3, and the fluid's grid does not adapt", "fluid.adapt = true"]),
+    (Replace("levels = 3", "levels = 17\nnear_wall.shock_levels = 3"), &["fluid.near_wall.shock_levels: is 3 levels above fluid.levels = 17: more than 1048576 cells"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"none\"\n[fluid.near_wall]\nshock_levels = 1"), &["fluid.near_wall.shock_levels", "scheme = \"none\" has none"]),
     // Gravity and the tracer.
     (Replace("[fluid.liquid]", "gravity = \"down\"\n[fluid.liquid]"), &["fluid.gravity: must be a number", "in m/s2"]),
     (Replace("[fluid.liquid]", "gravity = -1e10\n[fluid.liquid]"), &["fluid.gravity: -10000000000.0 m/s2 changes the pressure by", "up to fluid.z = 0.01 m", "= 301000000.0 Pa", "give less than"]),

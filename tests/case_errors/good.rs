@@ -136,6 +136,18 @@ fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
     assert_eq!(levels(&["fluid.cells=[32, 48]", "fluid.levels=0"]), None);
     assert_eq!(levels(&["fluid.levels=2"]), None, "the roots are on level 2");
 
+    // Next to the wall it rises where that costs little, or where it is told to.
+    let near = |sets: &[&str]| {
+        let fluid = with(sets).fluid.expect("a fluid");
+        let above = fluid.grid.adaptation.map_or(0, |adaptation| adaptation.above);
+        (fluid.near_wall.shock_levels, fluid.near_wall.film_levels, fluid.near_wall.film_cells, above)
+    };
+    assert_eq!(near(&[]), (0, 0, 8, 0));
+    assert_eq!(near(&["time.local_steps=true"]), (2, 0, 8, 2));
+    assert_eq!(near(&["time.local_steps=true", "fluid.adapt=false"]), (0, 0, 8, 0));
+    assert_eq!(near(&["time.local_steps=true", "fluid.near_wall.shock_levels=0"]), (0, 0, 8, 0));
+    assert_eq!(near(&["fluid.near_wall.shock_levels=1", "fluid.near_wall.film_levels=3"]), (1, 3, 8, 3));
+
     // Levels below the roots' are the roots'; what is not given does not bound.
     let case = with(&[
         "fluid.refine=[{ shape = \"sphere\", centre = [0, 0], radius = 0.01, where = \"outside\", at_most = 0 }]",

@@ -30,6 +30,10 @@ fn full() -> String {
 
 /// What else there is in its fluid.
 const IN_FLUID: &str = r#"
+[fluid.near_wall]
+shock_levels = 1
+film_levels = 2
+film_cells = 4
 [fluid.gas]
 gamma = 1.4
 pi = 0.0

@@ -11,6 +11,7 @@ mod diagnostics;
 mod error;
 mod initial;
 mod model;
+mod near_wall;
 mod options;
 mod physics;
 mod reconstruction;
@@ -32,6 +33,8 @@ pub use diagnostics::{AxisState, Bubble, CELL_FIELDS, Snapshot, Totals, WallPres
 pub use error::FluidError;
 pub use initial::rayleigh::{RayleighError, RayleighField};
 pub use initial::{InitialCondition, InitialPressure, Phase, PhaseState, Pulse, PulseShape, Region, Shape};
+pub use near_wall::NearWall;
+pub use near_wall::film::Film;
 pub use options::{Boundary, Model, RiemannSolver, Sharpening};
 pub use physics::Fluid;
 pub use riemann::exact_riemann;

@@ -16,7 +16,7 @@ use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::BlockReport;
 use crate::step::update::Extremes;
 use crate::step::{BlockScratch, STAGES, step_block};
-use crate::{Boundary, BoundaryLedger, Fixups, FluidError};
+use crate::{Boundary, BoundaryLedger, Fixups, FluidError, near_wall};
 
 /// What of a fluid changes in time besides its cells.
 #[derive(Serialize, Deserialize)]
@@ -35,6 +35,11 @@ impl Fluid {
     /// The cells of a block that are not physical.
     fn failed_cells<const N: usize>(&self, block: &[f64]) -> impl Iterator<Item = usize> {
         (0..N * N).filter(|cell| !self.measured::<N>(block, *cell).is_admissible())
+    }
+
+    /// Whether z_min is a wall, rigid or not.
+    pub(crate) fn has_wall(&self) -> bool {
+        matches!(self.boundaries.kind(Side::ZMin), Boundary::Wall | Boundary::Interface)
     }
 }
 
@@ -187,6 +192,19 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn mesh_changed(&mut self, mesh: &Mesh<N>) {
         self.axis_blocks = mesh.blocks_along(Side::RMin);
+    }
+
+    fn demanded_levels(
+        &self,
+        mesh: &Mesh<N>,
+        field: &Field,
+        base: u8,
+        travel: &(dyn Fn(usize) -> f64 + Sync),
+    ) -> Vec<u8> {
+        if self.near_wall.levels() == 0 || !self.has_wall() {
+            return Vec::new();
+        }
+        near_wall::demanded_levels(&self.near_wall, (mesh, field, &self.mixture), base, travel)
     }
 
     /// How many predictions are limited is counted.

@@ -12,7 +12,7 @@ use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
 use crate::terms::Terms;
 use crate::two_phase::PhaseModel;
-use crate::{BoundaryLedger, Fixups, Mixture, RiemannSolver};
+use crate::{BoundaryLedger, Fixups, Mixture, NearWall, RiemannSolver};
 
 /// A fluid of two phases: what its cells obey, and what bounds them.
 pub struct Fluid {
@@ -25,6 +25,7 @@ pub struct Fluid {
     /// What the far field remembers.
     pub(crate) far: FarFieldMemory,
     pub(crate) analysis: Analysis,
+    pub(crate) near_wall: NearWall,
     /// Whether there is gas in each block, or will be at the end of the step it is in, as the reports have it.
     pub(crate) has_gas: Vec<bool>,
     /// Slots of the blocks along r_min, in order.

@@ -5,7 +5,7 @@ use mesh::{Adaptation, Domain, Limiter};
 use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
-use crate::{Boundary, FarField, Gravity, Model, RiemannSolver, Shape, Sharpening, StiffenedGas};
+use crate::{Boundary, FarField, Gravity, Model, NearWall, RiemannSolver, Shape, Sharpening, StiffenedGas};
 
 /// Everything that defines a fluid.
 #[derive(Clone, Debug)]
@@ -36,6 +36,8 @@ pub struct FluidSetup {
     pub far_field: Option<FarField>,
     /// How the grid adapts; all cells are on the finest level without.
     pub adaptation: Option<Adaptation>,
+    /// How far it rises next to the wall; the adaptation's `above` says how many levels it has for that.
+    pub near_wall: NearWall,
     /// What adaptation measures details by.
     pub scales: Scales,
     /// Gravity along z, if any.
@@ -62,6 +64,7 @@ impl FluidSetup {
             inflow: None,
             far_field: None,
             adaptation: None,
+            near_wall: NearWall::default(),
             scales: Scales { pressure: 1e6, density: 1e3 },
             gravity: None,
             tracer: None,

@@ -104,6 +104,7 @@ impl<const N: usize> FluidSolver<N> {
             terms: Terms::of(setup),
             carried: components::of(setup),
             analysis,
+            near_wall: setup.near_wall,
             tally: Tally::default(),
             mixture,
         };

@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 use crate::case::{Case, Medium};
 use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 use crate::run::record::collapse::CollapseFinder;
+use crate::run::record::film::FilmRecord;
 use crate::run::record::interface_history::InterfaceHistory;
 use crate::run::record::side_files::SideFiles;
 use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
@@ -40,6 +41,7 @@ pub struct FluidRecord {
     /// Ambient pressure times the gas's initial volume, J/rad (planar: J/m): what a collapse sets free.
     collapse_energy: f64,
     cuts: BubbleCuts,
+    film: FilmRecord,
 }
 
 /// Largest values so far, with their times.
@@ -84,6 +86,7 @@ impl FluidRecord {
         let steps = history.add_series("", &STEP_COLUMNS)?;
         let clips = history.add_series("", &fixups::CLIP_COLUMNS)?;
         let bubbles = bubble_series(&cuts, history)?;
+        let film = FilmRecord::create(history)?;
         let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
         let mut wall_pressures = Vec::new();
         solver.wall_cells(false, |_, pressure, _| wall_pressures.push(pressure));
@@ -121,6 +124,7 @@ impl FluidRecord {
             }),
             cuts,
             bubbles,
+            film,
         })
     }
 
@@ -170,7 +174,6 @@ impl FluidRecord {
         let axis = solver.axis();
         let wall = solver.wall_pressures();
         let fixups = solver.fixups();
-        let limit = |value: f64| if value.is_nan() { 0.0 } else { value };
         let history = &mut self.files.history;
         history.push(
             self.steps,
@@ -204,6 +207,7 @@ impl FluidRecord {
             let row: Vec<f64> = solver.bubbles(&self.cuts).into_iter().flat_map(numbers).collect();
             history.push(series, &row)?;
         }
+        self.film.after_step(solver, history)?;
         self.collapse.push(time, bubble.volume);
         self.last_bubble = bubble;
         self.largest_thin_volume = self.largest_thin_volume.max(bubble.thin_volume);
@@ -212,7 +216,7 @@ impl FluidRecord {
             (&mut peaks.wall, wall.axis),
             (&mut peaks.wall_anywhere, wall.anywhere),
             (&mut peaks.wall_interface, self.wall_pressures.first().copied().unwrap_or(f64::NAN)),
-            (&mut peaks.jet, limit(axis.jet_velocity)),
+            (&mut peaks.jet, axis.jet_velocity.max(0.0)),
         ] {
             if value > peak[0] {
                 *peak = [value, time];
@@ -290,6 +294,7 @@ impl FluidRecord {
         match value {
             Value::Object(mut map) => {
                 map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
+                map.extend(self.film.thinnest.summary());
                 let masses = solver.carried_masses();
                 map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
                 map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));

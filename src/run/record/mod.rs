@@ -9,6 +9,7 @@
 //! | [`two_collapses`] | the rebound, the second collapse, and what either load did |
 //! | [`surface`] | of the solid's surface: its displacement and the pit in it |
 //! | [`collapse`] | the collapse time |
+//! | [`film`] | of the liquid between bubble and wall |
 //! | [`timed`] | where the wall time goes |
 //! | [`equivalent_load`] | the Gaussian pulse nearest to what pressed on the wall |
 //! | [`conclusion`] | one history and one summary of both sides' parts |
@@ -16,6 +17,7 @@
 pub mod collapse;
 pub mod conclusion;
 pub mod equivalent_load;
+pub mod film;
 pub mod fluid_record;
 pub mod interface_history;
 pub mod sensors;

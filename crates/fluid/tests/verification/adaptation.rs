@@ -6,7 +6,7 @@ use mesh::{Adaptation, Domain, Geometry, LevelBound, Limiter, Zone};
 use crate::helpers::*;
 
 fn adaptation(epsilon: f64, bounds: Vec<LevelBound>) -> Option<Adaptation> {
-    Some(Adaptation { epsilon, every: 4, bounds })
+    Some(Adaptation { epsilon, every: 4, bounds, above: 0 })
 }
 
 /// Steps with adaptation, of all levels alike or of each by itself; returns how often the mesh changed and the fewest and most

@@ -54,7 +54,12 @@ fn carried(
         sharpening,
         riemann,
         levels: 2,
-        adaptation: is_adaptive.then(|| Adaptation { epsilon: 1e-2, every: 4, bounds: vec![strip] }),
+        adaptation: is_adaptive.then(|| Adaptation {
+            epsilon: 1e-2,
+            every: 4,
+            bounds: vec![strip],
+            above: 0,
+        }),
         scales: Scales { pressure: 1e5, density: 1e3 },
         ..setup(geometry, [16, 8], [Boundary::Periodic, Boundary::Periodic, axis, Boundary::Wall])
     };
@@ -211,7 +216,7 @@ fn collapse(pressure: f64, gas: [f64; 2], cells_per_radius: usize, shift: f64) -
         sharpening,
         limiter: Limiter::Mc,
         levels,
-        adaptation: Some(Adaptation { epsilon: 1e-3, every: 8, bounds: vec![] }),
+        adaptation: Some(Adaptation { epsilon: 1e-3, every: 8, bounds: vec![], above: 0 }),
         scales: Scales { pressure, density: 1e3 },
         ..setup(
             AXIAL,

@@ -13,6 +13,7 @@ mod five_equation;
 mod gravity;
 mod helpers;
 mod ledgers;
+mod near_wall;
 mod orders;
 mod random_trees;
 mod rayleigh_start;

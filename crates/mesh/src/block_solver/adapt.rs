@@ -31,7 +31,10 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let span = self.adapting.horizon.renew(settings.every, steps, self.progress.time, dt, longest);
         let travel = |slot: usize| 1.0 + span / crossing[slot];
         let (analysis, patches) = (self.model.analysis(), &self.adapting.patches);
-        let adapted = self.mesh.adapted(&self.state, analysis, settings, patches, travel, |_| 0);
+        let base = settings.base(self.mesh.tree().finest());
+        let demanded = self.model.demanded_levels(&self.mesh, &self.state, base, &travel);
+        let at_least = |slot: usize| demanded.get(slot).copied().unwrap_or(0);
+        let adapted = self.mesh.adapted(&self.state, analysis, settings, patches, travel, at_least);
         let Some(adapted) = adapted else { return false };
         self.model.remap(&adapted, (&self.mesh, &self.state), &self.adapting.patches, &mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);

@@ -91,6 +91,19 @@ pub trait Model<const N: usize>: Sized + Sync {
     fn reports_changed(&mut self, _reports: &Reports<Self::Report>) {}
     /// Takes notice of a new mesh.
     fn mesh_changed(&mut self, _mesh: &Mesh<N>) {}
+    /// The level that something besides the details demands of each block, 0 if nothing does; empty where nothing ever does.
+    ///
+    /// - `base`: the finest level that details may ask for, see [`crate::Adaptation::base`].
+    /// - `travel`: how many of its cells a wave in the block of a slot crosses before the next adaptation.
+    fn demanded_levels(
+        &self,
+        _mesh: &Mesh<N>,
+        _field: &Field,
+        _base: u8,
+        _travel: &(dyn Fn(usize) -> f64 + Sync),
+    ) -> Vec<u8> {
+        Vec::new()
+    }
     /// Carries a field over to another mesh.
     fn remap(
         &mut self,

@@ -5,13 +5,22 @@ use crate::{Domain, Side};
 /// How a grid adapts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Adaptation {
-    /// Threshold ε of the details on the finest level, relative to each field's reference value; on level ℓ of
-    /// L it is ε 2^(ℓ − L).
+    /// Threshold ε of the details on level L, the finest that details may ask for, relative to each field's reference value; on level
+    /// ℓ it is ε 2^(ℓ − L).
     pub epsilon: f64,
     /// Steps between two adaptations.
     pub every: u32,
     /// Bounds of the level, all of which hold.
     pub bounds: Vec<LevelBound>,
+    /// How many levels the tree has above L: blocks rise to them only where something besides the details demands it.
+    pub above: u8,
+}
+
+impl Adaptation {
+    /// L, the finest level that details may ask for, of a tree whose finest is `finest`.
+    pub fn base(&self, finest: u8) -> u8 {
+        finest.saturating_sub(self.above)
+    }
 }
 
 /// Bounds the level of the blocks that meet a zone.

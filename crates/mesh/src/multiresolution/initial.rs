@@ -13,7 +13,8 @@ impl<const N: usize> Mesh<N> {
     /// stays what it is. Without adaptation the uniform mesh on the finest level.
     ///
     /// - `domain` to `periodic`: as for [`Mesh::on_level`]; `fill`: the state on a mesh.
-    /// - `at_least`: the level that something besides the details demands of the block in a slot, 0 if nothing does.
+    /// - `at_least`: the level that something besides the details demands of the block in a slot, 0 if nothing does; none is above
+    ///   [`Adaptation::base`] at first.
     /// - errors: as [`Mesh::uniform`].
     #[expect(clippy::too_many_arguments, reason = "called once by each solver, no kernel")]
     pub fn initial<R: Multiresolution>(
@@ -32,17 +33,18 @@ impl<const N: usize> Mesh<N> {
             return Ok((mesh, state));
         };
         let cells = |level: u8| (coarsest[0] << level) * (coarsest[1] << level);
-        let level = (0..=levels).rev().find(|level| cells(*level) <= FIRST_CELLS).unwrap_or(0);
+        let base = adaptation.base(levels);
+        let level = (0..=base).rev().find(|level| cells(*level) <= FIRST_CELLS).unwrap_or(0);
         let mut mesh = Self::on_level(domain, coarsest, level, levels, periodic)?;
         let mut state = fill(&mesh);
         let scratch = ScratchPool::new(|| Patch::zeros(state.components()));
         // A level a round, down and up again.
         for _ in 0..2 * levels + 2 {
             let travel = |slot: usize| {
-                let coarser = mesh.tree().finest() - mesh.tree().leaves()[slot].level;
+                let coarser = base.saturating_sub(mesh.tree().leaves()[slot].level);
                 1.0 + COURANT * f64::from(adaptation.every) / f64::from(1u32 << coarser)
             };
-            let least = |slot: usize| at_least(&mesh, slot);
+            let least = |slot: usize| at_least(&mesh, slot).min(base);
             let Some(adapted) = mesh.adapted(&state, rule, adaptation, &scratch, travel, least) else {
                 break;
             };

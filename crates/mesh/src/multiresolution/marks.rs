@@ -46,7 +46,7 @@ impl Extent {
 /// at most one from each other, within the bounds.
 ///
 /// - `travel`: how many of its cells a wave in the block of a slot crosses before the next adaptation.
-/// - `at_least`: the level that something else demands of a block, 0 if nothing does.
+/// - `at_least`: the level that something else demands of a block, 0 if nothing does; it may lie above what details may ask for.
 pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
     mesh: &Mesh<N>,
     field: &Field,
@@ -79,8 +79,10 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
         })
         .collect();
     reach_neighbours(mesh, &extents, travel, &mut wanted);
-    for (level, id) in wanted.iter_mut().zip(tree.leaves()) {
+    let base = adaptation.base(tree.finest());
+    for (slot, (level, id)) in wanted.iter_mut().zip(tree.leaves()).enumerate() {
         let (low, high) = bounds(mesh, *id, &adaptation.bounds);
+        let high = high.min(base.max(at_least(slot)));
         *level = (*level).clamp(low, high.max(low)).clamp(id.level.saturating_sub(1), id.level + 1);
         *level = (*level).clamp(tree.root_level(), tree.finest());
     }
@@ -178,9 +180,9 @@ fn counting_cells<const N: usize>(
     [along(0, z, [Side::ZMin, Side::ZMax]), along(1, r, [Side::RMin, Side::RMax])]
 }
 
-/// The threshold of the details on a level.
+/// The threshold of the details on a level: it does not depend on how far above L blocks may rise.
 fn threshold(tree: &Quadtree, adaptation: &Adaptation, level: u8) -> f64 {
-    adaptation.epsilon / f64::from(1u32 << (tree.finest() - level))
+    adaptation.epsilon * f64::powi(2.0, i32::from(level) - i32::from(adaptation.base(tree.finest())))
 }
 
 /// The groups of siblings without significant details of their own whose parent would be refined at once: the slot

@@ -226,6 +226,33 @@ fn blocks_in_a_zone_are_no_finer_than_admitted() {
     }
 }
 
+#[test]
+fn levels_above_those_of_details_are_only_for_what_demands_them() {
+    // Details everywhere, one block demands two levels more.
+    let settled = |above: u8, demanded: u8, value: f64| {
+        let adaptation = Adaptation { above, ..EVERYWHERE };
+        let mut mesh = Mesh::<N>::on_level(square_domain(), [N, N], 2, 3 + above, [false; 2]).unwrap();
+        for _ in 0..8 {
+            let mut field = Field::zeros(mesh.blocks(), N * N, 1);
+            field.as_mut_slice().fill(value);
+            let scratch = ScratchPool::new(|| Patch::zeros(1));
+            let demand = |slot: usize| if corners(&mesh, slot)[0] == [0.0; 2] { demanded } else { 0 };
+            let adapted = mesh.adapted(&field, &TOLD, &adaptation, &scratch, |_| 1.0, demand);
+            let Some(adapted) = adapted else { return mesh };
+            mesh = adapted.mesh;
+        }
+        panic!("it does not come to rest");
+    };
+    let levels = |mesh: &Mesh<N>| mesh.levels_present();
+    assert_eq!(levels(&settled(2, 0, 1e6)), [3, 3], "details do not ask for them");
+    assert_eq!(levels(&settled(2, 5, 1e6)), [3, 5]);
+    assert_eq!(levels(&settled(2, 5, 0.0)), [1, 5], "nor are they kept by them");
+    // A threshold is what it is, whatever is above.
+    for value in [0.3, 0.6, 1.1, 1.9] {
+        assert_eq!(settled(0, 0, value).tree().leaves(), settled(2, 0, value).tree().leaves());
+    }
+}
+
 /// Details of a field as they are.
 struct Plain;
 

@@ -8,7 +8,7 @@ use crate::helpers::*;
 const AMPLITUDE: f64 = 1e7;
 
 fn adaptive(setup: SolidSetup, levels: u8, epsilon: f64, bounds: Vec<LevelBound>) -> SolidSetup {
-    let adaptation = Some(Adaptation { epsilon, every: 4, bounds });
+    let adaptation = Some(Adaptation { epsilon, every: 4, bounds, above: 0 });
     SolidSetup { levels, adaptation, stress_scale: AMPLITUDE, ..setup }
 }
 

@@ -10,6 +10,7 @@ use crate::case::Case;
 use crate::output::RunDirectory;
 use crate::run::RunError;
 use crate::run::record::collapse::CollapseFinder;
+use crate::run::record::film::ThinnestFilm;
 use crate::run::record::interface_history::{InterfaceHistory, InterfaceState};
 use crate::run::record::side_files::{FilesState, SideFiles};
 use crate::run::record::{CellCount, StepEnds, Ticker, restore_probes, saved_probes};
@@ -29,6 +30,7 @@ pub struct FluidRecordState {
     largest_thin_volume: f64,
     collapse_energy: f64,
     cuts: BubbleCuts,
+    film: ThinnestFilm,
 }
 
 impl FluidRecord {
@@ -54,6 +56,7 @@ impl FluidRecord {
             largest_thin_volume,
             collapse_energy,
             cuts,
+            film,
         } = saved;
         match (&mut record.interface, interface) {
             (Some(own), Some(saved)) => own.restore(saved, &record.faces, &mut record.files.history)?,
@@ -70,6 +73,7 @@ impl FluidRecord {
         record.largest_thin_volume = largest_thin_volume;
         record.collapse_energy = collapse_energy;
         record.cuts = cuts;
+        record.film.thinnest = film;
         record.files.forget_rows(&files)?;
         Ok(record)
     }
@@ -95,6 +99,7 @@ impl FluidRecord {
             largest_thin_volume,
             collapse_energy,
             cuts,
+            film,
         } = self;
         FluidRecordState {
             files: files.saved(),
@@ -109,6 +114,7 @@ impl FluidRecord {
             largest_thin_volume: *largest_thin_volume,
             collapse_energy: *collapse_energy,
             cuts: cuts.clone(),
+            film: film.thinnest,
         }
     }
 }

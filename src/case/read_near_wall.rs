@@ -1,0 +1,75 @@
+//! `[fluid.near_wall]`: how far the grid rises above `levels` next to the wall.
+
+use fluid::NearWall;
+
+use super::GridCase;
+use super::read_adaptation::MOST_LEVELS;
+use super::read_grid::MOST_CELLS;
+use super::reader::{Faults, Table};
+use super::shared::Context;
+use coupler::Scheme;
+
+/// Levels above `levels` at most: each halves the cells, and the steps with them.
+const MOST_ABOVE: usize = 6;
+/// Levels where a shock is about to hit the wall, where a case does not say and levels have steps of their own: a fine cell more then
+/// costs little. Without, all cells would make the steps of the finest.
+const SHOCK_LEVELS: usize = 2;
+/// Cells that a film has across where a case does not say.
+const FILM_CELLS: usize = 8;
+/// Bounds of that; more than a block has cells along a side would not be seen.
+const FILM_CELLS_RANGE: std::ops::RangeInclusive<usize> = 2..=mesh::BLOCK;
+
+/// How far the grid rises next to the wall, and what the adaptation must know of it.
+///
+/// - `grid`: the fluid's; none where it is faulty.
+pub(super) fn near_wall(
+    table: &mut Table<'_>,
+    grid: Option<&mut GridCase>,
+    context: Context,
+    faults: &mut Faults,
+) -> NearWall {
+    let has_wall = context.scheme != Some(Scheme::None);
+    let adapts = grid.as_ref().is_some_and(|grid| grid.adaptation.is_some() && fits(grid, SHOCK_LEVELS));
+    let by_default = if context.local_steps && has_wall && adapts { SHOCK_LEVELS } else { 0 };
+    let mut given = [None, None, None];
+    if let Some(mut table) = table.table("near_wall", faults) {
+        given = [
+            table.whole("shock_levels", 0..=MOST_ABOVE, faults),
+            table.whole("film_levels", 0..=MOST_ABOVE, faults),
+            table.whole("film_cells", FILM_CELLS_RANGE, faults),
+        ];
+        table.finish(faults);
+    }
+    let number =
+        |which: usize, default: usize| given[which].as_ref().map_or(default, |given| given.value) as u8;
+    let near = NearWall {
+        shock_levels: number(0, by_default),
+        film_levels: number(1, 0),
+        film_cells: number(2, FILM_CELLS),
+        ..NearWall::default()
+    };
+    let farthest = given.iter().take(2).flatten().max_by_key(|given| given.value);
+    if let (Some(given), Some(grid)) = (farthest.filter(|given| given.value > 0), &grid) {
+        let what = format!("is {} levels above fluid.levels = {}", given.value, grid.levels);
+        if !has_wall {
+            let message = format!("{what} at a wall, and scheme = \"none\" has none");
+            faults.of(given, message, "couple a solid, or take scheme = \"rigid\"");
+        } else if !fits(grid, given.value) {
+            let message =
+                format!("{what}: more than {MOST_CELLS} cells along one direction, or {MOST_LEVELS} levels");
+            faults.of(given, message, "take fewer levels");
+        } else if grid.adaptation.is_none() {
+            let message = format!("{what}, and the fluid's grid does not adapt");
+            faults.of(given, message, "take fluid.adapt = true and more than one level, or remove it");
+        }
+    }
+    if let Some(adaptation) = grid.and_then(|grid| grid.adaptation.as_mut()) {
+        adaptation.above = near.levels();
+    }
+    near
+}
+
+/// Whether so many levels more are not absurdly many.
+fn fits(grid: &GridCase, above: usize) -> bool {
+    grid.levels + above <= MOST_LEVELS && grid.finest().iter().all(|cells| cells << above <= MOST_CELLS)
+}

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Bubbles at and near walls: whether every run ends, and what it had to mend, as docs/verification.md shows it.
+
+    python3 tests/long/near_wall.py                                      all of it: 992 runs, about a day of one processor
+    python3 tests/long/near_wall.py --cells 26 --walls rigid             a part
+    python3 tests/long/near_wall.py --stand-offs 0 0.5 1 1.5 --table     only the table of what is there
+
+A bubble of 10 mm and 2118 Pa, its centre d/R radii above the wall, in water of 1e5 to 5e7 Pa, through the second collapse, to 2.5
+Rayleigh times. All choices are the program's defaults. What is complete in --out is not run again. Needs Python alone, and
+target/release/cav (or --cav).
+"""
+
+import argparse
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+RADIUS = 0.01
+GAS = 2118.0
+PRESSURES = [1e5, 5e5, 5e6, 5e7]
+WALLS = ["rigid", "structural-steel", "aluminium", "pmma"]
+STAND_OFFS = [round(0.1 * k, 1) for k in range(31)]
+# Cells per radius, and the levels that make them of 4 x 4 cells on 5 radii.
+LEVELS = {26: 5, 51: 6, 102: 7}
+
+CASE = """geometry = "axisymmetric"
+time.end = {end!r}
+[fluid]
+z = [0.0, 0.05]
+r = [0.0, 0.05]
+cells = [4, 4]
+levels = {levels}
+[fluid.liquid]
+gamma = 7.15
+pi = 3e8
+[fluid.gas]
+gamma = 1.4
+pi = 0.0
+[fluid.ambient]
+density = 1000.0
+pressure = {pressure!r}
+[[fluid.region]]
+shape = "sphere"
+centre = [{centre!r}, 0.0]
+radius = 0.01
+phase = "gas"
+density = 0.0266
+pressure = 2118.0
+"""
+SOLID = """[solid]
+z = [-0.05, 0.0]
+r = [0.0, 0.05]
+cells = [4, 4]
+levels = {levels}
+material = "{wall}"
+[coupling]
+scheme = "riemann"
+"""
+RIGID = """[coupling]
+scheme = "rigid"
+"""
+# Fix-ups that change the state of a cell; the others bound a reconstruction.
+MENDED = ["redone", "floored", "lifted_phases", "clipped_fractions"]
+
+
+def rayleigh_time(pressure):
+    return 0.914681 * RADIUS * (1000.0 / (pressure - GAS)) ** 0.5
+
+
+def text(pressure, wall, stand_off, cells, until):
+    end = until * rayleigh_time(pressure)
+    case = CASE.format(end=end, levels=LEVELS[cells], pressure=pressure, centre=stand_off * RADIUS)
+    return case + (RIGID if wall == "rigid" else SOLID.format(levels=LEVELS[cells], wall=wall))
+
+
+def gas_mass_drift(directory):
+    """The largest relative change of the gas's mass that neither sides nor interface nor fix-ups explain; None without h5py."""
+    try:
+        import h5py
+    except ImportError:
+        return None
+    with h5py.File(directory / "history.h5") as file:
+        conserved = file.get("conservation/fluid/gas_mass")
+        if conserved is None:
+            return None
+        mass = conserved[:]
+        return float(abs(mass / mass[0] - 1.0).max())
+
+
+def solve(options, pressure, wall, stand_off, cells):
+    """What a run left: its summary and exit code, from what is there if it is of this very case."""
+    name = f"{wall}-{pressure:.0e}-{stand_off}-{cells}"
+    kept, path, directory = (options.out / f"{name}{end}" for end in (".json", ".toml", ""))
+    case = text(pressure, wall, stand_off, cells, options.until)
+    if kept.exists() and path.exists() and path.read_text() == case:
+        return json.loads(kept.read_text())
+    if options.table:
+        return None
+    path.write_text(case)
+    command = [str(options.cav), "run", str(path), "--out", str(directory), "--quiet", "--force", "--in-process",
+               "--threads", str(options.threads)]
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    found = {"code": done.returncode, "says": done.stderr.strip(), "summary": {}}
+    summary = directory / "summary.json"
+    if summary.exists():
+        found["summary"] = json.loads(summary.read_text())
+    if done.returncode == 0:
+        found["gas_mass_drift"] = gas_mass_drift(directory)
+        shutil.rmtree(directory)
+    kept.write_text(json.dumps(found))
+    return found
+
+
+def row(pressure, wall, cells, found):
+    """A line of the table: all stand-offs of a wall, a pressure and a resolution."""
+    runs = len(found)
+    failed = [f"{d} (exit code {f['code']})" for d, f in found if f["code"]]
+    ended = [f["summary"] for _, f in found if not f["code"]]
+    most = {key: max((s["fixups"][key] for s in ended), default=0) for key in MENDED}
+    share = max((s["fixups"]["floor_energy_share"] for s in ended), default=0.0)
+    updates = max((s["fixups"]["redone"] / s["cell_updates"]["fluid"] for s in ended), default=0.0)
+    drift = max((f.get("gas_mass_drift") or 0.0 for _, f in found if not f["code"]), default=0.0)
+    seconds = sum(s["wall_seconds"] for s in ended)
+    return (f"| {wall} | {pressure:.0e} | {cells} | {runs - len(failed)} of {runs}{': not ' if failed else ''}{', '.join(failed)} "
+            f"| {most['redone']} ({updates:.1e}) | {most['floored']} ({share:.1e}) | {most['lifted_phases']} "
+            f"| {drift:.0e} | {seconds:.0f} s |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cav", type=Path, default=ROOT / "target/release/cav", help="the program")
+    parser.add_argument("--out", type=Path, default=Path("near-wall"), help="directory of the runs")
+    parser.add_argument("--cells", type=int, nargs="+", default=[26, 51], choices=LEVELS, help="per radius")
+    parser.add_argument("--pressures", type=float, nargs="+", default=PRESSURES, help="of the water, Pa")
+    parser.add_argument("--walls", nargs="+", default=WALLS, help="rigid, or materials of the library")
+    parser.add_argument("--stand-offs", type=float, nargs="+", default=STAND_OFFS, help="d/R")
+    parser.add_argument("--until", type=float, default=2.5, help="end in Rayleigh times")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--table", action="store_true", help="run nothing")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    print("| wall | pressure, Pa | cells per radius | end | redone, most of a run (of its updates) | floored (energy) | lifted phases "
+          "| gas mass, change | time |\n|---|---|---|---|---|---|---|---|---|")
+    worst = 0
+    for cells in options.cells:
+        for wall in options.walls:
+            for pressure in options.pressures:
+                found = [(d, solve(options, pressure, wall, d, cells)) for d in options.stand_offs]
+                found = [(d, f) for d, f in found if f is not None]
+                if found:
+                    print(row(pressure, wall, cells, found), flush=True)
+                worst = max([worst, *(f["code"] for _, f in found)])
+    return 1 if worst else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
