@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use coupler::Scheme;
-use fluid::{Boundary, Phase, PhaseState, RayleighField, Shape};
+use fluid::{Boundary, NearWall, Phase, PhaseState, RayleighField, Shape};
 use mesh::{Adaptation, BLOCK, Geometry, Side};
 use solid::Material;
 
@@ -42,6 +42,7 @@ pub fn report(case: &Case) -> String {
             let pressure = (fluid.wave_epsilon, fluid.scale_pressure, "Pa");
             let density = (adaptive.epsilon, fluid.scale_density, "kg/m3");
             adaptation(&mut text, adaptive, &[pressure, density]);
+            near_wall(&mut text, &fluid.near_wall);
         }
         regions(&mut text, case, fluid);
         sides(&mut text, fluid);
@@ -119,6 +120,21 @@ fn adaptation(text: &mut String, adaptation: &Adaptation, scales: &[(f64, f64, &
         adaptation.every
     );
     line(text, "  adaptation", &numbers);
+}
+
+/// How far the grid rises next to the wall.
+fn near_wall(text: &mut String, near: &NearWall) {
+    let NearWall { shock_levels, film_levels, film_cells, .. } = near;
+    let mut parts = Vec::new();
+    if *shock_levels > 0 {
+        parts.push(format!("{shock_levels} where a shock is about to hit it"));
+    }
+    if *film_levels > 0 {
+        parts.push(format!("{film_levels} where a film below gas has fewer than {film_cells} cells"));
+    }
+    if !parts.is_empty() {
+        line(text, "  at the wall", &format!("more levels: {}", parts.join(", ")));
+    }
 }
 
 fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {

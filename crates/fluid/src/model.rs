@@ -161,10 +161,11 @@ impl<const N: usize> Model<N> for Fluid {
         fixups.gas_mass_added += report.phase_mass_added[0];
         fixups.liquid_mass_added += report.phase_mass_added[1];
         fixups.clips += report.clips;
-        for (side, [mass, momentum, energy]) in report.inflow.into_iter().enumerate() {
+        for (side, [mass, momentum, energy, gas_mass]) in report.inflow.into_iter().enumerate() {
             ledger.mass[side] += mass;
             ledger.momentum[side] += momentum;
             ledger.energy[side] += energy;
+            ledger.gas_mass[side] += gas_mass;
         }
         let id = mesh.tree().leaves()[slot];
         if let Some(states) = interface.states_of::<N>(slot) {

@@ -15,6 +15,7 @@ use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
 use crate::run::schedule::Plan;
 use crate::run::side::wall_faces::WallFaces;
 
+mod conservation;
 mod files;
 mod fixups;
 pub mod saved;
@@ -101,7 +102,7 @@ impl FluidRecord {
             }
             None => None,
         };
-        let conservation = history.add_series("/conservation/fluid", &CONSERVATION_COLUMNS)?;
+        let conservation = history.add_series("/conservation/fluid", &conservation::COLUMNS)?;
         let interface_z = case.solid.as_ref().map(|_| mesh.domain().z[0]);
         let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, history)?;
         Ok(Self {
@@ -234,14 +235,7 @@ impl FluidRecord {
             }
         }
         if due {
-            let totals = solver.totals();
-            let ledger = solver.ledger();
-            let mut row = vec![time, totals.mass, totals.momentum_z, totals.energy];
-            for side in 0..4 {
-                row.extend([ledger.mass[side], ledger.momentum[side], ledger.energy[side]]);
-            }
-            row.extend([fixups.floor_energy, ledger.wall_impulse, ledger.wall_work]);
-            history.push(self.conservation, &row)?;
+            history.push(self.conservation, &conservation::row(solver))?;
         }
         for probe in &mut self.probes {
             let Some(state) = solver.sample(probe.probe.position) else { continue };
@@ -358,36 +352,6 @@ const STEP_COLUMNS: [Column<'static>; 20] = [
         "mass that the gas got from the liquid where it had less than none",
     ),
     column("fixups/liquid_mass_added", "kg/rad", "mass that the liquid got from the gas, likewise"),
-];
-
-const CONSERVATION_COLUMNS: [Column<'static>; 19] = [
-    column("time", "s", "time"),
-    column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
-    column("momentum_z", "N s/rad", "axial momentum in the domain"),
-    column("energy", "J/rad", "energy in the domain"),
-    column(
-        "mass_in_z_min",
-        "kg/rad",
-        "mass that came in through z_min; under a solid the wall's motion carries it",
-    ),
-    column("momentum_in_z_min", "N s/rad", "axial momentum and impulse of the pressure through z_min"),
-    column("energy_in_z_min", "J/rad", "energy and work of the pressure through z_min"),
-    column("mass_in_z_max", "kg/rad", "the same through z_max"),
-    column("momentum_in_z_max", "N s/rad", "the same through z_max"),
-    column("energy_in_z_max", "J/rad", "the same through z_max"),
-    column("mass_in_r_min", "kg/rad", "the same through r_min"),
-    column("momentum_in_r_min", "N s/rad", "the same through r_min"),
-    column("energy_in_r_min", "J/rad", "the same through r_min"),
-    column("mass_in_r_max", "kg/rad", "the same through r_max"),
-    column("momentum_in_r_max", "N s/rad", "the same through r_max"),
-    column("energy_in_r_max", "J/rad", "the same through r_max"),
-    column("energy_from_floor", "J/rad", "energy that the pressure floor added"),
-    column(
-        "interface_impulse",
-        "N s/rad",
-        "impulse of p* on the interface: minus the solid's momentum_in_z_max",
-    ),
-    column("interface_work", "J/rad", "work of p* on the fluid: minus the solid's energy_in_z_max"),
 ];
 
 const PROBE_COLUMNS: [Column<'static>; 6] = [

@@ -38,6 +38,9 @@ pub struct BoundaryLedger {
     pub momentum: [f64; 4],
     /// Energy, J.
     pub energy: [f64; 4],
+    /// Mass of the gas, kg; zeros where phases have no masses of their own. Where gas lies on a wall that moves, its motion carries it
+    /// through the fixed face.
+    pub gas_mass: [f64; 4],
     /// Impulse of p* on the wall to the solid, N s: what the solid got. The momentum through z_min has the ρ*v*² of the
     /// wall's motion besides.
     pub wall_impulse: f64,

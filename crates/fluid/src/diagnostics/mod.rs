@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::components::is_component;
 use crate::state::COUNT;
-use crate::state::conserved::{ENERGY, MOMENTUM_Z, PHI, RHO};
+use crate::state::conserved::{ENERGY, GAS, MOMENTUM_Z, PHI, RHO};
 use crate::step::{BlockScratch, reconstruct};
 use crate::{FluidSolver, Primitive};
 
@@ -59,6 +59,8 @@ pub struct Totals {
     pub momentum_z: f64,
     /// Energy, J.
     pub energy: f64,
+    /// Mass of the gas, kg; NaN where phases have no masses of their own.
+    pub gas_mass: f64,
 }
 
 mesh::cell_fields! {
@@ -136,21 +138,25 @@ impl<const N: usize> FluidSolver<N> {
         }
     }
 
-    /// Mass, axial momentum and energy in the domain, added up row by row and block by block.
+    /// Mass, axial momentum, energy and the gas's mass in the domain, added up row by row and block by block.
     pub fn totals(&self) -> Totals {
-        let mut totals = Totals::default();
+        let has_phases = self.model().analysis.has_phases;
+        let components = [RHO, MOMENTUM_Z, ENERGY, GAS];
+        let components = if has_phases { &components[..] } else { &components[..3] };
+        let mut totals = Totals { gas_mass: if has_phases { 0.0 } else { f64::NAN }, ..Totals::default() };
         for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
-            let mut block = [0.0; 3];
+            let mut block = [0.0; 4];
             for j in 0..N {
                 let volume = self.mesh().volume(*id, j);
-                for (sum, component) in block.iter_mut().zip([RHO, MOMENTUM_Z, ENERGY]) {
-                    let row = &self.state().component(slot, component)[j * N..(j + 1) * N];
+                for (sum, component) in block.iter_mut().zip(components) {
+                    let row = &self.state().component(slot, *component)[j * N..(j + 1) * N];
                     *sum += volume * row.iter().sum::<f64>();
                 }
             }
             totals.mass += block[0];
             totals.momentum_z += block[1];
             totals.energy += block[2];
+            totals.gas_mass += block[3];
         }
         totals
     }

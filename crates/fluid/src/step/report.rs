@@ -33,8 +33,9 @@ pub struct BlockReport<const N: usize> {
     pub(crate) floored: u32,
     pub(crate) floored_volume: f64,
     pub(crate) floor_energy: f64,
-    /// What came in through each side of the domain: mass, axial momentum, energy (per radian).
-    pub(crate) inflow: [[f64; 3]; 4],
+    /// What came in through each side of the domain: mass, axial momentum, energy, mass of the gas (per
+    /// radian).
+    pub(crate) inflow: [[f64; 4]; 4],
     /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
     #[serde(with = "mesh::array")]
     pub(crate) wall_pressure: [f64; N],
@@ -88,7 +89,7 @@ impl<const N: usize> Default for BlockReport<N> {
             floored: 0,
             floored_volume: 0.0,
             floor_energy: 0.0,
-            inflow: [[0.0; 3]; 4],
+            inflow: [[0.0; 4]; 4],
             wall_pressure: [0.0; N],
             impulse: [FaceRow([0.0; N]); 4],
         }
@@ -167,15 +168,15 @@ pub(crate) fn far_field_gains<const N: usize>(
     gains
 }
 
-/// Mass, axial momentum and energy that a block took in through the sides of the domain.
+/// Mass, axial momentum, energy and mass of the gas that a block took in through the sides of the domain.
 pub(crate) fn boundary_inflow<const N: usize>(
     ctx: &FluidStep<'_, N>,
     slot: usize,
     z_faces: &FaceRows,
     r_faces: &FaceRows,
     face_weight: &[f64],
-) -> [[f64; 3]; 4] {
-    let mut inflow = [[0.0; 3]; 4];
+) -> [[f64; 4]; 4] {
+    let mut inflow = [[0.0; 4]; 4];
     let id = ctx.mesh.tree().leaves()[slot];
     let [h_z, h_r] = ctx.mesh.widths(id.level);
     for side in Side::ALL {
@@ -184,25 +185,26 @@ pub(crate) fn boundary_inflow<const N: usize>(
         }
         let total = &mut inflow[side as usize];
         for along in 0..N {
-            let [mass, momentum, energy] = match side {
+            let gains = match side {
                 Side::ZMin | Side::ZMax => {
                     let i = if side == Side::ZMin { -1 } else { N as isize - 1 };
                     let k = Padded::<N>::index(i, along as isize);
                     let area = ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r;
                     let momentum = z_faces.mass[k] * z_faces.velocity[k] + z_faces.pressure[k];
-                    [area * z_faces.mass[k], area * momentum, area * z_faces.energy[k]]
+                    [z_faces.mass[k], momentum, z_faces.energy[k], z_faces.gas()[k]].map(|flux| area * flux)
                 }
                 Side::RMin | Side::RMax => {
                     let j = if side == Side::RMin { -1 } else { N as isize - 1 };
                     let k = Padded::<N>::index(along as isize, j);
                     let area = face_weight[(j + 1) as usize] * h_z;
-                    [area * r_faces.mass[k], area * r_faces.shear[k], area * r_faces.energy[k]]
+                    [r_faces.mass[k], r_faces.shear[k], r_faces.energy[k], r_faces.gas()[k]]
+                        .map(|flux| area * flux)
                 }
             };
             let sign = if matches!(side, Side::ZMin | Side::RMin) { ctx.dt } else { -ctx.dt };
-            total[0] += sign * mass;
-            total[1] += sign * momentum;
-            total[2] += sign * energy;
+            for (total, gain) in total.iter_mut().zip(gains) {
+                *total += sign * gain;
+            }
         }
     }
     inflow

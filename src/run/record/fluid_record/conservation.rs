@@ -1,0 +1,69 @@
+//! The history of what is conserved in the fluid, with what crossed its sides.
+
+use fluid::FluidSolver;
+use mesh::BLOCK;
+
+use crate::output::Column;
+use crate::run::record::column;
+
+/// A row of it.
+pub fn row(solver: &FluidSolver<BLOCK>) -> Vec<f64> {
+    let (totals, ledger, fixups) = (solver.totals(), solver.ledger(), solver.fixups());
+    let mut row = vec![solver.time(), totals.mass, totals.momentum_z, totals.energy];
+    for side in 0..4 {
+        row.extend([ledger.mass[side], ledger.momentum[side], ledger.energy[side]]);
+    }
+    row.extend([fixups.floor_energy, ledger.wall_impulse, ledger.wall_work]);
+    row.push(totals.gas_mass);
+    row.extend(ledger.gas_mass);
+    row.push(fixups.gas_mass_added - fixups.liquid_mass_added);
+    row
+}
+
+pub const COLUMNS: [Column<'static>; 25] = [
+    column("time", "s", "time"),
+    column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
+    column("momentum_z", "N s/rad", "axial momentum in the domain"),
+    column("energy", "J/rad", "energy in the domain"),
+    column(
+        "mass_in_z_min",
+        "kg/rad",
+        "mass that came in through z_min; under a solid the wall's motion carries it",
+    ),
+    column("momentum_in_z_min", "N s/rad", "axial momentum and impulse of the pressure through z_min"),
+    column("energy_in_z_min", "J/rad", "energy and work of the pressure through z_min"),
+    column("mass_in_z_max", "kg/rad", "the same through z_max"),
+    column("momentum_in_z_max", "N s/rad", "the same through z_max"),
+    column("energy_in_z_max", "J/rad", "the same through z_max"),
+    column("mass_in_r_min", "kg/rad", "the same through r_min"),
+    column("momentum_in_r_min", "N s/rad", "the same through r_min"),
+    column("energy_in_r_min", "J/rad", "the same through r_min"),
+    column("mass_in_r_max", "kg/rad", "the same through r_max"),
+    column("momentum_in_r_max", "N s/rad", "the same through r_max"),
+    column("energy_in_r_max", "J/rad", "the same through r_max"),
+    column("energy_from_floor", "J/rad", "energy that the pressure floor added"),
+    column(
+        "interface_impulse",
+        "N s/rad",
+        "impulse of p* on the interface: minus the solid's momentum_in_z_max",
+    ),
+    column("interface_work", "J/rad", "work of p* on the fluid: minus the solid's energy_in_z_max"),
+    column(
+        "gas_mass",
+        "kg/rad",
+        "mass of the gas in the domain (planar: kg/m); NaN where phases have no masses",
+    ),
+    column(
+        "gas_mass_in_z_min",
+        "kg/rad",
+        "mass of the gas that came in through z_min; under a solid the wall's motion carries it",
+    ),
+    column("gas_mass_in_z_max", "kg/rad", "the same through z_max"),
+    column("gas_mass_in_r_min", "kg/rad", "the same through r_min"),
+    column("gas_mass_in_r_max", "kg/rad", "the same through r_max"),
+    column(
+        "gas_mass_from_fixups",
+        "kg/rad",
+        "mass that the gas got from the liquid where it had less than none, and the other way round",
+    ),
+];
