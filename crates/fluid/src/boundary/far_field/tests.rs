@@ -143,7 +143,7 @@ fn a_face_begins_with_its_initial_state() {
     ] {
         let start = initial(&places, pressure);
         let far_field = far_field(&start, boundaries).unwrap();
-        let field = crate::RayleighField::of(&start, DOMAIN.geometry, DOMAIN.z[0], boundaries[0]).unwrap();
+        let field = crate::RayleighField::of(&start, &DOMAIN, boundaries).unwrap();
         for (side, face) in
             FACES.into_iter().filter(|(side, _)| boundaries[*side as usize] == Boundary::FarField)
         {
