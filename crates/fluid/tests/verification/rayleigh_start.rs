@@ -143,16 +143,22 @@ fn a_bubble_that_the_wall_cuts_starts_as_its_field_has_it() {
     eprintln!("fastest after 0.1 R/c: {slow:.3} and {fast:.3} of the water hammer's velocity");
     assert!(slow < 0.2 && fast > 0.9, "{slow} {fast}");
     run_to(&mut harmonic, 0.3 / SOUND);
-    for [z, r] in
-        [[0.025, 1.225], [0.025, 1.525], [0.325, 1.225], [0.975, 1.225], [1.925, 0.025], [1.725, 1.225]]
-    {
+    // What the stairs of mixed cells at its surface send has come 0.3 m far: two of the points are within.
+    for ([z, r], most) in [
+        ([0.025, 1.225], 0.06),
+        ([0.325, 1.225], 0.06),
+        ([0.025, 1.525], 5e-3),
+        ([0.975, 1.375], 5e-3),
+        ([1.925, 0.025], 5e-3),
+        ([1.725, 1.225], 5e-3),
+    ] {
         let w = harmonic.sample([z, r]).unwrap();
         let p = |dz: f64, dr: f64| field.pressure([z + dz, r + dr]);
         let per_slope = -harmonic.time() / 1000.0 / 2e-3;
         let want = [p(1e-3, 0.0) - p(-1e-3, 0.0), p(0.0, 1e-3) - p(0.0, -1e-3)].map(|rise| per_slope * rise);
         let off = (w.v_z - want[0]).hypot(w.v_r - want[1]) / want[0].hypot(want[1]);
         eprintln!("({z}, {r}): off by {off:.4}");
-        assert!(off < 0.05, "({z}, {r}): {} {} for {want:?}", w.v_z, w.v_r);
+        assert!(off < most, "({z}, {r}): {} {} for {want:?}", w.v_z, w.v_r);
     }
 }
 
