@@ -144,9 +144,10 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
     let field = RayleighField::of(&fluid.initial, &domain, fluid.boundary);
     if let Ok(Some(field)) = field {
         let numbers = format!(
-            "rayleigh, {} at z_min on the axis, on the bubbles that of the gas to {:.0e}",
+            "rayleigh, {} at z_min on the axis, on the bubbles that of the gas to {:.0e}{}",
             si(field.pressure([z_min, 0.0]), "Pa"),
-            field.error()
+            field.error(),
+            if field.has_reservoirs() { ", on open sides the ambient one" } else { "" }
         );
         line(text, "pressure", &numbers);
     }

@@ -13,8 +13,8 @@ pub(super) enum Cut {
 ///
 /// 1/√((z − ζ)² + r²) is harmonic wherever it is smooth, being a point charge's potential moved along the axis by an imaginary
 /// length; its real and imaginary parts are the potentials of two distributions on the ring (a, b) and a cut that ends there. So a
-/// sum of them is a function of which the values on the axis are rational, with poles at the ζ and their conjugates (Whittaker &
-/// Watson 1927, § 18.3: an axisymmetric potential follows from those values). It costs two roots, where a ring's charge costs an
+/// sum of them is a function of which the values on the axis are rational, with poles at the ζ and their conjugates, and an
+/// axisymmetric potential follows from those values (Whittaker & Watson 1927, § 18.3). It costs two roots, where a ring's charge costs an
 /// elliptic integral.
 ///
 /// - units: lengths m; α, β in Pa m. errors: none, infinite on a ring.
@@ -137,4 +137,59 @@ fn sums(packed: &[[[f64; LANES]; 4]], sign: f64, point: [f64; 2]) -> [f64; LANES
         }
     }
     sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn charges(cut: Cut, place: [f64; 2], strength: [f64; 2]) -> Charges {
+        let mut charges =
+            Charges::new(vec![Charge { place, depth: 1.0, bubble: None, strength: [0.0; 2] }], cut);
+        charges.set(&[strength]);
+        charges
+    }
+
+    #[test]
+    fn a_real_place_is_a_point_charge_and_any_is_one_from_far_away() {
+        let point = charges(Cut::Disc, [0.3, 0.0], [2.0, 5.0]).sum([1.3, 0.7]);
+        assert!((point - 2.0 / 1.0_f64.hypot(0.7)).abs() < 1e-14, "{point}");
+        for far in [[1e6, 0.0], [-6e5, 8e5], [0.0, 1e6]] {
+            let got = 1e6 * charges(Cut::Disc, [0.3, 0.4], [2.0, 5.0]).sum(far);
+            assert!((got - 2.0).abs() < 1e-5, "{far:?}: {got}");
+        }
+        // A wrong branch would change the sign across the plane of the ring.
+        let ring = charges(Cut::Disc, [0.0, 0.5], [1.0, 0.0]);
+        assert!((ring.sum([1e-9, 0.6]) - ring.sum([-1e-9, 0.6])).abs() < 1e-6);
+        assert!((ring.sum([1e-9, 0.4]) - ring.sum([-1e-9, 0.4])).abs() < 1e-6);
+        let odd = charges(Cut::Disc, [0.0, 0.5], [0.0, 1.0]);
+        assert!((odd.sum([1e-9, 0.4]) + odd.sum([-1e-9, 0.4])).abs() < 1e-6 && odd.sum([1e-9, 0.4]) > 1.0);
+        let beyond = charges(Cut::Beyond, [0.0, 0.5], [0.0, 1.0]);
+        assert!((beyond.sum([1e-9, 0.4]) - beyond.sum([-1e-9, 0.4])).abs() < 1e-6);
+    }
+
+    #[test]
+    fn gradients_are_those_of_the_potential_which_is_harmonic() {
+        let (h, place) = (1e-4, [0.2, 0.6]);
+        for cut in [Cut::Disc, Cut::Beyond] {
+            for (part, strength) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
+                let one = charges(cut, place, strength);
+                for [z, r] in [[0.5, 0.3], [-0.4, 0.9], [0.25, 0.2], [1.5, 0.1]] {
+                    let p = |dz: f64, dr: f64| one.sum([z + dz * h, r + dr * h]);
+                    let got = one.unit_gradients(place, [z, r])[part];
+                    let want =
+                        [p(1.0, 0.0) - p(-1.0, 0.0), p(0.0, 1.0) - p(0.0, -1.0)].map(|rise| rise / (2.0 * h));
+                    for axis in 0..2 {
+                        assert!(
+                            (got[axis] - want[axis]).abs() < 1e-5,
+                            "{cut:?} ({z}, {r}): {got:?} {want:?}"
+                        );
+                    }
+                    let along = p(1.0, 0.0) + p(-1.0, 0.0) + p(0.0, 1.0) + p(0.0, -1.0) - 4.0 * p(0.0, 0.0);
+                    let laplacian = along / (h * h) + want[1] / r;
+                    assert!(laplacian.abs() < 1e-4, "{cut:?} ({z}, {r}): {laplacian:e}");
+                }
+            }
+        }
+    }
 }

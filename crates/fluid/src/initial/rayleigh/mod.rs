@@ -133,6 +133,11 @@ impl RayleighField {
         }
     }
 
+    /// Whether open sides hold the ambient pressure, as they do beside more walls than one along z.
+    pub fn has_reservoirs(&self) -> bool {
+        self.space.hull.is_some()
+    }
+
     /// The largest error on the bubbles' surfaces, and on sides beside one wall, relative to the largest difference of pressure
     /// (of gradients on walls: times the largest radius).
     pub fn error(&self) -> f64 {
