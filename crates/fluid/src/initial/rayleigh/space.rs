@@ -64,7 +64,7 @@ impl Space {
         if low && high && outer {
             return Err(RayleighError::ClosedBox);
         }
-        if !outer && !(low && high) {
+        if !(outer || low && high) {
             return Ok(Self { turned, floor: (low || high).then_some(even), hull: None });
         }
         let end = |is_wall| if is_wall { End::Wall } else { End::Reservoir };
