@@ -36,8 +36,8 @@ enum Flow {
 /// The harmonic pressure about spheres of gas on the axis.
 ///
 /// ∇²p = 0 with p = p_gas on the bubbles, ∂p/∂n = 0 on walls. In free space and above one wall p = p∞ far away, whatever open sides
-/// cut off: bubbles clear of each other and of the wall have series of multipoles ([`Multipoles`]). Bubbles that the wall cuts,
-/// or that touch it or overlap each other, have charges that cluster towards the edges ([`Fit`]). So have bubbles beside more walls,
+/// cut off: bubbles clear of each other and of the wall have series of multipoles (`Multipoles`). Bubbles that the wall cuts,
+/// or that touch it or overlap each other, have charges that cluster towards the edges (`Fit`). So have bubbles beside more walls,
 /// and open sides are there at p∞: a tube's field does not fade towards infinity, and that between plates grows there.
 ///
 /// Tests: Laplace's equation by differences, the gas's pressure on the surfaces, no gradient at the walls, one sphere
