@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use coupler::Scheme;
 use fluid::{Boundary, NearWall, Phase, PhaseState, RayleighField, Shape};
-use mesh::{Adaptation, BLOCK, Geometry, Side};
+use mesh::{Adaptation, BLOCK, Domain, Geometry, Side};
 use solid::Material;
 
 use super::format::{duration, hex, mebibytes, plain, si};
@@ -13,7 +13,7 @@ use super::memory::{Memory, available_memory};
 use super::scales::sound_speed;
 use super::steps::first_steps;
 use super::warnings::SAFE_CFL;
-use super::{Case, FluidCase, GridCase, SolidCase, index};
+use super::{Case, FluidCase, GridCase, SolidCase};
 
 /// Wall time per cell and step of the fluid on one core, ns: an estimate for the release build.
 const FLUID_NS: f64 = 60.0;
@@ -156,12 +156,14 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
     }
     // The case was read, so it has the field that it asks for.
     let z_min = fluid.grid.z[0];
-    let field = RayleighField::of(&fluid.initial, case.geometry, z_min, fluid.boundary[index(Side::ZMin)]);
+    let domain = Domain { geometry: case.geometry, z: fluid.grid.z, r: fluid.grid.r };
+    let field = RayleighField::of(&fluid.initial, &domain, fluid.boundary);
     if let Ok(Some(field)) = field {
         let numbers = format!(
-            "rayleigh, {} at z_min on the axis, on the bubbles that of the gas to {:.0e}",
+            "rayleigh, {} at z_min on the axis, on the bubbles that of the gas to {:.0e}{}",
             si(field.pressure([z_min, 0.0]), "Pa"),
-            field.error()
+            field.error(),
+            if field.has_reservoirs() { ", on open sides the ambient one" } else { "" }
         );
         line(text, "pressure", &numbers);
     }

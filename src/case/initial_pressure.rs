@@ -1,11 +1,11 @@
 //! `fluid.initial_pressure`: whether the case has the field that it asks for.
 
 use fluid::{Boundary, InitialCondition, InitialPressure, RayleighError, RayleighField};
-use mesh::Side;
+use mesh::Domain;
 
+use super::GridCase;
 use super::reader::{Faults, Given};
 use super::shared::Context;
-use super::{GridCase, index};
 
 /// Records why the case cannot begin with Rayleigh's pressure, if that is what it asks for.
 pub(super) fn check(
@@ -21,8 +21,8 @@ pub(super) fn check(
     if context.scheme.is_none() {
         return;
     }
-    let side = boundary[index(Side::ZMin)];
-    if let Err(error) = RayleighField::of(initial, context.geometry, grid.z[0], side) {
+    let domain = Domain { geometry: context.geometry, z: grid.z, r: grid.r };
+    if let Err(error) = RayleighField::of(initial, &domain, boundary) {
         faults.of(given, format!("\"rayleigh\" does not go with this case: {error}"), remedy(error));
     }
 }
@@ -38,12 +38,22 @@ fn remedy(error: RayleighError) -> String {
         RayleighError::NotASphere { region } => {
             otherwise(&format!("make fluid.region.{region} a \"sphere\" with its centre at r = 0"))
         }
-        RayleighError::MeetsWall { region, .. } => otherwise(&format!("move fluid.region.{region} up")),
-        RayleighError::Overlap { first, second } => {
-            otherwise(&format!("move fluid.region.{first} and fluid.region.{second} apart"))
+        RayleighError::BeyondWall { region, .. } => {
+            otherwise(&format!("put the centre of fluid.region.{region} on the wall or above it"))
         }
+        RayleighError::MeetsSide { region, side } => {
+            otherwise(&format!("make fluid.region.{region} smaller or the fluid larger, or open {side}"))
+        }
+        RayleighError::Overlap { first, second } => otherwise(&format!(
+            "move fluid.region.{first} and fluid.region.{second} apart, or give both one pressure"
+        )),
+        RayleighError::ClosedBox => otherwise("open r_max or z_max under [fluid.boundary]"),
+        RayleighError::Periodic => {
+            otherwise("under [fluid.boundary] make the periodic sides \"wall\" or open ones")
+        }
+        RayleighError::TooMany { .. } => otherwise("make do with fewer bubbles (fluid.region)"),
         RayleighError::TooNear { .. } => {
-            otherwise("leave more space between the bubbles (fluid.region) and to the wall")
+            otherwise("leave more space between the bubbles (fluid.region) and to the walls")
         }
     }
 }

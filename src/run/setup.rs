@@ -3,7 +3,7 @@
 use fluid::{
     Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory, RayleighField,
 };
-use mesh::{BLOCK, Domain, Side};
+use mesh::{BLOCK, Domain};
 use solid::{ElasticState, InitialStress, PotentialPulse, SolidSetup, SolidSolver, WaveSpeeds};
 
 use crate::case::{Case, FluidCase, GridCase, LoadCase, SolidCase};
@@ -91,9 +91,8 @@ pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
 /// The pressure with which a case's fluid begins above the wall, where it is not uniform.
 fn rayleigh_field(case: &Case) -> Option<RayleighField> {
     let fluid = case.fluid.as_ref()?;
-    let side = fluid.boundary[Side::ZMin as usize];
     // A case is refused in reading if it has not the field that it asks for.
-    RayleighField::of(&fluid.initial, case.geometry, fluid.grid.z[0], side).ok().flatten()
+    RayleighField::of(&fluid.initial, &domain(case, &fluid.grid), fluid.boundary).ok().flatten()
 }
 
 /// A case's solid: the stress that carries the fluid's pressure on the wall, and its pulses.

@@ -38,8 +38,8 @@ impl<const N: usize> FluidSolver<N> {
     ///   [`FluidError::NonPhysical`].
     pub fn new(setup: &FluidSetup, initial: &InitialCondition) -> Result<Self, FluidError> {
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let (Domain { geometry, z: [z_min, _], .. }, gravity) = (setup.domain, setup.gravity);
-        let field = RayleighField::of(initial, geometry, z_min, setup.boundaries[Side::ZMin as usize])?;
+        let (Domain { geometry, .. }, gravity) = (setup.domain, setup.gravity);
+        let field = RayleighField::of(initial, &setup.domain, setup.boundaries)?;
         Self::with(
             setup,
             &|centre, widths| {

@@ -246,7 +246,7 @@ fn distance(pulse: &crate::Pulse, [z, r]: [f64; 2]) -> (f64, Option<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{InitialPressure, Region, Shape, StiffenedGas};
+    use crate::{Boundary, InitialPressure, Region, Shape, StiffenedGas};
     use mesh::Domain;
 
     fn bubble(centre: f64) -> InitialCondition {
@@ -268,7 +268,9 @@ mod tests {
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let mut state = Field::zeros(mesh.blocks(), 64, 5);
-        let field = RayleighField::of(initial, Geometry::Axisymmetric, 0.0, crate::Boundary::Wall).unwrap();
+        let open = Boundary::NonReflecting;
+        let sides = [Boundary::Wall, open, Boundary::Axis, open];
+        let field = RayleighField::of(initial, &domain, sides).unwrap();
         fill(&mesh, &mixture, &mut state, &|centre, widths| {
             average(initial, field.as_ref(), Geometry::Axisymmetric, &mixture, centre, widths)
         });

@@ -1,6 +1,8 @@
 //! A bubble that starts in the harmonic pressure moves as Rayleigh has it, and no wave leaves it.
 
-use fluid::{Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Sharpening};
+use fluid::{
+    Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, RayleighField, Sharpening,
+};
 use mesh::{Adaptation, Domain};
 
 use crate::helpers::*;
@@ -100,4 +102,80 @@ fn the_first_mesh_follows_the_field() {
     let [harmonic, uniform] = [InitialPressure::Rayleigh, InitialPressure::Uniform].map(cells_at);
     eprintln!("{harmonic} blocks, {uniform} without the field");
     assert!(harmonic > uniform, "{harmonic} {uniform}");
+}
+
+/// A bubble of radius 1 m about (z, 0), 20 cells, above a wall at z = 0.
+fn above_wall(z: f64, domain: [f64; 2], r_max: Boundary, pressure: InitialPressure) -> FluidSolver<16> {
+    let (setup, initial) = setup_above_wall(z, domain, r_max, pressure);
+    FluidSolver::new(&setup, &initial).unwrap()
+}
+
+fn setup_above_wall(
+    z: f64,
+    [height, radius]: [f64; 2],
+    r_max: Boundary,
+    pressure: InitialPressure,
+) -> (FluidSetup, InitialCondition) {
+    let cells = [height, radius].map(|length| (20.0 * length).round() as usize);
+    let setup = FluidSetup {
+        domain: Domain { geometry: AXIAL, z: [0.0, height], r: [0.0, radius] },
+        model: Model::FiveEquation,
+        sharpening: Sharpening::Thinc,
+        ..setup(AXIAL, cells, [Boundary::Wall, Boundary::NonReflecting, Boundary::Axis, r_max])
+    };
+    let initial = ball_of_gas(([z, 0.0], 1.0), FAR, [0.0266, GAS_PRESSURE], 0.0);
+    (setup, InitialCondition { pressure, ..initial })
+}
+
+/// From rest v = −t ∇p/ρ everywhere, along the wall beside the edge, too; with a uniform pressure nothing has moved yet where no
+/// wave has been.
+#[test]
+fn a_bubble_that_the_wall_cuts_starts_as_its_field_has_it() {
+    let open = Boundary::NonReflecting;
+    let make = |pressure| above_wall(0.5, [3.2, 3.2], open, pressure);
+    let [mut harmonic, mut uniform] = [InitialPressure::Rayleigh, InitialPressure::Uniform].map(make);
+    let (setup, initial) = setup_above_wall(0.5, [3.2, 3.2], open, InitialPressure::Rayleigh);
+    let field = RayleighField::between(&initial, &setup.domain, setup.boundaries).unwrap();
+    run_to(&mut harmonic, 0.1 / SOUND);
+    run_to(&mut uniform, 0.1 / SOUND);
+    let hammer = (FAR - GAS_PRESSURE) / (1000.0 * SOUND);
+    let [slow, fast] = [fastest(&harmonic) / hammer, fastest(&uniform) / hammer];
+    eprintln!("fastest after 0.1 R/c: {slow:.3} and {fast:.3} of the water hammer's velocity");
+    assert!(slow < 0.2 && fast > 0.9, "{slow} {fast}");
+    run_to(&mut harmonic, 0.3 / SOUND);
+    // What the stairs of mixed cells at its surface send has come 0.3 m far: two of the points are within.
+    for ([z, r], most) in [
+        ([0.025, 1.225], 0.06),
+        ([0.325, 1.225], 0.06),
+        ([0.025, 1.525], 5e-3),
+        ([0.975, 1.375], 5e-3),
+        ([1.925, 0.025], 5e-3),
+        ([1.725, 1.225], 5e-3),
+    ] {
+        let w = harmonic.sample([z, r]).unwrap();
+        let p = |dz: f64, dr: f64| field.pressure([z + dz, r + dr]);
+        let per_slope = -harmonic.time() / 1000.0 / 2e-3;
+        let want = [p(1e-3, 0.0) - p(-1e-3, 0.0), p(0.0, 1e-3) - p(0.0, -1e-3)].map(|rise| per_slope * rise);
+        let off = (w.v_z - want[0]).hypot(w.v_r - want[1]) / want[0].hypot(want[1]);
+        eprintln!("({z}, {r}): off by {off:.4}");
+        assert!(off < most, "({z}, {r}): {} {} for {want:?}", w.v_z, w.v_r);
+    }
+}
+
+/// The pressure on the wall around, until what the start sends has come there and back.
+#[test]
+fn a_bubble_in_a_tube_sends_no_wave_to_its_wall() {
+    let change = |pressure| {
+        let mut fluid = above_wall(2.4, [4.8, 1.6], Boundary::Wall, pressure);
+        let at = |fluid: &FluidSolver<16>| fluid.sample([2.4, 1.6]).unwrap().pressure;
+        let (start, mut wave) = (at(&fluid), 0.0_f64);
+        while fluid.time() < 1.5 / SOUND {
+            fluid.step_at(CFL).unwrap();
+            wave = wave.max((at(&fluid) - start).abs());
+        }
+        wave / (FAR - GAS_PRESSURE)
+    };
+    let [harmonic, uniform] = [InitialPressure::Rayleigh, InitialPressure::Uniform].map(change);
+    eprintln!("largest change of pressure on the tube's wall: {harmonic:.4} and {uniform:.4} of the jump");
+    assert!(uniform > 0.8 && harmonic < 0.1 * uniform, "{harmonic} {uniform}");
 }

@@ -149,7 +149,7 @@ impl FarField {
         if initial.ambient.phase == Phase::Gas {
             return Err(FarFieldError::GasAmbient);
         }
-        let bubbles = bubbles(initial, wall)?;
+        let bubbles = bubbles(initial, domain, boundaries)?;
         let incident =
             Incident::of(initial, mixture.liquid, domain, boundaries, inflow, wall.zip(Some(reflection)));
         let PhaseState { density, pressure, velocity: [v_z, v_r], .. } = initial.ambient;
@@ -232,9 +232,13 @@ fn wall(domain: &Domain, boundaries: [Boundary; 4]) -> Result<Option<f64>, FarFi
 
 /// The bubbles of an initial condition as sources.
 ///
-/// How much each draws in is what its part of the harmonic pressure says; where there is none (a bubble that the wall cuts, or
-/// nothing that drives it yet), R |Δp|, or R.
-fn bubbles(initial: &InitialCondition, wall: Option<f64>) -> Result<Vec<Source>, FarFieldError> {
+/// How much each draws in is what its part of the harmonic pressure says, of a bubble that the wall cuts that of the part above;
+/// where there is none (boxes), or nothing that drives it yet, R |Δp|, or R.
+fn bubbles(
+    initial: &InitialCondition,
+    domain: &Domain,
+    boundaries: [Boundary; 4],
+) -> Result<Vec<Source>, FarFieldError> {
     let gas: Vec<(usize, &Region)> =
         (initial.regions.iter().enumerate()).filter(|(_, region)| region.state.phase == Phase::Gas).collect();
     if gas.is_empty() {
@@ -249,7 +253,7 @@ fn bubbles(initial: &InitialCondition, wall: Option<f64>) -> Result<Vec<Source>,
         _ => Err(FarFieldError::OffAxis { region: *region }),
     };
     let places = gas.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-    let harmonic = RayleighField::new(initial, Geometry::Axisymmetric, wall);
+    let harmonic = RayleighField::between(initial, domain, boundaries);
     let of_field = harmonic.map_or_else(|_| Vec::new(), |field| field.monopoles());
     let of_pressure: Vec<f64> = (gas.iter().zip(&places))
         .map(|((_, region), (_, radius))| radius * (region.state.pressure - initial.ambient.pressure))

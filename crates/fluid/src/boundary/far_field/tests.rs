@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 use mesh::{Domain, Geometry, Side};
 
 use super::condition::{Inner, Moment};
@@ -143,7 +145,7 @@ fn a_face_begins_with_its_initial_state() {
     ] {
         let start = initial(&places, pressure);
         let far_field = far_field(&start, boundaries).unwrap();
-        let field = crate::RayleighField::of(&start, DOMAIN.geometry, DOMAIN.z[0], boundaries[0]).unwrap();
+        let field = crate::RayleighField::of(&start, &DOMAIN, boundaries).unwrap();
         for (side, face) in
             FACES.into_iter().filter(|(side, _)| boundaries[*side as usize] == Boundary::FarField)
         {
@@ -158,6 +160,36 @@ fn a_face_begins_with_its_initial_state() {
             if pressure == InitialPressure::Uniform {
                 assert_eq!((outer.velocity, outer.pressure, impulse), (0.0, p, 0.0));
             }
+        }
+    }
+}
+
+/// Far away p' = ρ Σ f'/s of the sources and their images is that of the start, of bubbles that a wall cuts, too, wherever it is.
+#[test]
+fn cut_bubbles_draw_in_what_their_field_says() {
+    let below_wall = [Boundary::FarField, Boundary::Wall, Boundary::Axis, Boundary::FarField];
+    for (boundaries, wall, places) in [
+        (ABOVE_WALL, -4e-3, vec![[-3.5e-3, 1e-3]]),
+        (ABOVE_WALL, -4e-3, vec![[-3.5e-3, 1e-3], [-2.2e-3, 0.5e-3], [1e-3, 1e-3]]),
+        (below_wall, 6e-3, vec![[5e-3, 1e-3], [2e-3, 1e-3]]),
+    ] {
+        let start = initial(&places, InitialPressure::Rayleigh);
+        let far_field = far_field(&start, boundaries).unwrap();
+        let field = crate::RayleighField::of(&start, &DOMAIN, boundaries).unwrap().unwrap();
+        let s = 100.0;
+        let of_sources: f64 =
+            far_field.bubbles.iter().map(|bubble| 2.0 * RHO * bubble.acceleration / (4.0 * PI * s)).sum();
+        approx::assert_relative_eq!(of_sources, field.pressure([wall, s]) - FAR, max_relative = 1e-4);
+        // A uniform pressure starts nothing at once, and draws in the same.
+        let uniform =
+            super::bubbles(&initial(&places, InitialPressure::Uniform), &DOMAIN, boundaries).unwrap();
+        for (bubble, still) in far_field.bubbles.iter().zip(&uniform) {
+            assert_eq!((bubble.z, bubble.strength, 0.0), (still.z, still.strength, still.acceleration));
+            approx::assert_relative_eq!(
+                bubble.acceleration,
+                -4.0 * PI * bubble.strength / RHO,
+                max_relative = 1e-12
+            );
         }
     }
 }
