@@ -95,6 +95,7 @@ impl FluidRecord {
             largest_thin_volume,
             collapse_energy,
             cuts,
+            cells_per_radius: _,
         } = self;
         FluidRecordState {
             files: files.saved(),
