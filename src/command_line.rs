@@ -262,6 +262,10 @@ fn print(text: &str) -> Result<(), RunError> {
 fn complain(error: &RunError) {
     match error {
         RunError::Case(errors) => eprint!("{}", render(errors)),
+        RunError::Grid { number, levels, source } => match &**source {
+            RunError::Case(errors) => eprint!("grid {number} ({levels}):\n{}", render(errors)),
+            _ => eprintln!("error: {error}"),
+        },
         other => eprintln!("error: {other}"),
     }
     tracing::error!("{error}");

@@ -66,7 +66,9 @@ fn run_error(error: &cav::run::RunError) -> PyErr {
     match (error, error.exit_code()) {
         (cav::run::RunError::Case(errors), _) => case_error(errors),
         (cav::run::RunError::Grid { source, number, levels }, _) => match &**source {
-            cav::run::RunError::Case(errors) => case_error_of(&format!("grid {number} ({levels}): "), errors),
+            cav::run::RunError::Case(errors) => {
+                case_error_of(&format!("grid {number} ({levels}):\n"), errors)
+            }
             _ => run_error_of(error.exit_code(), text),
         },
         (cav::run::RunError::Refine(_), _) => PyValueError::new_err(text),

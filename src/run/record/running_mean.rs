@@ -23,9 +23,11 @@ impl RunningMean {
         self.now = [time + dt, integral + dt * mean];
         if window <= dt {
             self.before.clear();
-            return mean;
         }
         self.before.push_back([time, integral]);
+        if window <= dt {
+            return mean;
+        }
         let begin = self.now[0] - window;
         while self.before.get(1).is_some_and(|[next, _]| *next <= begin) {
             self.before.pop_front();
@@ -68,7 +70,11 @@ mod tests {
         );
         let mut at_once = RunningMean::default();
         assert_eq!([at_once.push(0.0, 0.1, 5.0), at_once.push(0.0, 0.1, 6.0)], [5.0, 6.0]);
-        assert!(at_once.before.is_empty());
+        assert_eq!(at_once.before.len(), 1);
+        // Of a step longer than the while, its end counts after it.
+        let mut after_long = RunningMean::default();
+        let shown = [(1.0, 3.0), (0.5, 7.0)].map(|(dt, value)| after_long.push(0.75, dt, value));
+        assert_eq!(shown, [3.0, (0.25 * 3.0 + 0.5 * 7.0) / 0.75]);
         // However long it is, no step costs more than the last.
         let mut slow = RunningMean::default();
         (0..1000).for_each(|_| assert!((slow.push(0.05, 0.01, 3.0) - 3.0).abs() < 1e-12));

@@ -107,6 +107,6 @@ mod tests {
         {
             assert_eq!(coarse[key], fine[key], "{key}");
         }
-        assert_eq!(fine["wall_impulse"], json!(6.0));
+        assert_eq!(fine["wall_impulse"], json!(5.5));
     }
 }
