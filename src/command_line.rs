@@ -1,14 +1,16 @@
 //! The command line: `cav`, and `python -m pycav` likewise.
 
+mod log;
+
 use std::ffi::OsString;
-use std::fs::OpenOptions;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::Duration;
 
 use crate::case::{Case, CaseErrors, materials_table, report};
-use crate::output::run_directory::LOG;
+use crate::convergence::plan::Source;
+use crate::convergence::study::study;
+use crate::convergence::table::table;
 use crate::run::process::drive::Joining;
 use crate::run::process::launch::run_side;
 use crate::run::process::launch_options::Options;
@@ -16,8 +18,7 @@ use crate::run::process::stop::Stop;
 use crate::run::{RunError, resume, run, wall};
 use clap::{Args, Parser, Subcommand};
 use coupler::Participant;
-use tracing::Level;
-use tracing_subscriber::fmt::writer::MakeWriterExt;
+use log::{Follower, log_to};
 
 /// A cavitation bubble collapsing near an elastic solid: what it does to the wall.
 #[derive(Parser)]
@@ -93,6 +94,10 @@ struct RunArgs {
     /// Run both sides in this process instead of two.
     #[arg(long)]
     in_process: bool,
+    /// Run the case on N grids, 2 to 5, each with cells half as wide as the one before, and say what its numbers converge to.
+    /// Each has a run directory in DIR; the same command again goes on.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=5), conflicts_with = "resume")]
+    refine: Option<u16>,
 }
 
 #[derive(Args)]
@@ -211,9 +216,24 @@ fn run_case(args: &RunArgs, program: &[OsString]) -> Result<(), RunError> {
         let stop = Stop::on_signals()?;
         return resume(directory, &options, &stop, log).map(|_| ());
     }
+    if let Some(grids) = args.refine {
+        return refine(usize::from(grids), &options);
+    }
     let case = Case::load(&options.case_path, &options.sets)?;
     let stop = Stop::on_signals()?;
     run(&case, &options, &stop, log).map(|_| ())
+}
+
+/// A case on so many grids, and the table of its numbers.
+fn refine(grids: usize, options: &Options) -> Result<(), RunError> {
+    let source = Source::of_file(&options.case_path, &options.sets)?;
+    let stop = Stop::on_signals()?;
+    let log = Follower::begin(options.verbosity);
+    let study = study(&source, grids, options, &stop, |directory| log.follow(directory))?;
+    if !options.quiet {
+        print(&table(&study.grids, &study.ends))?;
+    }
+    study.failure.map_or(Ok(()), Err)
 }
 
 fn side(args: &SideArgs, participant: Participant) -> Result<(), RunError> {
@@ -242,6 +262,10 @@ fn print(text: &str) -> Result<(), RunError> {
 fn complain(error: &RunError) {
     match error {
         RunError::Case(errors) => eprint!("{}", render(errors)),
+        RunError::Grid { number, levels, source } => match &**source {
+            RunError::Case(errors) => eprint!("grid {number} ({levels}):\n{}", render(errors)),
+            _ => eprintln!("error: {error}"),
+        },
         other => eprintln!("error: {other}"),
     }
     tracing::error!("{error}");
@@ -249,25 +273,6 @@ fn complain(error: &RunError) {
 
 fn render(errors: &CaseErrors) -> String {
     errors.render(std::io::stderr().is_terminal())
-}
-
-/// Logs to the run directory, and with `-v` to the terminal unless the launcher does.
-fn log_to(directory: &Path, verbosity: u8, to_terminal: bool) {
-    let level = if verbosity > 1 { Level::DEBUG } else { Level::INFO };
-    let on_terminal = match verbosity {
-        0 => Level::ERROR,
-        1 => Level::INFO,
-        _ => Level::DEBUG,
-    };
-    let path = directory.join(LOG);
-    // A run does not fail for want of a log; what matters is in its other files and on the terminal.
-    let Ok(file) = OpenOptions::new().create(true).append(true).open(path) else { return };
-    let builder = tracing_subscriber::fmt().with_max_level(level).with_ansi(false);
-    if to_terminal && verbosity > 0 {
-        builder.with_writer(Mutex::new(file).and(std::io::stderr.with_max_level(on_terminal))).init();
-    } else {
-        builder.with_writer(Mutex::new(file)).init();
-    }
 }
 
 #[cfg(test)]

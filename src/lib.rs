@@ -4,5 +4,6 @@
 
 pub mod case;
 pub mod command_line;
+pub mod convergence;
 pub mod output;
 pub mod run;

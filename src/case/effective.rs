@@ -30,6 +30,9 @@ impl Case {
         if let Some(seconds) = output.interface_every {
             table.number("interface_every", seconds);
         }
+        if let Some(seconds) = output.mean_time {
+            table.number("mean_time", seconds);
+        }
         table.0
     }
 

@@ -211,6 +211,7 @@ fn output(root: &mut Table<'_>, end: Option<f64>, faults: &mut Faults) -> Output
         compression: 4,
         interface_cells: None,
         interface_every: None,
+        mean_time: None,
     };
     let Some(mut table) = root.table("output", faults) else { return output };
     if let Some(directory) = table.string("directory", faults) {
@@ -254,6 +255,13 @@ fn output(root: &mut Table<'_>, end: Option<f64>, faults: &mut Faults) -> Output
     {
         let message = format!("{every:?} s means more than {MOST_ROWS:e} rows until time.end = {end:?} s");
         faults.of(&given, message, format!("give {:?} s or more", end / MOST_ROWS));
+    }
+    output.mean_time = table.positive("mean_time", "s", faults);
+    if let (Some(mean), Some(end), Some(given)) = (output.mean_time, end, table.place("mean_time"))
+        && mean > end
+    {
+        let message = format!("{mean:?} s is longer than the run, which ends at {end:?} s");
+        faults.of(&given, message, format!("give {end:?} s at most"));
     }
     table.finish(faults);
     output

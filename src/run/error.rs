@@ -102,6 +102,19 @@ pub enum RunError {
         /// Why not, and what helps.
         reason: String,
     },
+    /// A study of grid convergence cannot be made.
+    #[error("grid convergence: {0}")]
+    Refine(String),
+    /// What went wrong with one of its grids.
+    #[error("grid {number} ({levels}): {source}")]
+    Grid {
+        /// Its number; 0 is the case as it is given.
+        number: usize,
+        /// Its levels, as keys of the case.
+        levels: String,
+        /// What went wrong.
+        source: Box<RunError>,
+    },
     /// A checkpoint does not belong to what the case makes.
     #[error("the checkpoint does not fit the case: {0}; run the case anew in another directory")]
     Misfit(#[from] mesh::Misfit),
@@ -140,7 +153,9 @@ impl RunError {
             | Self::PeerIsElsewhere { .. }
             | Self::Resume { .. }
             | Self::Wall { .. }
+            | Self::Refine(_)
             | Self::Misfit(_) => 2,
+            Self::Grid { source, .. } => source.exit_code(),
             Self::Coupler(CouplerError::BadRunId { .. } | CouplerError::NameTaken { .. }) => 2,
             Self::Coupler(CouplerError::NoState { .. }) => 3,
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
@@ -165,6 +180,8 @@ impl RunError {
             | Self::PeerIsElsewhere { .. }
             | Self::Resume { .. }
             | Self::Wall { .. }
+            | Self::Refine(_)
+            | Self::Grid { .. }
             | Self::Misfit(_)
             | Self::Child { .. }
             | Self::Start { .. } => Fault::Other,

@@ -211,6 +211,8 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Append("[output]\ncompression = 10"), &["output.compression: must be from 0 to 9, got 10"]),
     (Append("[output]\ninterface_every = 1e-13"), &["output.interface_every: 1e-13 s means more than 1e6 rows until time.end = 1e-6 s", "s or more"]),
     (Append("[output]\ninterface_every = 0"), &["output.interface_every: must be positive"]),
+    (Append("[output]\nmean_time = 0.0"), &["output.mean_time: must be positive"]),
+    (Append("[output]\nmean_time = 2e-6"), &["output.mean_time: 2e-6 s is longer than the run, which ends at 1e-6 s", "give 1e-6 s at most"]),
     (Append("[output]\ndirectory = \"\""), &["output.directory: is empty"]),
     // Changes from the command line.
     (Sets(&["time.end"]), &["`--set time.end` has no `=`", "KEY=VALUE"]),

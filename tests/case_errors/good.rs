@@ -80,6 +80,7 @@ fn every_kind_of_value_survives_being_written_out() {
         "coupling.connect_timeout=3",
         "output={ directory = \"a \\\"b\\\"\", fields = [\"pressure\"], compression = 0, interface_cells = 7 }",
         "output.interface_every=1e-8",
+        "output.mean_time=1e-7",
     ]);
     let times = [0.0, 3.1e-7, 6.2e-7, 9.3e-7, 1e-6];
     assert!(all.time.snapshots.iter().zip(times).all(|(a, b)| (a - b).abs() < 1e-18), "{:?}", all.time);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use cav::case;
+use cav::convergence::plan::Source;
 use cav::run::process::launch::directory_of;
 use pyo3::prelude::*;
 
@@ -24,6 +25,16 @@ impl Case {
 
     pub fn sets(&self) -> &[String] {
         &self.sets
+    }
+
+    /// What it was read from.
+    pub fn source(&self) -> Source {
+        Source {
+            text: self.text.clone(),
+            name: self.case.name.clone(),
+            shown: self.shown.clone(),
+            sets: self.sets.clone(),
+        }
     }
 
     fn read(text: String, name: &str, shown: String, sets: Vec<String>) -> PyResult<Self> {

@@ -65,16 +65,35 @@ fn run_error(error: &cav::run::RunError) -> PyErr {
     let text = error.to_string();
     match (error, error.exit_code()) {
         (cav::run::RunError::Case(errors), _) => case_error(errors),
-        (_, 3) => NumericalError::new_err(text),
-        (_, 4) => CouplingError::new_err(text),
-        (_, 5) => OutputError::new_err(text),
+        (cav::run::RunError::Grid { source, number, levels }, _) => match &**source {
+            cav::run::RunError::Case(errors) => {
+                case_error_of(&format!("grid {number} ({levels}):\n"), errors)
+            }
+            _ => run_error_of(error.exit_code(), text),
+        },
+        (cav::run::RunError::Refine(_), _) => PyValueError::new_err(text),
+        (_, code) => run_error_of(code, text),
+    }
+}
+
+/// The class of an exit code.
+fn run_error_of(code: u8, text: String) -> PyErr {
+    match code {
+        3 => NumericalError::new_err(text),
+        4 => CouplingError::new_err(text),
+        5 => OutputError::new_err(text),
         _ => RunError::new_err(text),
     }
 }
 
 /// A [`CaseError`] with the command line's text, and its `faults` as dictionaries.
 pub fn case_error(errors: &CaseErrors) -> PyErr {
-    let raised = CaseError::new_err(errors.render(false).trim_end().to_owned());
+    case_error_of("", errors)
+}
+
+/// The same of one of several cases, which the text begins with.
+fn case_error_of(which: &str, errors: &CaseErrors) -> PyErr {
+    let raised = CaseError::new_err(format!("{which}{}", errors.render(false).trim_end()));
     let described = Python::attach(|py| -> PyResult<()> {
         let faults = PyList::empty(py);
         for fault in errors.faults() {

@@ -1,10 +1,12 @@
-//! A run in two processes, and the command line.
+//! Runs in two processes, on finer and finer grids, and the command line.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::time::Duration;
 
+use cav::convergence::study::study;
+use cav::run::RunError;
 use cav::run::checkpoints::DEFAULT_INTERVAL;
 use cav::run::process::launch::run;
 use cav::run::process::launch_options::Options;
@@ -39,26 +41,77 @@ pub fn run_in_processes(
         sets: case.sets().to_vec(),
         out,
         force,
-        in_process: false,
         threads,
-        checkpoint_every: Some(DEFAULT_INTERVAL),
-        from: None,
-        name: None,
         program,
         quiet: !progress,
-        verbosity: 0,
+        ..options()
     };
-    let (stop, options, case) = (&Stop::default(), &options, case.case());
+    let (options, case) = (&options, case.case());
+    interruptible(py, |stop| {
+        let mut guard = None;
+        let on_directory = |path: &Path| guard = Some(Log::of(Some(path)).until_dropped());
+        run(case, options, stop, on_directory).inspect_err(log::failed)
+    })
+}
+
+/// Runs a case on finer and finer grids; returns the directory and the text of its `convergence.json`.
+///
+/// - `case_path`, `program`: as of [`run_in_processes`]; `processes`: two for each run of two media.
+#[expect(clippy::too_many_arguments, reason = "those of the Python function")]
+#[pyfunction]
+#[pyo3(signature = (case, case_path, program, grids, out=None, processes=false, force=false, threads=None, progress=false))]
+pub fn convergence(
+    py: Python<'_>,
+    case: &Case,
+    case_path: PathBuf,
+    program: Vec<OsString>,
+    grids: usize,
+    out: Option<PathBuf>,
+    processes: bool,
+    force: bool,
+    threads: Option<usize>,
+    progress: bool,
+) -> PyResult<(PathBuf, String)> {
+    let options = Options {
+        case_path,
+        out,
+        in_process: !processes,
+        force,
+        threads,
+        program,
+        quiet: !progress,
+        ..options()
+    };
+    let (source, options) = (&case.source(), &options);
+    let study = interruptible(py, |stop| {
+        let mut guard = None;
+        let on_directory = |path: &Path| {
+            // One at a time.
+            drop(guard.take());
+            guard = Some(Log::of(Some(path)).until_dropped());
+        };
+        study(source, grids, options, stop, on_directory)
+    })?;
+    let text = study.text();
+    Ok((study.directory, text))
+}
+
+/// What runs have in common.
+fn options() -> Options {
+    Options { checkpoint_every: Some(DEFAULT_INTERVAL), ..Options::default() }
+}
+
+/// Does what takes long without the interpreter, which is asked now and then whether it should stop.
+fn interruptible<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&Stop) -> Result<T, RunError> + Send,
+) -> PyResult<T> {
+    let stop = &Stop::default();
     let (done, ended) = mpsc::channel::<()>();
     py.detach(move || {
         std::thread::scope(|scope| {
             let worker = scope.spawn(move || {
-                let mut guard = None;
-                let on_directory = |path: &Path| guard = Some(Log::of(Some(path)).until_dropped());
-                let result = guarded(|| {
-                    let ended = run(case, options, stop, on_directory);
-                    ended.inspect_err(log::failed).map_err(Failure::Run)
-                });
+                let result = guarded(|| work(stop).map_err(Failure::Run));
                 // Closing the channel says that it is done.
                 drop(done);
                 result

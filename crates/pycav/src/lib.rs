@@ -8,7 +8,7 @@
 //! | `medium` | what of that is the fluid's or the solid's own |
 //! | `fields` | cells and samples of a solver as arrays |
 //! | `initial` | initial states that Python functions give |
-//! | `launch` | a run in two processes, and the command line |
+//! | `launch` | runs in two processes, on finer and finer grids, and the command line |
 //! | `log` | the log of a run directory |
 //! | `error` | errors and panics as exceptions |
 //!
@@ -37,7 +37,7 @@ mod _pycav {
     #[pymodule_export]
     use super::error::{CaseError, CouplingError, InternalError, NumericalError, OutputError, RunError};
     #[pymodule_export]
-    use super::launch::{main, run_in_processes};
+    use super::launch::{convergence, main, run_in_processes};
     #[pymodule_export]
     use super::simulation::Simulation;
 }

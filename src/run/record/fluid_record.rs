@@ -15,10 +15,13 @@ use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
 use crate::run::schedule::Plan;
 use crate::run::side::wall_faces::WallFaces;
 
+mod columns;
 mod conservation;
 mod files;
 mod fixups;
 pub mod saved;
+
+use columns::{BUBBLE_COLUMNS, PROBE_COLUMNS, STEP_COLUMNS};
 
 /// Everything that the fluid's side writes.
 pub struct FluidRecord {
@@ -43,6 +46,8 @@ pub struct FluidRecord {
     collapse_energy: f64,
     cuts: BubbleCuts,
     film: FilmRecord,
+    /// Finest cells along the radius of the first region, where that is a ball of gas.
+    cells_per_radius: Option<f64>,
 }
 
 /// Largest values so far, with their times.
@@ -126,6 +131,7 @@ impl FluidRecord {
             cuts,
             bubbles,
             film,
+            cells_per_radius: case.cells_per_radius(),
         })
     }
 
@@ -292,6 +298,7 @@ impl FluidRecord {
                 let masses = solver.carried_masses();
                 map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
                 map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));
+                map.extend(self.cells_per_radius.map(|cells| ("cells_per_radius".to_owned(), json!(cells))));
                 map
             }
             _ => unreachable!("an object was written"),
@@ -314,51 +321,3 @@ fn bubble_series(cuts: &BubbleCuts, history: &mut HistoryFile) -> Result<Option<
         .collect();
     history.add_series("", &columns).map(Some)
 }
-
-/// Name, unit and description of what is recorded of each of several bubbles.
-const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
-    ("volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6, between this bubble's cuts"),
-    ("equivalent_radius", "m", "radius of the ball of that volume"),
-    ("centroid_z", "m", "mean z weighted with the gas fraction"),
-    ("gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
-];
-
-const STEP_COLUMNS: [Column<'static>; 20] = [
-    column("time", "s", "time after the step"),
-    column("time_step", "s", "length of the step"),
-    column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
-    column("bubble/equivalent_radius", "m", "radius of the ball of that volume"),
-    column("bubble/centroid_z", "m", "mean z weighted with the gas fraction"),
-    column("bubble/jet_tip_z", "m", "distal crossing of gas fraction 1/2 on the axis"),
-    column("bubble/jet_velocity", "m/s", "fastest liquid on the axis, positive towards the wall"),
-    column("bubble/trace_gas_volume", "m3", "volume integral of the gas fraction where it is at most 1e-6"),
-    column(
-        "bubble/thin_gas_volume",
-        "m3",
-        "volume integral of the gas fraction where it is between 1e-6 and 1e-2",
-    ),
-    column("bubble/gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
-    column("wall/pressure_axis", "Pa", "cell mean at z_min on the axis"),
-    column("wall/pressure_max", "Pa", "largest cell mean along z_min"),
-    column("fixups/first_order", "1", "cell-steps at first order so far"),
-    column("fixups/redone", "1", "cell-steps done again at first order so far"),
-    column("fixups/redone_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
-    column("fixups/floored", "1", "cell-steps lifted to the pressure floor so far"),
-    column("fixups/floored_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
-    column("fixups/floor_energy", "J/rad", "energy that the floor added so far (planar: J/m)"),
-    column(
-        "fixups/gas_mass_added",
-        "kg/rad",
-        "mass that the gas got from the liquid where it had less than none",
-    ),
-    column("fixups/liquid_mass_added", "kg/rad", "mass that the liquid got from the gas, likewise"),
-];
-
-const PROBE_COLUMNS: [Column<'static>; 6] = [
-    column("time", "s", "time after the step"),
-    column("pressure", "Pa", "pressure; on the interface that of the star state"),
-    column("density", "kg/m3", "density"),
-    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
-    column("velocity_r", "m/s", "radial velocity"),
-    column("gas_fraction", "1", "gas fraction"),
-];

@@ -9,6 +9,7 @@ use crate::case::Case;
 use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
 use crate::run::record::sensors::{SensorState, Sensors};
+use crate::run::record::wall_axis::WallAxis;
 use crate::run::side::wall_faces::WallFaces;
 
 /// Pressure, velocity and impulse on the interface, as means over the cells of a fixed grid.
@@ -25,6 +26,7 @@ pub struct InterfaceHistory {
     pressure: Vec<f64>,
     impulse: Vec<f64>,
     sensors: Sensors,
+    axis: WallAxis,
 }
 
 /// What of it changes in time, and what hangs on the faces that there were at t = 0.
@@ -35,18 +37,21 @@ pub struct InterfaceState {
     pressure: Vec<f64>,
     impulse: Vec<f64>,
     sensors: Vec<SensorState>,
+    axis: WallAxis,
 }
 
 impl InterfaceHistory {
     /// What has to be kept of it.
     pub fn saved(&self) -> InterfaceState {
-        let Self { series: _, map: _, axisymmetric: _, grid, initial, pressure, impulse, sensors } = self;
+        let Self { series: _, map: _, axisymmetric: _, grid, initial, pressure, impulse, sensors, axis } =
+            self;
         InterfaceState {
             grid: grid.clone(),
             initial: initial.clone(),
             pressure: pressure.clone(),
             impulse: impulse.clone(),
             sensors: sensors.saved(),
+            axis: axis.clone(),
         }
     }
 
@@ -57,7 +62,7 @@ impl InterfaceHistory {
         faces: &WallFaces,
         history: &mut HistoryFile,
     ) -> Result<(), Misfit> {
-        let InterfaceState { grid, initial, pressure, impulse, sensors } = saved;
+        let InterfaceState { grid, initial, pressure, impulse, sensors, axis } = saved;
         if [grid.len(), initial.len(), pressure.len(), impulse.len()] != [self.grid.len(); 4] {
             return Err(Misfit(format!("the interface's history has {} cells", grid.len())));
         }
@@ -65,6 +70,7 @@ impl InterfaceHistory {
             return Err(Misfit("the sensors on the wall are others".to_owned()));
         }
         (self.grid, self.initial, self.pressure, self.impulse) = (grid, initial, pressure, impulse);
+        self.axis = axis;
         put_centres(faces.begin(), &self.grid, history);
         self.follow(faces);
         Ok(())
@@ -104,6 +110,7 @@ impl InterfaceHistory {
             pressure: zero.clone(),
             impulse: zero,
             sensors: Sensors::create(case, faces, pressures, history)?,
+            axis: WallAxis::new(case.mean_time(), pressures),
         };
         interface.follow(faces);
         interface.add(pressures, 0.0);
@@ -125,12 +132,15 @@ impl InterfaceHistory {
         history: &mut HistoryFile,
     ) -> Result<(), OutputError> {
         self.add(pressures, dt);
+        self.axis.after_step(pressures, (time, dt));
         self.sensors.after_step(faces, pressures, (time, dt), history)
     }
 
     /// Its part of the summary.
     pub fn summary(&self) -> Map<String, Value> {
-        self.sensors.summary()
+        let mut part = self.axis.summary();
+        part.extend(self.sensors.summary());
+        part
     }
 
     /// Takes notice of a step of length `dt` with these mean pressures on the faces.

@@ -6,6 +6,8 @@
 //! | [`side_files`] | into which files |
 //! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`sensors`] | of discs on it |
+//! | [`wall_axis`] | of the pressure on it at the axis: its largest mean, its impulse |
+//! | [`running_mean`] | the mean over the last while, whatever the steps |
 //! | [`two_collapses`] | the rebound, the second collapse, and what either load did |
 //! | [`surface`] | of the solid's surface: its displacement and the pit in it |
 //! | [`collapse`] | the collapse time |
@@ -20,12 +22,14 @@ pub mod equivalent_load;
 pub mod film;
 pub mod fluid_record;
 pub mod interface_history;
+pub mod running_mean;
 pub mod sensors;
 pub mod side_files;
 pub mod solid_record;
 pub mod surface;
 pub mod timed;
 pub mod two_collapses;
+pub mod wall_axis;
 
 use mesh::{BLOCK, Limiter, Mesh, Misfit};
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,5 @@
 //! Sensor discs on the wall: the mean pressure on each, its force and impulse, as a transducer would see them.
 
-use std::collections::VecDeque;
-
 use mesh::Geometry;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -9,6 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::case::{Case, Sensor};
 use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
+use crate::run::record::running_mean::RunningMean;
 use crate::run::side::wall_faces::WallFaces;
 
 const COLUMNS: [Column<'static>; 4] = [
@@ -36,34 +35,10 @@ struct OnWall {
 pub struct SensorState {
     /// Mean pressure at t = 0, Pa.
     initial: f64,
-    /// Time since then, s, and time integral of the pressure beyond the initial one, Pa s.
-    now: [f64; 2],
-    /// The same at the ends of earlier steps: the first at or before the beginning of the rise time, the others within it.
-    before: VecDeque<[f64; 2]>,
+    /// Over the rise time, of the pressure beyond the initial one.
+    mean: RunningMean,
     /// Largest pressure shown so far, Pa, and when, s.
     peak: [f64; 2],
-}
-
-impl SensorState {
-    /// What a sensor shows after a step of length `dt` with a mean pressure: the mean over the rise time, as far as there has been time.
-    fn show(&mut self, rise_time: f64, dt: f64, pressure: f64) -> f64 {
-        let [time, impulse] = self.now;
-        self.now = [time + dt, impulse + dt * pressure];
-        if rise_time <= dt {
-            self.before.clear();
-            return pressure;
-        }
-        self.before.push_back([time, impulse]);
-        let begin = self.now[0] - rise_time;
-        while self.before.get(1).is_some_and(|[next, _]| *next <= begin) {
-            self.before.pop_front();
-        }
-        let [first, impulse] = self.before[0];
-        let begin = begin.max(first);
-        let [next, next_impulse] = self.before.get(1).copied().unwrap_or(self.now);
-        let at_begin = impulse + (next_impulse - impulse) * (begin - first) / (next - first);
-        (self.now[1] - at_begin) / (self.now[0] - begin)
-    }
 }
 
 impl Sensors {
@@ -113,11 +88,11 @@ impl Sensors {
         }
         for OnWall { sensor, area, series, state } in &mut self.sensors {
             let pressure = mean(self.geometry, faces, sensor.radius, pressures) - state.initial;
-            let shown = state.show(sensor.rise_time, dt, pressure);
+            let shown = state.mean.push(sensor.rise_time, dt, pressure);
             if shown > state.peak[0] {
                 state.peak = [shown, time];
             }
-            history.push(*series, &[time, shown, shown * *area, state.now[1] * *area])?;
+            history.push(*series, &[time, shown, shown * *area, state.mean.integral() * *area])?;
         }
         Ok(())
     }
@@ -132,7 +107,7 @@ impl Sensors {
                 "pressure_peak": peak,
                 "pressure_peak_time": time,
                 "force_peak": peak * own.area,
-                "impulse": own.state.now[1] * own.area,
+                "impulse": own.state.mean.integral() * own.area,
             });
             (own.sensor.name.clone(), numbers)
         };
@@ -180,25 +155,5 @@ mod tests {
         assert!((over(Geometry::Axisymmetric, &finer, 3.0, &same) - 3.0).abs() < 1e-15);
         assert_eq!(over(Geometry::Planar, &coarse, 4.0, &[4.0, 2.0, 1.0]), 2.0);
         assert_eq!(over(Geometry::Axisymmetric, &coarse, 0.5, &pressures), 9.0, "a sensor within one face");
-    }
-
-    #[test]
-    fn a_rise_time_takes_the_mean_over_it() {
-        let mut state = SensorState::default();
-        let mut shown = |dt, pressure| state.show(1.0, dt, pressure);
-        // The mean over what there has been, until there has been enough.
-        assert!((shown(0.5, 2.0) - 2.0).abs() < 1e-15);
-        assert!((shown(0.5, 4.0) - 3.0).abs() < 1e-15);
-        // Of the first step only the last tenth remains.
-        assert!((shown(0.4, 10.0) - (0.1 * 2.0 + 0.5 * 4.0 + 0.4 * 10.0)).abs() < 1e-14);
-        // A step longer than the rise time.
-        assert_eq!(shown(3.0, 7.0), 7.0);
-        let mut at_once = SensorState::default();
-        assert_eq!([at_once.show(0.0, 0.1, 5.0), at_once.show(0.0, 0.1, 6.0)], [5.0, 6.0]);
-        assert!(at_once.before.is_empty());
-        // However long it is, no step costs more than the last.
-        let mut slow = SensorState::default();
-        (0..1000).for_each(|_| assert!((slow.show(0.05, 0.01, 3.0) - 3.0).abs() < 1e-12));
-        assert!(slow.before.len() <= 6, "{}", slow.before.len());
     }
 }

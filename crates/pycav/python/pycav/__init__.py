@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from . import plot, theory
     from ._animate import animate
     from .case import Case, Material, materials
+    from ._convergence import Convergence, convergence
     from .cells import Cells
     from ._hits import hits
     from ._report import report
@@ -31,16 +32,16 @@ if TYPE_CHECKING:
     from ._sweep import consistent_runs, stand_off_map, sweep
 
 __all__ = [
-    "Case", "CaseError", "Cells", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
-    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "consistent_runs", "hits", "materials",
-    "open", "plot", "report", "run", "stand_off_map", "sweep", "theory",
+    "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
+    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "consistent_runs",
+    "convergence", "hits", "materials", "open", "plot", "report", "run", "stand_off_map", "sweep", "theory",
 ]
 
 # Where names live. They are fetched when they are first used: the processes of a run need none of them.
 _PLACES = {
-    "Case": "case", "Cells": "cells", "FluidSolver": "solvers", "Material": "case", "Result": "result",
+    "Case": "case", "Cells": "cells", "Convergence": "_convergence", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
-    "consistent_runs": "_sweep", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
+    "consistent_runs": "_sweep", "convergence": "_convergence", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
 }
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Case", "CaseError", "CouplingError", "FluidSolver", "InternalError", "NumericalError", "OutputError", "RunError",
-    "Simulation", "SolidSolver", "main", "materials", "run_in_processes",
+    "Simulation", "SolidSolver", "convergence", "main", "materials", "run_in_processes",
 ]
 
 _Array = NDArray[np.float64]
@@ -140,4 +140,15 @@ def run_in_processes(
     threads: int | None = None,
     progress: bool = False,
 ) -> str: ...
+def convergence(
+    case: Case,
+    case_path: _Path,
+    program: list[str],
+    grids: int,
+    out: _Path | None = None,
+    processes: bool = False,
+    force: bool = False,
+    threads: int | None = None,
+    progress: bool = False,
+) -> tuple[str, str]: ...
 def main(arguments: list[str], program: list[str]) -> int: ...

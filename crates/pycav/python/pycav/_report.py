@@ -12,11 +12,12 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from . import plot
+from ._convergence import Convergence, study_of
 from ._damage import damage
 from ._health import Rows, health
 from .plot.plastic import FIELD
 from .plot.section import Run, default_time
-from .plot.style import si
+from .plot.style import rounded, si
 from .plot.surface import DISPLACEMENT
 from .result import Result, open_run
 
@@ -77,16 +78,37 @@ def _state(result: Result) -> str:
 
 
 def _key_numbers(result: Result) -> Rows:
+    window = result.summary.get("wall_pressure_mean_time")
+    over = "" if window is None else f" over {rounded(float(window), 's')}"
     labels = {
         "wall_pressure_peak": "wall pressure on the axis, largest", "wall_pressure_peak_interface": "p* on the axis, largest",
-        "wall_pressure_peak_anywhere": "wall pressure, largest anywhere", "von_mises_peak": "von Mises stress, largest",
+        "wall_pressure_peak_anywhere": "wall pressure, largest anywhere",
+        "wall_pressure_mean_peak": f"wall pressure on the axis, largest mean{over}",
+        "wall_impulse": "impulse on the wall at the axis, largest", "von_mises_peak": "von Mises stress, largest",
         "yielded_volume_peak": "yielded volume, largest", "min_equivalent_radius": "smallest equivalent radius",
         "jet_velocity_peak": "fastest liquid on the axis",
     }
-    table = result.key_numbers
+    table, study = result.key_numbers, study_of(result)
     for name, value, unit, time in zip(table.index, table["value"], table["unit"], table["time"]):
+        shown = str(unit).replace("m3", "m³")
         when = "" if time is None or time != time else f"at {si(float(time), 's')}"
-        yield labels[str(name)], si(float(value), str(unit).replace("m3", "m³")), when
+        around, says = ("", "") if study is None else _uncertainty(*study, str(name), float(value), shown)
+        yield labels[str(name)], si(float(value), shown) + around, "; ".join(filter(None, [when, says]))
+    if study is not None:
+        yield "grid convergence", f"grid {study[1]} of 0 to {len(study[0].grids) - 1}", "± GCI, from convergence.json"
+
+
+def _uncertainty(study: Convergence, grid: int, name: str, value: float, unit: str) -> tuple[str, str]:
+    """What stands behind a number, and what is said of it: its uncertainty by the study, or why there is none."""
+    found = study.record["numbers"].get(name)
+    if found is None or found["values"][grid] != value:
+        return "", ""
+    own = found["uncertainties"][grid]
+    how = found["convergence"].replace("-", " ")
+    if own is None:
+        return "", how
+    order = how if found["order"] is None else f"order {found['order']:.2g}"
+    return f" ± {rounded(own, unit)}", order
 
 
 def _resolution(result: Result) -> str:

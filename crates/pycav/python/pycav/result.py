@@ -242,6 +242,9 @@ class Result:
     @property
     def cells_per_radius(self) -> float | None:
         """Finest fluid cells along that radius, without which no peak means much."""
+        told = self.summary.get("cells_per_radius")
+        if told is not None:
+            return float(told)
         if self.radius is None:
             return None
         fluid = self.parameters["fluid"]
@@ -257,6 +260,8 @@ KEY_NUMBERS = [
     ("wall_pressure_peak", "Pa", "wall_pressure_peak_time"),
     ("wall_pressure_peak_interface", "Pa", "wall_pressure_peak_interface_time"),
     ("wall_pressure_peak_anywhere", "Pa", "wall_pressure_peak_anywhere_time"),
+    ("wall_pressure_mean_peak", "Pa", "wall_pressure_mean_peak_time"),
+    ("wall_impulse", "Pa s", "wall_impulse_time"),
     ("von_mises_peak", "Pa", "von_mises_peak_time"),
     ("yielded_volume_peak", "m3", ""),
     ("min_equivalent_radius", "m", "collapse_time"),

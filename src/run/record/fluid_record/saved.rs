@@ -100,6 +100,7 @@ impl FluidRecord {
             collapse_energy,
             cuts,
             film,
+            cells_per_radius: _,
         } = self;
         FluidRecordState {
             files: files.saved(),

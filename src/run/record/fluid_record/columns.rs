@@ -1,0 +1,54 @@
+//! The columns of the fluid's histories.
+
+use crate::output::Column;
+use crate::run::record::column;
+
+/// Name, unit and description of what is recorded of each of several bubbles.
+pub(super) const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
+    ("volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6, between this bubble's cuts"),
+    ("equivalent_radius", "m", "radius of the ball of that volume"),
+    ("centroid_z", "m", "mean z weighted with the gas fraction"),
+    ("gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
+];
+
+/// Every step.
+pub(super) const STEP_COLUMNS: [Column<'static>; 20] = [
+    column("time", "s", "time after the step"),
+    column("time_step", "s", "length of the step"),
+    column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
+    column("bubble/equivalent_radius", "m", "radius of the ball of that volume"),
+    column("bubble/centroid_z", "m", "mean z weighted with the gas fraction"),
+    column("bubble/jet_tip_z", "m", "distal crossing of gas fraction 1/2 on the axis"),
+    column("bubble/jet_velocity", "m/s", "fastest liquid on the axis, positive towards the wall"),
+    column("bubble/trace_gas_volume", "m3", "volume integral of the gas fraction where it is at most 1e-6"),
+    column(
+        "bubble/thin_gas_volume",
+        "m3",
+        "volume integral of the gas fraction where it is between 1e-6 and 1e-2",
+    ),
+    column("bubble/gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
+    column("wall/pressure_axis", "Pa", "cell mean at z_min on the axis"),
+    column("wall/pressure_max", "Pa", "largest cell mean along z_min"),
+    column("fixups/first_order", "1", "cell-steps at first order so far"),
+    column("fixups/redone", "1", "cell-steps done again at first order so far"),
+    column("fixups/redone_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
+    column("fixups/floored", "1", "cell-steps lifted to the pressure floor so far"),
+    column("fixups/floored_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
+    column("fixups/floor_energy", "J/rad", "energy that the floor added so far (planar: J/m)"),
+    column(
+        "fixups/gas_mass_added",
+        "kg/rad",
+        "mass that the gas got from the liquid where it had less than none",
+    ),
+    column("fixups/liquid_mass_added", "kg/rad", "mass that the liquid got from the gas, likewise"),
+];
+
+/// At a probe.
+pub(super) const PROBE_COLUMNS: [Column<'static>; 6] = [
+    column("time", "s", "time after the step"),
+    column("pressure", "Pa", "pressure; on the interface that of the star state"),
+    column("density", "kg/m3", "density"),
+    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
+    column("velocity_r", "m/s", "radial velocity"),
+    column("gas_fraction", "1", "gas fraction"),
+];

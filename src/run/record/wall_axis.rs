@@ -1,0 +1,112 @@
+//! The wall pressure on the axis, beyond its peak in one step: its largest mean over a while, and its impulse.
+//!
+//! Both are of p* on the wall's face at the axis, which is known as the mean over each step: sums over all steps, whatever is written.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use crate::run::record::running_mean::RunningMean;
+
+/// What of it changes in time, and the pressure at t = 0.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct WallAxis {
+    /// Over how long the mean is taken, s; `None` where there is none.
+    window: Option<f64>,
+    /// Pressure at t = 0, Pa.
+    initial: f64,
+    /// Of the pressure beyond the initial one.
+    mean: RunningMean,
+    /// Largest mean over the whole while so far, Pa, and at its end, s.
+    mean_peak: Option<[f64; 2]>,
+    /// Largest impulse so far, Pa s, and when, s; 0 at t = 0.
+    impulse_peak: [f64; 2],
+}
+
+impl WallAxis {
+    /// Of a wall with these pressures on its faces at t = 0, from the axis outwards.
+    pub fn new(window: Option<f64>, pressures: &[f64]) -> Self {
+        Self { window, initial: pressures.first().copied().unwrap_or(0.0), ..Self::default() }
+    }
+
+    /// Takes notice of a step of length `dt` that ended at `time` with these mean pressures on the faces.
+    pub fn after_step(&mut self, pressures: &[f64], (time, dt): (f64, f64)) {
+        let Some(pressure) = pressures.first().filter(|_| dt > 0.0) else { return };
+        let mean = self.mean.push(self.window.unwrap_or(0.0), dt, pressure - self.initial);
+        // Before the while is full there is no mean over it.
+        let is_full = self.window.is_some_and(|window| self.mean.time() >= window);
+        let value = self.initial + mean;
+        if is_full && self.mean_peak.is_none_or(|[peak, _]| value > peak) {
+            self.mean_peak = Some([value, time]);
+        }
+        if self.mean.integral() > self.impulse_peak[0] {
+            self.impulse_peak = [self.mean.integral(), time];
+        }
+    }
+
+    /// Its part of the summary.
+    pub fn summary(&self) -> Map<String, Value> {
+        let mut part = Map::new();
+        if let Some(window) = self.window {
+            let [peak, time] = self.mean_peak.map_or([None; 2], |[peak, time]| [Some(peak), Some(time)]);
+            part.insert("wall_pressure_mean_time".to_owned(), json!(window));
+            part.insert("wall_pressure_mean_peak".to_owned(), json!(peak));
+            part.insert("wall_pressure_mean_peak_time".to_owned(), json!(time));
+        }
+        part.insert("wall_impulse".to_owned(), json!(self.impulse_peak[0]));
+        part.insert("wall_impulse_time".to_owned(), json!(self.impulse_peak[1]));
+        part
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The wall's numbers after steps of these lengths with these pressures.
+    fn after(window: Option<f64>, steps: &[[f64; 2]]) -> Map<String, Value> {
+        let mut axis = WallAxis::new(window, &[1.0, 9.0]);
+        let mut time = 0.0;
+        for [dt, pressure] in steps {
+            time += dt;
+            axis.after_step(&[*pressure, 0.0], (time, *dt));
+        }
+        axis.summary()
+    }
+
+    #[test]
+    fn a_mean_counts_once_there_has_been_time_for_it_and_an_impulse_from_the_start() {
+        let steps = [[0.5, 8.0], [0.5, 3.0], [1.0, 4.0], [0.5, 0.0]];
+        let found = after(Some(1.0), &steps);
+        let number = |key: &str| found[key].as_f64().unwrap_or(f64::NAN);
+        // 8 over the first half is no mean over the whole of 1.
+        assert!(
+            (number("wall_pressure_mean_peak") - 5.5).abs() < 1e-14
+                && number("wall_pressure_mean_peak_time") == 1.0
+        );
+        assert!(
+            (number("wall_impulse") - (3.5 + 1.0 + 3.0)).abs() < 1e-14 && number("wall_impulse_time") == 2.0
+        );
+        assert_eq!(number("wall_pressure_mean_time"), 1.0);
+        // A while that is longer than the run, and none.
+        assert_eq!(after(Some(9.0), &steps)["wall_pressure_mean_peak"], Value::Null);
+        let without = after(None, &steps);
+        assert!(
+            !without.contains_key("wall_pressure_mean_peak")
+                && without["wall_impulse"] == found["wall_impulse"]
+        );
+    }
+
+    #[test]
+    fn steps_of_any_length_have_the_same_mean_and_impulse() {
+        let coarse = after(Some(0.75), &[[1.0, 3.0], [0.5, 7.0], [0.5, 2.0]]);
+        let steps: Vec<[f64; 2]> =
+            [(8, 3.0), (4, 7.0), (4, 2.0)].iter().flat_map(|(n, p)| vec![[0.125, *p]; *n]).collect();
+        let fine = after(Some(0.75), &steps);
+        for key in
+            ["wall_pressure_mean_peak", "wall_pressure_mean_peak_time", "wall_impulse", "wall_impulse_time"]
+        {
+            assert_eq!(coarse[key], fine[key], "{key}");
+        }
+        assert_eq!(fine["wall_impulse"], json!(5.5));
+    }
+}
