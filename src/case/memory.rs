@@ -4,6 +4,7 @@
 //! written: fields and registers of the solver, the values of both snapshots and the meshes that they are on. Against
 //! measured peaks see docs/cases.md.
 
+use fluid::{InitialPressure, RayleighField};
 use mesh::{BLOCK, Domain};
 
 use super::format::mebibytes;
@@ -50,6 +51,14 @@ fn of_fluid(fluid: &FluidCase) -> Numbers {
     Numbers { components: fluid.model.components() + carried, registered: 8 + carried, values }
 }
 
+/// What finding the pressure at t = 0 takes at the most, bytes.
+fn of_field(fluid: &FluidCase) -> f64 {
+    match fluid.initial.pressure {
+        InitialPressure::Uniform => 0.0,
+        InitialPressure::Rayleigh => RayleighField::MOST_BYTES as f64,
+    }
+}
+
 impl Numbers {
     /// Numbers a cell at the most.
     fn most(self, grid: &GridCase, local_steps: bool) -> f64 {
@@ -91,6 +100,11 @@ impl Memory {
             per_cell_of_output: NUMBER * numbers.output(grid.adaptation.is_some()),
         }
     }
+
+    /// With so much more at the most, bytes.
+    fn with(self, more: f64) -> Self {
+        Self { most: self.most + more, ..self }
+    }
 }
 
 impl Case {
@@ -102,14 +116,16 @@ impl Case {
             fluid.initial.asks_for_finer(low, high, widths)
         });
         let row = NUMBER * (1 + 3 * cells) as f64;
-        Some(Memory::of(of_fluid(fluid), &fluid.grid, self.time.local_steps, least, row))
+        Some(Memory::of(of_fluid(fluid), &fluid.grid, self.time.local_steps, least, row).with(of_field(fluid)))
     }
 
     /// The solid's memory.
     pub fn solid_memory(&self) -> Option<Memory> {
         let solid = self.solid.as_ref()?;
         let least = least_cells(self, &solid.grid, |_, _, _| false);
-        Some(Memory::of(of_solid(solid), &solid.grid, self.time.local_steps, least, 0.0))
+        // Its initial stress carries the fluid's pressure.
+        let field = self.fluid.as_ref().map_or(0.0, of_field);
+        Some(Memory::of(of_solid(solid), &solid.grid, self.time.local_steps, least, 0.0).with(field))
     }
 
     /// Whether the machine has the memory with which some sides of the case begin, the fluid's and the solid's.

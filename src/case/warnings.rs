@@ -98,17 +98,18 @@ fn near_sides(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>)
                     "{where_it_is}: nearer than {FAR_FIELD_RADII} radii its far field is a point source's, and \
                      pressures on the wall are off by some per cent"
                 )),
-                Boundary::NonReflecting => {
+                // Gas at the ambient pressure draws nothing.
+                Boundary::NonReflecting if driving > 0.0 => {
                     let held = sound / (driving / ambient.density).sqrt() / (radii * radii);
                     if held > HELD_UP {
                         let enough = radii * (held / HELD_UP).sqrt();
                         let otherwise = match geometry {
-                            Geometry::Axisymmetric => "\"far-field\", or move it",
+                            Geometry::Axisymmetric => "make it \"far-field\", or move it",
                             Geometry::Planar => "move it",
                         };
                         warnings.push(format!(
                             "{where_it_is} and \"non-reflecting\": it holds the flow to the bubble up, which collapses \
-                             about {:.0} % late; take {otherwise} to {enough:.0} radii",
+                             about {:.0} % late; {otherwise} to {enough:.0} radii",
                             (100.0 * LATE * held).ceil()
                         ));
                     }

@@ -13,7 +13,7 @@ const FINENESS: [f64; 4] = [0.8, 0.5, 0.35, 0.25];
 /// Error relative to the largest difference of pressure at which no finer pieces are tried.
 const ENOUGH: f64 = 1e-8;
 /// Unknowns of the linear system at most.
-const MOST_UNKNOWNS: usize = 1000;
+pub(super) const MOST_UNKNOWNS: usize = 1000;
 /// Charges of which nobody would see the field, relative to the largest difference of pressure, are left out.
 const SMALL: f64 = 1e-10;
 /// Weight of the equations that keep what the others leave undetermined small.

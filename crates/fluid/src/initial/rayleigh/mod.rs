@@ -67,6 +67,14 @@ impl RayleighField {
         }
     }
 
+    /// What it takes at the most while its linear system is solved: four equations for two unknowns, one of the ridge for each, and the
+    /// triangle of the QR; of multipoles, a square.
+    pub const MOST_BYTES: usize = {
+        let fit = 4 * fit::MOST_UNKNOWNS * fit::MOST_UNKNOWNS;
+        let multipoles = multipoles::MOST_UNKNOWNS * multipoles::MOST_UNKNOWNS;
+        size_of::<f64>() * if fit > multipoles { fit } else { multipoles }
+    };
+
     /// The field about the gas regions of an initial condition between the sides of a domain, whatever it says of its pressure.
     ///
     /// - `boundaries`: in the order of [`mesh::Side::ALL`]. Walls and the interface to a solid are rigid.

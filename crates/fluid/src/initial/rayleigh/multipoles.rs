@@ -7,7 +7,7 @@ use super::bubbles::{Bubble, largest_excess};
 /// Terms of a bubble's series are doubled from the first number up to the second.
 const TERMS: [usize; 2] = [16, 128];
 /// Unknowns of the linear system at most, where there are so many bubbles that [`TERMS`] would exceed it.
-const MOST_UNKNOWNS: usize = 2048;
+pub(super) const MOST_UNKNOWNS: usize = 2048;
 /// Error on the bubbles' surfaces, relative to the largest difference of pressure, at which no terms are added.
 const ENOUGH: f64 = 1e-10;
 /// Points on each surface at which the error is measured.
