@@ -10,8 +10,9 @@ use crate::{good, good_text, with};
 /// The case files of the repository.
 fn shipped() -> Vec<PathBuf> {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let mut paths: Vec<PathBuf> = std::fs::read_dir(&dir)
-        .expect("cases/ is there")
+    let mut paths: Vec<PathBuf> = [dir.clone(), dir.join("validation")]
+        .iter()
+        .flat_map(|dir| std::fs::read_dir(dir).expect("the cases are there"))
         .map(|entry| entry.expect("readable").path())
         .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
         .collect();
