@@ -116,7 +116,9 @@ impl Case {
             fluid.initial.asks_for_finer(low, high, widths)
         });
         let row = NUMBER * (1 + 3 * cells) as f64;
-        Some(Memory::of(of_fluid(fluid), &fluid.grid, self.time.local_steps, least, row).with(of_field(fluid)))
+        Some(
+            Memory::of(of_fluid(fluid), &fluid.grid, self.time.local_steps, least, row).with(of_field(fluid)),
+        )
     }
 
     /// The solid's memory.
