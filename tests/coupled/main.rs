@@ -11,6 +11,7 @@ mod hits;
 mod ledgers;
 mod load;
 mod modes;
+mod near_wall;
 mod paper_schemes;
 mod participants;
 mod pulse;

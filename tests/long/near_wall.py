@@ -64,7 +64,7 @@ RIGID = """[coupling]
 scheme = "rigid"
 """
 # Fix-ups that change the state of a cell; the others bound a reconstruction.
-MENDED = ["redone", "floored", "lifted_phases", "clipped_fractions"]
+MENDED = ["redone", "floored", "lifted_phases", "expanded_cells"]
 
 
 def rayleigh_time(pressure):
@@ -115,13 +115,13 @@ def row(pressure, wall, cells, found):
     runs = len(found)
     failed = [f"{d} (exit code {f['code']})" for d, f in found if f["code"]]
     ended = [f["summary"] for _, f in found if not f["code"]]
-    most = {key: max((s["fixups"][key] for s in ended), default=0) for key in MENDED}
+    most = {key: max((s["fixups"].get(key, 0) for s in ended), default=0) for key in MENDED}
     share = max((s["fixups"]["floor_energy_share"] for s in ended), default=0.0)
     updates = max((s["fixups"]["redone"] / s["cell_updates"]["fluid"] for s in ended), default=0.0)
     drift = max((f.get("gas_mass_drift") or 0.0 for _, f in found if not f["code"]), default=0.0)
     seconds = sum(s["wall_seconds"] for s in ended)
     return (f"| {wall} | {pressure:.0e} | {cells} | {runs - len(failed)} of {runs}{': not ' if failed else ''}{', '.join(failed)} "
-            f"| {most['redone']} ({updates:.1e}) | {most['floored']} ({share:.1e}) | {most['lifted_phases']} "
+            f"| {most['redone']} ({updates:.1e}) | {most['floored']} ({share:.1e}) | {most['expanded_cells']} | {most['lifted_phases']} "
             f"| {drift:.0e} | {seconds:.0f} s |")
 
 
@@ -138,8 +138,8 @@ def main():
     parser.add_argument("--table", action="store_true", help="run nothing")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    print("| wall | pressure, Pa | cells per radius | end | redone, most of a run (of its updates) | floored (energy) | lifted phases "
-          "| gas mass, change | time |\n|---|---|---|---|---|---|---|---|---|")
+    print("| wall | pressure, Pa | cells per radius | end | redone, most of a run (of its updates) | floored (energy) | expanded | lifted phases "
+          "| gas mass, change | time |\n|---|---|---|---|---|---|---|---|---|---|")
     worst = 0
     for cells in options.cells:
         for wall in options.walls:

@@ -59,6 +59,8 @@ Clips {
     scaled_traces,
     /// Cells in which a phase had less than no mass at the end of the step, and got what it lacked from the other one.
     lifted_phases,
+    /// Mixed cells that the step left in tension, and of which the gas has expanded.
+    expanded_cells,
 }
 }
 

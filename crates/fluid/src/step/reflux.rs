@@ -5,7 +5,6 @@ use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
 use crate::components::carried::CarriedScratch;
 use crate::physics::FluidStep;
 use crate::state::conserved::{GAS, PHI};
-use crate::state::finished::finish_corrected;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
 
@@ -86,7 +85,7 @@ pub(crate) fn correct<const N: usize>(
                 .map(|change| outward * dt_r * change)
         };
         let u = std::array::from_fn(|c| new[cell(c)] - changes[c]);
-        let finished = finish_corrected(u, &ctx.model.mixture);
+        let finished = phases.finish(u, old, &ctx.model.mixture);
         report.extremes.add(&finished);
         if finished.floor > 0.0 {
             report.lift_pressure(finished.floor, ctx.mesh.volume(id, j));

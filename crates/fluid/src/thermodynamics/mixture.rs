@@ -59,6 +59,17 @@ impl Mixture {
         StiffenedGas { gamma: 1.0 + 1.0 / beta1, pi: beta2 / (1.0 + beta1) }
     }
 
+    /// φ of a mixture with the internal energy ρe (J/m³) at a pressure: ρe = β₁(φ) p + β₂(φ) is linear in φ.
+    pub(crate) fn fraction_of(&self, internal: f64, pressure: f64) -> f64 {
+        (internal - self.beta1_liquid * pressure - self.beta2_liquid)
+            / (self.beta1_difference * pressure + self.beta2_difference)
+    }
+
+    /// Whether a cell of this gas fraction cannot bear tension.
+    pub(crate) fn has_gas_floor(phi: f64) -> bool {
+        phi > GAS_FLOOR_FRACTION
+    }
+
     /// The lowest pressure that a cell may hold: 1e-4 Pa above vacuum where there is gas, else a tension of
     /// 0.9 π of the liquid. What lies below is lifted and counted, see [`crate::Fixups`].
     #[inline(always)]

@@ -3,6 +3,7 @@
 use mesh::{Padded, Side};
 
 use super::cells::Cells;
+use super::expansion::expanded;
 use super::mixed::Outer;
 use super::phase_model::PhaseModel;
 use super::reconstruction::CellRule;
@@ -12,13 +13,13 @@ use crate::options::TwoPhaseOptions;
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
 use crate::state::COUNT;
-use crate::state::conserved::{GAS, PHI, RHO};
+use crate::state::conserved::{ENERGY, GAS, PHI, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
 use crate::step::update::{Metric, NewCells};
 use crate::step::{BlockScratch, split_block};
-use crate::{Boundary, RiemannSolver};
+use crate::{Boundary, Mixture, RiemannSolver};
 
 /// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
 const NOT_THEIRS: f64 = -0.0;
@@ -199,6 +200,9 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let (windows, rule) = (gas.mixed.mixed(), &self.rule(inverse_r));
         let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
+        if self.options.has_closure {
+            self.expand(pressure, metric, row(PHI), &mut cells, report);
+        }
         let [density, _, _, _, phi] = cells.conserved;
         let bounded = bound_gas(phi, density, new_gas);
         clipped += bounded.clipped;
@@ -208,6 +212,42 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         report.has_gas = bounded.is_left;
         if bounded.has_missing {
             self.lift_phases(density, new_gas, report);
+        }
+    }
+
+    /// Lets the gas of mixed cells expand that the floor would have to lift; these, too, are done again at first order first.
+    ///
+    /// - `pressure`: of the padded cells before the step; `phi`: gas fractions then.
+    fn expand(
+        &self,
+        pressure: &[f64],
+        metric: &Metric<'_>,
+        phi: &[f64],
+        cells: &mut NewCells<'_>,
+        report: &mut BlockReport<N>,
+    ) {
+        if cells.speeds[2].iter().all(|added| *added == 0.0) {
+            return;
+        }
+        for cell in 0..N * N {
+            let added = cells.speeds[2][cell];
+            let mut u: [f64; COUNT] = std::array::from_fn(|c| cells.conserved[c][cell]);
+            if added == 0.0 || !Mixture::has_gas_floor(u[PHI]) {
+                continue;
+            }
+            u[ENERGY] -= added;
+            let k = metric.origin + cell / N * metric.stride + cell % N;
+            let Some(after) = expanded(u, [pressure[k], phi[cell]], &self.ctx.model.mixture) else {
+                continue;
+            };
+            for (row, value) in cells.conserved.iter_mut().zip(after.conserved) {
+                row[cell] = value;
+            }
+            for (row, value) in cells.speeds.iter_mut().zip([after.speed_z, after.speed_r, after.floor]) {
+                row[cell] = value;
+            }
+            report.marked.insert(cell);
+            report.clips.expanded_cells += 1;
         }
     }
 

@@ -8,6 +8,7 @@
 
 mod cells;
 mod closure;
+mod expansion;
 mod face_states;
 mod gas_block;
 mod marks;

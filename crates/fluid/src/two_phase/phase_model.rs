@@ -3,11 +3,13 @@
 use mesh::Limiter;
 
 use super::closure::{Compression, is_mixed};
+use super::expansion::expanded;
 use super::reconstruction::CellRule;
 use crate::Mixture;
 use crate::options::{Model, Sharpening, TwoPhaseOptions};
 use crate::physics::Fluid;
 use crate::state::conserved::{GAS, PHI, RHO};
+use crate::state::finished::{FinishedCell, finish_corrected};
 use crate::state::{ConservedCell, primitive_of};
 use crate::step::report::BlockReport;
 
@@ -62,6 +64,22 @@ impl PhaseModel {
                 Compression::at(p, phi, mixture, options.has_closure).expansion(phi)
             }
             _ => 0.0,
+        }
+    }
+
+    /// A corrected cell at the end of a step: where its gas would be in tension it expands, what else is below the floor is lifted to it.
+    ///
+    /// - `u`: the cell; `old`: the same before the step.
+    pub fn finish(self, u: ConservedCell, old: ConservedCell, mixture: &Mixture) -> FinishedCell {
+        let finished = finish_corrected(u, mixture);
+        match self {
+            Self::FiveEquation(options)
+                if options.has_closure && finished.floor > 0.0 && Mixture::has_gas_floor(u[PHI]) =>
+            {
+                let [_, _, _, pressure, phi] = primitive_of(old, mixture);
+                expanded(u, [pressure, phi], mixture).unwrap_or(finished)
+            }
+            _ => finished,
         }
     }
 

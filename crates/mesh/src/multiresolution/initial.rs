@@ -13,8 +13,8 @@ impl<const N: usize> Mesh<N> {
     /// stays what it is. Without adaptation the uniform mesh on the finest level.
     ///
     /// - `domain` to `periodic`: as for [`Mesh::on_level`]; `fill`: the state on a mesh.
-    /// - `at_least`: the level that something besides the details demands of the block in a slot, 0 if nothing does; none is above
-    ///   [`Adaptation::base`] at first.
+    /// - `demanded`: the level that something besides the details demands of each block of a mesh with this state, 0 (or none at all) if
+    ///   nothing does.
     /// - errors: as [`Mesh::uniform`].
     #[expect(clippy::too_many_arguments, reason = "called once by each solver, no kernel")]
     pub fn initial<R: Multiresolution>(
@@ -25,7 +25,7 @@ impl<const N: usize> Mesh<N> {
         adaptation: Option<&Adaptation>,
         rule: &R,
         fill: impl Fn(&Self) -> Field,
-        at_least: impl Fn(&Self, usize) -> u8 + Sync,
+        demanded: impl Fn(&Self, &Field) -> Vec<u8>,
     ) -> Result<(Self, Field), MeshError> {
         let Some(adaptation) = adaptation else {
             let mesh = Self::uniform(domain, coarsest, levels, periodic)?;
@@ -44,7 +44,8 @@ impl<const N: usize> Mesh<N> {
                 let coarser = base.saturating_sub(mesh.tree().leaves()[slot].level);
                 1.0 + COURANT * f64::from(adaptation.every) / f64::from(1u32 << coarser)
             };
-            let least = |slot: usize| at_least(&mesh, slot).min(base);
+            let demanded = demanded(&mesh, &state);
+            let least = |slot: usize| demanded.get(slot).copied().unwrap_or(0);
             let Some(adapted) = mesh.adapted(&state, rule, adaptation, &scratch, travel, least) else {
                 break;
             };

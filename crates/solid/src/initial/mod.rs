@@ -18,7 +18,7 @@ pub(crate) fn initial_mesh<const N: usize>(
     let fill = |mesh: &Mesh<N>| fill(mesh, components, initial);
     let adaptation = setup.adaptation.as_ref();
     let SolidSetup { domain, coarsest, levels, .. } = *setup;
-    Ok(Mesh::initial(domain, coarsest, levels, periodic, adaptation, analysis, fill, |_, _| 0)?)
+    Ok(Mesh::initial(domain, coarsest, levels, periodic, adaptation, analysis, fill, |_, _| Vec::new())?)
 }
 
 /// Which pairs of sides are one.
