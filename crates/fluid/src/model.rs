@@ -39,7 +39,7 @@ impl Fluid {
 
     /// Whether z_min is a wall, rigid or not.
     pub(crate) fn has_wall(&self) -> bool {
-        matches!(self.boundaries.kind(Side::ZMin), Boundary::Wall | Boundary::Interface)
+        self.boundaries.kind(Side::ZMin).is_wall()
     }
 }
 

@@ -108,4 +108,9 @@ impl Boundary {
     pub fn is_open(self) -> bool {
         matches!(self, Self::NonReflecting | Self::FarField | Self::Inflow)
     }
+
+    /// Whether it stops the fluid: a rigid wall, or the solid.
+    pub fn is_wall(self) -> bool {
+        matches!(self, Self::Wall | Self::Interface)
+    }
 }

@@ -97,9 +97,7 @@ impl FluidRecord {
         let mut wall_pressures = Vec::new();
         solver.wall_cells(false, |_, pressure, _| wall_pressures.push(pressure));
         // With a boundary of its own at z_min there is no wall to record.
-        let wall = case.fluid.as_ref().filter(|fluid| {
-            matches!(fluid.boundary[Side::ZMin as usize], fluid::Boundary::Interface | fluid::Boundary::Wall)
-        });
+        let wall = case.fluid.as_ref().filter(|fluid| fluid.boundary[Side::ZMin as usize].is_wall());
         let interface = match wall {
             Some(fluid) => {
                 let cells = case.output.interface_cells.unwrap_or(fluid.grid.finest()[1]);

@@ -4,7 +4,7 @@ use mesh::{BlockId, Field, Mesh, Side};
 
 use crate::analysis::Analysis;
 use crate::setup::{AsksForFiner, InitialState};
-use crate::{Boundary, FluidError, FluidSetup, NearWall, near_wall};
+use crate::{FluidError, FluidSetup, NearWall, near_wall};
 
 /// The mesh that the initial condition asks for, filled with it.
 pub(crate) fn initial_mesh<const N: usize>(
@@ -28,7 +28,7 @@ pub(crate) fn initial_mesh<const N: usize>(
     };
     let adaptation = setup.adaptation.as_ref();
     let base = adaptation.map_or(setup.levels, |adaptation| adaptation.base(setup.levels));
-    let has_wall = matches!(setup.boundaries[Side::ZMin as usize], Boundary::Wall | Boundary::Interface);
+    let has_wall = setup.boundaries[Side::ZMin as usize].is_wall();
     // What moves is looked at again before it has moved far.
     let near = NearWall { shock_levels: 0, ..setup.near_wall };
     let demanded = |mesh: &Mesh<N>, state: &Field| {
