@@ -30,7 +30,9 @@ fn the_first_case_is_what_is_written_for_nothing_in_particular() {
     let shipped = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/collapse.toml"));
     let written = cav(&["new", "collapse"]);
     assert!(written.status.success());
-    assert_eq!(shipped.expect("the first case"), text(&written.stdout));
+    let shipped = shipped.expect("the first case");
+    // Above it stands what the run is expected to give.
+    assert!(shipped.ends_with(&text(&written.stdout)), "{shipped}");
     assert_eq!(Collapse::default().text().expect("a case"), text(&written.stdout));
 }
 
