@@ -1,0 +1,36 @@
+"""Docstrings as the package writes them: code is what is indented after a paragraph, as in Markdown."""
+
+from __future__ import annotations
+
+import re
+
+from sphinx.application import Sphinx
+
+
+def as_rst(lines: list[str]) -> list[str]:
+    """The lines with `::` before what is indented by four or more, and a blank line before lists."""
+    found: list[str] = []
+    literal = False
+    for number, line in enumerate(lines):
+        blank = not line.strip()
+        indented = line.startswith("    ")
+        if not blank and not indented:
+            literal = False
+        if indented and not blank and not literal and (number == 0 or not lines[number - 1].strip()):
+            before = next((text for text in reversed(found) if text.strip()), "")
+            # What is indented below a list's entry or a field belongs to it.
+            if not re.match(r"(- |:|\.\. )", before.lstrip()):
+                found += ["::", ""]
+                literal = True
+        found.append(line)
+    return found
+
+
+def _process(app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]) -> None:
+    lines[:] = as_rst(lines)
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    # After napoleon, which turns numpy's sections into fields.
+    app.connect("autodoc-process-docstring", _process, priority=900)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
