@@ -11,11 +11,9 @@ author = "the authors of cav"
 copyright = author
 html_title = "cav"
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinx.ext.napoleon", "mathml", "docstrings", "outside"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinx.ext.napoleon", "mathml", "docstrings", "outside", "sections"]
 exclude_patterns = ["_build", "_ext", "_static", "check", "images", "requirements.txt"]
 source_suffix = {".md": "myst-nb"}
-# Sections whose pages are not there are left out of the contents.
-suppress_warnings = ["toc.empty_glob"]
 
 # Headings have the anchors that GitHub gives them, so links are the same here and there.
 myst_heading_anchors = 4

@@ -168,7 +168,7 @@ What to type next:
   cargo run --release -- materials                             the library of materials
   cargo run --release -- --help                                everything else
 
-docs/cases.md explains the keys of a case file, docs/output.md what a run leaves behind.
+docs/cases.md explains the keys of a case file, docs/reference/output.md what a run leaves behind.
 ";
 
 /// Does what a command line says, the program's name first; returns the exit code.

@@ -1,10 +1,15 @@
-"""Docstrings as the package writes them: code is what is indented after a paragraph, as in Markdown."""
+"""Docstrings as the package writes them.
+
+Code is what is indented after a paragraph, as in Markdown; bars are those of a magnitude; pages of the book are named by their files.
+"""
 
 from __future__ import annotations
 
 import re
 
 from sphinx.application import Sphinx
+
+PAGE = re.compile(r"docs/([\w/-]+)\.md")
 
 
 def as_rst(lines: list[str]) -> list[str]:
@@ -22,8 +27,15 @@ def as_rst(lines: list[str]) -> list[str]:
             if not re.match(r"(- |:|\.\. )", before.lstrip()):
                 found += ["::", ""]
                 literal = True
-        found.append(line)
+        found.append(line if literal else plain(line))
     return found
+
+
+def plain(line: str) -> str:
+    """A line of text as reStructuredText, but for what stands between backticks."""
+    parts = re.split(r"(`[^`]*`)", line)
+    parts[::2] = [PAGE.sub(r":doc:`/\1`", part.replace("|", "\\|")) for part in parts[::2]]
+    return "".join(parts)
 
 
 def _process(app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]) -> None:
