@@ -23,7 +23,7 @@ myst_dmath_allow_digits = False
 
 # A notebook is run again when its code has changed. The tests run all of them (`-D nb_execution_mode=force`).
 nb_execution_mode = "cache"
-nb_execution_raise_on_error = True
+nb_execution_show_tb = True
 nb_execution_timeout = 300
 nb_execution_in_temp = False
 nb_merge_streams = True
