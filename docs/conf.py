@@ -11,7 +11,7 @@ author = "the authors of cav"
 copyright = author
 html_title = "cav"
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinx.ext.napoleon", "mathml", "docstrings", "outside", "sections"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "mathml", "docstrings", "outside", "sections"]
 exclude_patterns = ["_build", "_ext", "_static", "check", "images", "requirements.txt"]
 source_suffix = {".md": "myst-nb"}
 
@@ -31,10 +31,13 @@ nb_output_stderr = "remove-warn"
 
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
+autodoc_preserve_defaults = True
+# Types that are names for something long are shown as they are written.
+autodoc_type_aliases = {
+    name: name for name in ("ArrayLike", "NDArray", "Array", "Floats", "InitialState", "Run", "Window")}
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 88
 default_role = "code"
-napoleon_google_docstring = False
 autosummary_generate = False
 add_module_names = True
 
@@ -45,4 +48,4 @@ html_copy_source = False
 html_show_sphinx = False
 html_show_copyright = False
 pygments_style = "friendly"
-pygments_dark_style = "monokai"
+pygments_dark_style = "github-dark"

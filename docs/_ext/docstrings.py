@@ -8,7 +8,9 @@ from __future__ import annotations
 import re
 
 from sphinx.application import Sphinx
+from sphinx.ext.napoleon import Config, NumpyDocstring
 
+SECTIONS = Config(napoleon_google_docstring=False)
 PAGE = re.compile(r"docs/([\w/-]+)\.md")
 
 
@@ -39,10 +41,12 @@ def plain(line: str) -> str:
 
 
 def _process(app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]) -> None:
+    # Only where there are sections, underlined as numpy has them: of an attribute that reads `text: more` text would be the type.
+    if any(re.match(r"-{3,}$", line) for line in lines):
+        lines[:] = str(NumpyDocstring("\n".join(lines), SECTIONS, app, what, name, obj, options)).splitlines()
     lines[:] = as_rst(lines)
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    # After napoleon, which turns numpy's sections into fields.
-    app.connect("autodoc-process-docstring", _process, priority=900)
+    app.connect("autodoc-process-docstring", _process)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

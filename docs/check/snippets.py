@@ -3,9 +3,10 @@
     python docs/check/snippets.py PAGE DIRECTORY
 
 Blocks of `python` share one namespace; blocks of `sh` are run by bash; blocks of `toml` are read as cases. What is no whole case is laid
-over one: `cases/pit-near-steel.toml`, or what `base=PATH` after the word `toml` names; `file=PATH` saves it. `cases/` in the directory are the cases of the
-repository with cells four times as wide, and so are those that commands ask for (`--set fluid.levels=6`): what takes a minute on a page
-takes a second here.
+over one: `cases/pit-near-steel.toml`, or what `base=PATH` after the word `toml` names; `file=PATH` saves it.
+
+`cases/` in the directory are the cases of the repository with cells four times as wide, and so are those that commands ask for
+(`--set fluid.levels=6`): what takes a minute on a page takes a second here.
 """
 
 from __future__ import annotations
