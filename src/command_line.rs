@@ -182,7 +182,7 @@ What to type next:
 
 From the source directory `cargo run --release --` stands for `cav`.
 
-docs/cases.md explains the keys of a case file, docs/output.md what a run leaves behind.
+docs/cases.md explains the keys of a case file, docs/reference/output.md what a run leaves behind.
 ";
 
 /// Does what a command line says, the program's name first; returns the exit code.
