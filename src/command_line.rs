@@ -1,16 +1,19 @@
 //! The command line: `cav`, and `python -m pycav` likewise.
 
 mod log;
+mod new;
+mod report;
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::case::{Case, CaseErrors, materials_table, report};
+use crate::case::{Case, CaseErrors, materials_table, report as report_of, sketch};
 use crate::convergence::plan::Source;
 use crate::convergence::study::study;
 use crate::convergence::table::table;
+use crate::output::OutputError;
 use crate::run::process::drive::Joining;
 use crate::run::process::launch::run_side;
 use crate::run::process::launch_options::Options;
@@ -32,6 +35,8 @@ struct Cli {
 enum Commands {
     /// Run a case and leave a run directory.
     Run(RunArgs),
+    /// Write a case file for what is asked; without a kind, list the kinds.
+    New(new::New),
     /// Check a case: cells, memory, time steps, impedances, run time.
     Check {
         /// The case file.
@@ -39,6 +44,9 @@ enum Commands {
         /// Change a key of the case, as fluid.region.0.radius=0.01; may be repeated.
         #[arg(long = "set", value_name = "KEY=VALUE")]
         sets: Vec<String>,
+        /// Draw the start of the case, with the blocks of its grids, into a file.
+        #[arg(long, value_name = "FILE")]
+        png: Option<PathBuf>,
     },
     /// Run the fluid's side alone; the solid's runs elsewhere under the same --run.
     Fluid(SideArgs),
@@ -94,9 +102,12 @@ struct RunArgs {
     /// Run both sides in this process instead of two.
     #[arg(long)]
     in_process: bool,
+    /// Make a page of the run when it has ended, where pycav is there.
+    #[arg(long)]
+    report: bool,
     /// Run the case on N grids, 2 to 5, each with cells half as wide as the one before, and say what its numbers converge to.
     /// Each has a run directory in DIR; the same command again goes on.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=5), conflicts_with = "resume")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=5), conflicts_with_all = ["resume", "report"])]
     refine: Option<u16>,
 }
 
@@ -163,12 +174,15 @@ const NEXT: &str = "\
 cav: a cavitation bubble collapsing near an elastic solid, and what it does to the wall.
 
 What to type next:
-  cargo run --release -- run cases/dickopp2012-coarse.toml     run the main case, half a minute
-  cargo run --release -- check cases/dickopp2012-coarse.toml   what it would cost, without running it
-  cargo run --release -- materials                             the library of materials
-  cargo run --release -- --help                                everything else
+  cav run cases/collapse.toml            a bubble collapses above aluminium: ten seconds
+  cav new                                a case for a bubble of your own
+  cav check CASE                         what a case is and costs, without running it
+  cav materials                          the library of walls
+  cav --help                             everything else
 
-docs/cases.md explains the keys of a case file, docs/output.md what a run leaves behind.
+From the source directory `cargo run --release --` stands for `cav`.
+
+docs/cases.md explains the keys of a case file, docs/reference/output.md what a run leaves behind.
 ";
 
 /// Does what a command line says, the program's name first; returns the exit code.
@@ -187,10 +201,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, program: &[OsString])
     let result = match cli.command {
         None => print(NEXT),
         Some(Commands::Materials) => print(&materials_table()),
-        Some(Commands::Check { case, sets }) => {
-            let checked = |case: &Case| wall::check(case).and_then(|()| print(&report(case)));
-            Case::load(&case, &sets).map_err(RunError::from).and_then(|case| checked(&case))
-        }
+        Some(Commands::New(args)) => new::text(args).map_err(RunError::from).and_then(|text| print(&text)),
+        Some(Commands::Check { case, sets, png }) => check(&case, &sets, png.as_deref()),
         Some(Commands::Run(args)) => run_case(&args, program),
         Some(Commands::Fluid(args)) => side(&args, Participant::Fluid),
         Some(Commands::Solid(args)) => side(&args, Participant::Solid),
@@ -204,6 +216,21 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, program: &[OsString])
     }
 }
 
+/// What a case means, drawn and in numbers.
+fn check(path: &Path, sets: &[String], png: Option<&Path>) -> Result<(), RunError> {
+    let case = Case::load(path, sets)?;
+    wall::check(&case)?;
+    if let Some(file) = png {
+        sketch::png(&case, file).map_err(|source| OutputError::Io {
+            path: file.to_path_buf(),
+            action: "write",
+            source,
+        })?;
+    }
+    let drawn = sketch::letters(&case).unwrap_or_default();
+    print(&format!("{drawn}\n{}", report_of(&case)))
+}
+
 fn run_case(args: &RunArgs, program: &[OsString]) -> Result<(), RunError> {
     let path = args.case.as_deref().unwrap_or(Path::new(""));
     let options = Options {
@@ -214,14 +241,16 @@ fn run_case(args: &RunArgs, program: &[OsString]) -> Result<(), RunError> {
     let log = |directory: &Path| log_to(directory, options.verbosity, true);
     if let Some(directory) = &args.resume {
         let stop = Stop::on_signals()?;
-        return resume(directory, &options, &stop, log).map(|_| ());
+        let directory = resume(directory, &options, &stop, log)?;
+        return if args.report { report::make(&directory, program) } else { Ok(()) };
     }
     if let Some(grids) = args.refine {
         return refine(usize::from(grids), &options);
     }
     let case = Case::load(&options.case_path, &options.sets)?;
     let stop = Stop::on_signals()?;
-    run(&case, &options, &stop, log).map(|_| ())
+    let directory = run(&case, &options, &stop, log)?;
+    if args.report { report::make(&directory, program) } else { Ok(()) }
 }
 
 /// A case on so many grids, and the table of its numbers.
