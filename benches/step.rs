@@ -1,6 +1,7 @@
 //! What a step costs: ns per cell and step of both solvers, beside a calibration kernel timed in the same run.
 //!
-//! `cargo bench --bench step` prints Markdown tables; `docs/performance.md` says how to read them. No limit is checked.
+//! `cargo bench --bench step` prints Markdown tables; `docs/performance/index.md` says how to read them. No limit is
+//! checked.
 //! Words after `--` choose the rows: `cargo bench --bench step -- exact 512` times those that hold both.
 
 #![allow(clippy::print_stdout, reason = "the tables are what the program is for")]

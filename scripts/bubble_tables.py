@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables of the bubble's collapse against exact solutions, as docs/bubble.md shows them.
+"""Tables of the bubble's collapse against exact solutions, as docs/verification shows them.
 
     python3 scripts/bubble_tables.py free [--cells 20 40 80]        a free bubble against the exact radius
     python3 scripts/bubble_tables.py round [--cells 40 80]          how round it stays

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""What the fluid gives on the interface and what the solid gets, over the figures' case with local time steps: docs/coupling.md.
+"""What the fluid gives on the interface and what the solid gets, over the figures' case with local time steps.
+
+The table is in docs/theory/conservation.md.
 
     python3 scripts/ledger.py [--levels 5] [--set KEY=VALUE ...] [--keep DIR] [--cav PROGRAM]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a cell and step of the five-equation model costs against the paper's mixture: docs/bubble.md's table.
+"""What a cell and step of the five-equation model costs against the paper's mixture: docs/performance/two-phase.md.
 
     python3 scripts/model_cost.py [--levels 6 7] [--limiters mc minmod] [--pairs 4] [--uniform]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The paper's kinds of pictures from a run, as docs/paper.md shows them.
+"""The paper's kinds of pictures from a run, as docs/verification/paper-figures.md shows them.
 
     python3 scripts/paper_figures.py RUN_DIR OUT_DIR [--all] [--only NAME]
 

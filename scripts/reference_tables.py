@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables of runs against exact solutions of the coupled problem, as docs/verification.md shows them.
+"""Tables of runs against exact solutions of the coupled problem, as docs/verification/index.md shows them.
 
     python3 scripts/reference_tables.py plane [--cells 10 20 40]       plane pulses at normal incidence
     python3 scripts/reference_tables.py oblique [--cells 10 20]        plane pulses at oblique incidence

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""The figures' case with the paper's mixture and with the five-equation model, side by side: docs/paper.md's comparison.
+"""The figures' case with the paper's mixture and with the five-equation model, side by side.
+
+The table is in docs/verification/paper-true-collapse.md.
 
     python3 scripts/two_models.py OUT.png --mixture 51.2=DIR 102.4=DIR ... --five 51.2=DIR 102.4=DIR ...
 

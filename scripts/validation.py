@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What others measured and computed on bubbles beside this program's, as docs/validation.md shows it.
+"""What others measured and computed on bubbles beside this program's, as docs/verification/validation.md shows it.
 
     python3 scripts/validation.py near-wall [--cells 40] [--picture docs/images]  collapse time and jet over the stand-off
     python3 scripts/validation.py contact                                          in which collapse the wall is reached

@@ -2,7 +2,7 @@
 //!
 //! One rule for all cases, whatever is in them. A threshold ε of a wave adds an error of about 100 ε to it, measured on pulses of 12 to
 //! 20 cells per width; a threshold ε of an interface or a shock, which is on the finest level anyway, adds one of at most 30 ε to the peaks,
-//! loads and times of a collapse. See docs/adaptation.md.
+//! loads and times of a collapse. See docs/theory/choosing-epsilon.md.
 
 use super::read_adaptation::{Asked, DEFAULT_ERROR};
 use super::reader::Given;

@@ -12,7 +12,7 @@ const RESOLVED: f64 = 4.0;
 /// must stay below one.
 pub(super) const SAFE_CFL: f64 = 0.5;
 
-/// Sides with a far field nearer than so many radii of the bubble are too near, see docs/bubble.md.
+/// Sides with a far field nearer than so many radii of the bubble are too near, see docs/verification/distant-sides.md.
 const FAR_FIELD_RADII: f64 = 3.0;
 /// A side that holds the incoming characteristic lacks a pressure of ρc times the velocity there. Against what drives the
 /// collapse that is about c/√(Δp/ρ) (R/s)²; beyond this share it matters.

@@ -1,6 +1,6 @@
 //! A spherical pulse above steel against the exact solution: reflection at all angles, head waves, the Scholte wave.
 //!
-//! Ten cells per width of the pulse, half of what `docs/verification.md` has its table at.
+//! Ten cells per width of the pulse, half of what `docs/verification/spherical-pulse.md` has its table at.
 
 use crate::fixture::{grid, pulse, solid, water};
 use crate::harness::{STEEL, Sides, case};

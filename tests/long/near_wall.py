@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Bubbles at and near walls: whether every run ends, and what it had to mend, as docs/verification.md shows it.
+"""Bubbles at and near walls: whether every run ends, and what it had to mend.
+
+The tables are in docs/verification/near-wall.md.
 
     python3 tests/long/near_wall.py                                      all of it: 992 runs, about a day of one processor
     python3 tests/long/near_wall.py --cells 26 --walls rigid             a part

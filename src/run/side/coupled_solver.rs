@@ -1,7 +1,7 @@
 //! What the step loop needs of a solver, and the two kinds of steps that it makes in a coupled run.
 //!
 //! Each side keeps its own time step. The side with the longer one shows its trace and completes its step when it knows what
-//! the interface did; the other side makes as many short steps meanwhile as it needs. See docs/coupling.md.
+//! the interface did; the other side makes as many short steps meanwhile as it needs. See docs/theory/time-steps.md.
 
 use std::ops::DerefMut;
 
@@ -15,7 +15,7 @@ use crate::run::RunError;
 
 /// An exchange may take no more steps of the finest level than waves stay within the blocks that adaptation made for them: at Courant
 /// numbers of at most ½ they cross 12 of a block's 16 cells, and adaptation looks at most 14 ahead. Half and twice of it:
-/// `docs/verification.md`, "Constants".
+/// `docs/verification/constants.md`.
 const LONGEST_EXCHANGE: f64 = 24.0;
 
 /// How long steps may be.

@@ -60,11 +60,11 @@ impl Dispersion {
     /// Differences of the pressure across a cell above this share of p + π belong to a strong front. The correction is a
     /// sixth of the larger difference at most; below, it keeps shocks that a few cells carry from being clipped. And it cannot make
     /// a face's p + π negative: of the cell's a tenth goes with half the difference, a thirtieth with the correction.
-    /// Half and twice of it: `docs/verification.md`, "Constants".
+    /// Half and twice of it: `docs/verification/constants.md`.
     const WEAK: f64 = 0.2;
     /// Below this share waves are sound, of which alone it is known how it changes along a face while it crosses it. With
     /// δp/(p + π) = γ δv/c what the linear equations leave out of the correction, (γ + 1)/2 δv/c of it, is 0.3 % in water then.
-    /// Half and twice of it: `docs/verification.md`, "Constants".
+    /// Half and twice of it: `docs/verification/constants.md`.
     const ACOUSTIC: f64 = 0.005;
     /// Gas fractions up to this count as liquid.
     const LIQUID: f64 = 1e-6;

@@ -35,7 +35,8 @@ macro_rules! counts {
 }
 
 counts! {
-/// How often bounds acted, see the table in `docs/equations.md`. Counted per cell and step where nothing else is said.
+/// How often bounds acted, see the table in `docs/theory/floors.md`. Counted per cell and step where nothing else is
+/// said.
 Clips {
     /// Cells that kept half of their slopes and of their predictor.
     halved_slopes,

@@ -18,7 +18,7 @@ pub(crate) fn is_mixed(phi: f64) -> bool {
 pub(crate) const THIN: f64 = 1e-4;
 
 /// The relative difference of the moduli below which a thin cell counts as pure: its sound speed is then off by half as much, in the
-/// few cells that traces make soft. Half and twice of it: `docs/verification.md`, "Constants".
+/// few cells that traces make soft. Half and twice of it: `docs/verification/constants.md`.
 const SAME_MODULUS: f64 = 1e-2;
 
 /// Whether a cell holds both phases and gives way under compression as neither of them does, nor the frozen mixture.

@@ -174,7 +174,7 @@ impl<const N: usize> Padded<N> {
 ///
 /// The lower bound is the least that MC does not limit: with a·near beyond and near within, the central slope (1 + a)/2 near is no
 /// more than twice the smaller one, 2a·near, from a = ⅓ on. The upper bound is the one that second-order limiters put on ratios of
-/// neighbouring differences (Sweby 1984). Half and twice of them: `docs/verification.md`, "Constants".
+/// neighbouring differences (Sweby 1984). Half and twice of them: `docs/verification/constants.md`.
 ///
 /// - `near`, `far`: the differences of the first to the second and of the second to the third cell from the boundary.
 /// - returns: zero where the signs of the two differ.

@@ -157,7 +157,7 @@ fn reach_neighbours<const N: usize>(
 
 /// Details nearer to an open side than this share of the domain's extent do not count, but for what does everywhere: the
 /// boundary is not exact, and at its corners with other sides singular, which no refinement cures. Half and twice of it:
-/// `docs/verification.md`, "Constants".
+/// `docs/verification/constants.md`.
 const OPEN_SHARE: f64 = 1.0 / 32.0;
 
 /// The cells of a block, by number along z and along r, that are near no open side.

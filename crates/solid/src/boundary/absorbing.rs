@@ -1,6 +1,6 @@
 //! What an absorbing side lets in: what has left over it, as it goes on beyond.
 //!
-//! The equation and where it comes from: docs/equations.md, "Absorbing sides of the solid".
+//! The equation and where it comes from: docs/theory/absorbing-sides.md.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

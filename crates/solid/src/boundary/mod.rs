@@ -105,7 +105,7 @@ fn surface_difference(
     [own, first, second, third]: [f64; 4],
     [limited, below]: [f64; 2],
 ) -> f64 {
-    // Half and twice of it: `docs/verification.md`, "Constants".
+    // Half and twice of it: `docs/verification/constants.md`.
     const IN_FRONTS: f64 = 0.2;
     let (near, far) = (own - first, first - second);
     let third_difference = (own - third) - 3.0 * far;

@@ -3,7 +3,7 @@
 //! A side that holds the incoming characteristic at a constant lets waves out, and is wrong for flow that is nearly
 //! incompressible: behind the front of an outgoing spherical wave liquid flows in, the *afterflow*, and that it would hold up.
 //! The flow about bubbles is that of sources in them, whose potential has a relation of its own between pressure and
-//! velocity on every face. See docs/equations.md, "The far field".
+//! velocity on every face. See docs/theory/far-field.md.
 
 mod condition;
 mod history;
