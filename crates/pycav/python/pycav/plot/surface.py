@@ -60,6 +60,13 @@ class Profile:
         return self.result.directory.name if cells is None else f"{cells:.3g} cells per radius"
 
     @property
+    def line(self) -> tuple[Floats, Floats]:
+        """r and depth to draw, m: one point for neighbouring faces that one cell of the solid carries, which else make stairs."""
+        begins = np.flatnonzero(np.diff(self.depth, prepend=np.nan) != 0)
+        count = np.diff(begins, append=len(self.depth))
+        return np.add.reduceat(self.r, begins) / count, self.depth[begins]
+
+    @property
     def numbers(self) -> dict[str, float]:
         """What the summary has of the pit in SI units, volumes of a plane per metre, where the profile is that of the end."""
         names = ("pit_depth", "pit_radius", "pit_rim", "pit_volume", "pit_floor", "surface_still", "plastic_strain_peak")
