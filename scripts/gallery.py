@@ -3,7 +3,7 @@
 
     python3 scripts/gallery.py [NAME ...] [--cav PROGRAM] [--out RUNS] [--images DIR] [--commands]
 
-Makes the runs that are missing below runs/gallery, a quarter of an hour of one processor in all, and draws into
+Makes the runs that are missing below runs/gallery, ten minutes in all, and draws into
 docs/images/gallery; without names everything. --commands only prints what is run. Needs scripts/requirements.txt.
 """
 

@@ -20,9 +20,12 @@ def save(figure, path, width=WIDTH):
     pixels(figure, width).save(path, quality=86, method=6)
 
 
-def save_film(frames, path, width, milliseconds=90, quality=62, hold=1400):
-    """An animation that stands still at its end; `frames` are figures of one size."""
+def save_film(frames, path, width, milliseconds=90, quality=70, hold=1400):
+    """An animation that stands still at its end; `frames` are figures of one size.
+
+    Every image is whole: differences leave traces of earlier ones in faint waves.
+    """
     images = [pixels(figure, width) for figure in frames]
     durations = [milliseconds] * (len(images) - 1) + [hold]
     images[0].save(path, save_all=True, append_images=images[1:], duration=durations, loop=0, quality=quality, method=6,
-                   minimize_size=False, allow_mixed=False)
+                   kmin=0, kmax=1)

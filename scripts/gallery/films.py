@@ -32,11 +32,11 @@ def collapse(run):
 def pit(run):
     """The surface sinks and the plastic zone grows, from the shock's arrival on."""
     for time in _shown(run, 8.1e-6, 11.3e-6):
-        yield plot.pit(run, time=time, reach=2.2e-3, strongest=(14e-6, 1.5e-2))
+        yield plot.pit(run, time=time, reach=2.8e-3, strongest=(13.5e-6, 1.5e-2))
 
 
 def lithotripter(run):
     """The pulse comes from above, flattens the bubble and drives a jet through it."""
     for time in _shown(run, 0, 1.12e-6):
-        yield plot.overview(run, time=time, reach=0.4e-3, depth=0.25e-3, strongest={"fluid": 10**8.4, "solid": 200e6},
+        yield plot.overview(run, time=time, reach=0.4e-3, depth=0.25e-3, strongest={"fluid": 10**7.9, "solid": 200e6},
                             title=_title(run, time, 2))

@@ -3,7 +3,7 @@
 import json
 import shlex
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pycav
@@ -24,7 +24,7 @@ class Run:
     case: str
     """As "cases/collapse.toml", or "new collapse --wall steel"."""
     seconds: float
-    """Of one processor, measured."""
+    """Measured, with one thread for each of the two processes."""
     changes: tuple[str, ...] = ()
     grids: int = 1
     """For `cav run --refine`."""
@@ -34,14 +34,17 @@ class Run:
         sets = [part for change in self.changes for part in ("--set", change)]
         return sets + (["--refine", str(self.grids)] if self.grids > 1 else [])
 
-    def commands(self, name):
-        """As a reader types them."""
-        path = self.case
+    def commands(self, name, *, brief=False):
+        """As a reader types them; `brief` is without the times of snapshots."""
+        run = self
+        if brief:
+            run = replace(self, changes=tuple(change for change in self.changes if not change.startswith("time.snapshots=")))
+        path = run.case
         lines = []
         if path.startswith("new "):
             path = f"{name}.toml"
-            lines.append(f"cav {self.case} > {path}")
-        return [*lines, shlex.join(["cav", "run", path, *self.options(), "--out", f"runs/gallery/{name}"])]
+            lines.append(f"cav {run.case} > {path}")
+        return [*lines, shlex.join(["cav", "run", path, *run.options(), "--out", f"runs/gallery/{name}"])]
 
 
 # Frames of films: most where the bubble is small and its shock on the way.
@@ -54,19 +57,19 @@ TWO = """fluid.region=[
     { shape = "sphere", centre = [3.3e-3, 0.0], radius = 6e-4, phase = "gas", density = 0.0278, pressure = 2340.0 }]"""
 
 RUNS = {
-    "collapse": Run("cases/collapse.toml", 100, ("fluid.levels=3", "solid.levels=2", f"time.snapshots={COLLAPSE}")),
-    "jet": Run("new collapse --stand-off 1.2 --wall rigid --cells-per-radius 160", 120,
+    "collapse": Run("cases/collapse.toml", 105, ("fluid.levels=3", "solid.levels=2", f"time.snapshots={COLLAPSE}")),
+    "jet": Run("new collapse --stand-off 1.2 --wall rigid --cells-per-radius 160", 74,
                (f"time.snapshots={moments((7.74, 8.1, 18))}", "time.end=8.1e-6")),
-    "cut": Run("new collapse --stand-off 0.5 --wall steel --cells-per-radius 60", 60,
-               (f"time.snapshots={moments((7.4, 8.2, 32))}", "time.end=8.4e-6")),
-    "two": Run("cases/collapse.toml", 20, (TWO, f"time.snapshots={moments((4, 11, 29))}")),
-    "pulse": Run("cases/acoustic-pulse.toml", 150),
-    "lithotripter": Run("cases/lithotripter.toml", 150, (f"time.snapshots={PULSE}",)),
-    "free": Run("new free --cells-per-radius 40", 30),
+    "cut": Run("new collapse --stand-off 0.5 --wall steel --cells-per-radius 120", 15,
+               (f"time.snapshots={moments((7.6, 8.0, 20))}", "time.end=8e-6")),
+    "two": Run("cases/collapse.toml", 28, (TWO, f"time.snapshots={moments((4, 11, 29))}")),
+    "pulse": Run("cases/acoustic-pulse.toml", 40),
+    "lithotripter": Run("cases/lithotripter.toml", 39, (f"time.snapshots={PULSE}",)),
+    "free": Run("new free --cells-per-radius 40", 48),
     **{f"stand-off-{distance}": Run(f"new collapse --stand-off {distance} --wall steel --elastic --cells-per-radius 24", 5)
        for distance in STAND_OFFS},
-    **{f"wall-{wall}": Run(f"new collapse --stand-off 1.2 --wall {wall} --cells-per-radius 40", 15) for wall in WALLS},
-    "convergence": Run("cases/collapse.toml", 110, ("fluid.levels=1", "solid.levels=0"), grids=3),
+    **{f"wall-{wall}": Run(f"new collapse --stand-off 1.2 --wall {wall} --cells-per-radius 40", 18) for wall in WALLS},
+    "convergence": Run("cases/collapse.toml", 128, ("fluid.levels=1", "solid.levels=0"), grids=3),
 }
 
 

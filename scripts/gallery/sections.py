@@ -34,10 +34,10 @@ def wall(run):
 
 
 def cut(run):
-    """A bubble that the wall cuts, at the largest pressure on the wall."""
-    return plot.overview(run, time=7.8e-6, reach=1.2e-3, depth=0.9e-3)
+    """A bubble that the wall cuts, after its jet has met the wall."""
+    return plot.overview(run, time=7.92e-6, reach=1e-3, depth=0.8e-3)
 
 
 def two(run):
-    """The shock of the smaller bubble passes the larger one."""
-    return plot.overview(run, time=6.9e-6, reach=3.5e-3, depth=1.2e-3)
+    """The shock of the larger bubble on the wall, and on what is left of the smaller one."""
+    return plot.overview(run, time=9.07e-6, reach=3e-3, depth=1.8e-3)

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from ..mesh import Box, Floats, Raster
 from ..result import Snapshot
@@ -96,6 +96,7 @@ def _canvas(section: Section, boxes: dict[str, Box]) -> tuple[Figure, dict[str, 
         up -= height * scale
         axes = figure.add_axes((LEFT / size[0], up / size[1], width * scale / size[0], height * scale / size[1]))
         axes.set(xlim=(left, first[3]), ylim=boxes[medium][:2])
+        axes.yaxis.set_major_locator(MaxNLocator(max(2, round(2 * height * scale)), steps=[1, 2, 2.5, 5, 10]))
         axes.yaxis.set_label_coords(-0.45 / (width * scale), 0.5)
         panels[medium] = axes
     return figure, panels
