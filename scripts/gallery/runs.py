@@ -78,7 +78,7 @@ def result(options, name):
     run, directory = RUNS[name], options.out / name
     mark = options.out / f"{name}.txt"
     text = "\n".join(run.commands(name))
-    if not (mark.exists() and mark.read_text() == text):
+    if not (directory.is_dir() and mark.exists() and mark.read_text() == text):
         _make(options, name, run, directory)
         mark.write_text(text)
     return pycav.Convergence(directory) if run.grids > 1 else pycav.open(directory)
