@@ -19,11 +19,18 @@ def free(run):
     with mpl.rc_context(RC):
         figure = Figure(figsize=(WIDTH, 3.4), layout="constrained")
         axes = figure.subplots()
-        for (t, r), colour, dashes, name in (
-                (bubble.rayleigh(), GREY, (5, 2), "Rayleigh, incompressible, no gas"),
-                (bubble.keller_miksis(float(time[-1])), ORANGE, (), "Keller–Miksis")):
-            axes.plot(t / MICRO, r / MILLI, color=colour, dashes=dashes, label=name)
-        axes.plot(time / MICRO, radius / MILLI, color=BLUE, label=f"run, {run.cells_per_radius:.0f} cells per radius")
+        rayleigh, keller_miksis = bubble.rayleigh(), bubble.keller_miksis(float(time[-1]), 20_000)
+        near = axes.inset_axes((0.68, 0.1, 0.29, 0.4))
+        for place in (axes, near):
+            place.plot(rayleigh[0] / MICRO, rayleigh[1] / MILLI, color=GREY, dashes=(5, 2), linewidth=0.8,
+                       label="Rayleigh, constant pressures")
+            place.plot(time / MICRO, radius / MILLI, color=BLUE, linewidth=2.0, alpha=0.6,
+                       label=f"run, {run.cells_per_radius:.0f} cells per radius")
+            place.plot(keller_miksis[0] / MICRO, keller_miksis[1] / MILLI, color=ORANGE, label="Keller–Miksis")
+        smallest = time[radius.argmin()] / MICRO
+        near.set(xlim=(smallest - 0.5, smallest + 0.5), ylim=(0.1, 0.22), yticks=(0.1, 0.15, 0.2))
+        near.tick_params(labelsize=7)
+        axes.indicate_inset_zoom(near, edgecolor="0.4")
         axes.set(xlim=(0, time[-1] / MICRO), ylim=(0, None), xlabel="$t$ / µs", ylabel=r"$R_\mathrm{eq}$ / mm")
         legend(axes, loc="lower left")
     return figure
