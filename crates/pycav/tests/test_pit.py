@@ -13,6 +13,8 @@ from pycav._damage import damage, work_on_solid
 from pycav._sweep import measures
 from pycav.plot import style
 from pycav.plot.style import rounded
+from pycav.plot.surface import Profile
+from pycav.result import open_run
 
 CELLS = 128
 
@@ -54,6 +56,23 @@ def test_the_pit_is_that_of_the_summary(pitted, tmp_path):
     for words, name, unit in (("depth", "depth", "m"), ("radius at half depth", "radius", "m"), ("rim", "rim", "m"), ("volume", "volume", "m³")):
         assert f"{words} {rounded(summary[f'pit_{name}'], unit)}" in told
     assert "µm" in told and "mm³" in told and "still moving by" in told
+
+
+def test_faces_that_one_cell_carries_make_no_stairs(pitted):
+    r = (np.arange(40) + 0.5) * 1e-5
+    depth = np.concatenate([np.repeat([4e-6, 2e-6, 1e-6, 5e-7, 2e-7], 2), np.zeros(30)])
+    place, drawn = Profile(open_run(pitted), 0.0, r, depth, False).line
+    assert np.array_equal(drawn[:6], [4e-6, 2e-6, 1e-6, 5e-7, 2e-7, 0.0]) and place[:2] == pytest.approx([1e-5, 3e-5])
+    assert place[-1] == r[-1] and np.all(np.diff(place) > 0), "a level surface is drawn to its end"
+
+
+def test_pits_to_be_compared_have_one_scale(pitted):
+    times = pitted.snapshots("solid").times
+    deepest, strain = 2 * pitted.summary["pit_depth"], 2 * pitted.summary["plastic_strain_peak"]
+    figures = [pycav.plot.pit(pitted, time=float(time), reach=1e-3, strongest=(deepest, strain)) for time in times[-2:]]
+    (low, high), *others = (figure.axes[0].get_ylim() for figure in figures)
+    assert low >= deepest and others == [(low, high)]
+    assert all(figure.axes[1].collections[0].norm.vmax == pytest.approx(strain) for figure in figures)
 
 
 def test_the_axis_of_a_pit_says_how_much_it_is_stretched(pitted):

@@ -224,6 +224,21 @@ def test_an_overview_has_the_fluid_above_the_solid(result, tmp_path):
     assert len(images(pycav.plot.overview(_rigid(result)))) == 1, "of a fluid alone"
 
 
+def test_overviews_to_be_compared_have_one_scale(result):
+    figure = pycav.plot.overview(result, 50e-6, 0.03, strongest={"fluid": 1e6, "solid": 2e8}, title="a frame", depth=0.01)
+    above, below = images(figure)
+    assert (above.norm.vmin, above.norm.vmax) == (2.5, 6.0) and (below.norm.vmin, below.norm.vmax) == pytest.approx((0.0, 200.0))
+    wall = float(result.solid[0].mesh.high[0])
+    assert figure.axes[1].get_ylim() == pytest.approx((wall - 0.01, wall))
+    assert "a frame" in texts(figure) and "max. von Mises" not in texts(figure)
+
+
+def test_blocks_are_outlined_on_one_side(result):
+    plain, outlined = (pycav.plot.schlieren(result, 50e-6, blocks=blocks).axes[0] for blocks in (False, True))
+    lines = [np.asarray(line) for found in outlined.collections[:2] for line in found.get_segments()]
+    assert len(outlined.collections) > len(plain.collections) and min(line[:, 1].min() for line in lines) >= 0
+
+
 @pytest.mark.parametrize("what", ["wall", "axis"])
 def test_space_time_diagrams(what, result, tmp_path):
     figure = pycav.plot.space_time(result, what, reach=0.05)
@@ -234,6 +249,14 @@ def test_space_time_diagrams(what, result, tmp_path):
     assert 0.1 * largest < np.nanmax(values) and (what == "axis" or np.nanmax(values) == pytest.approx(float(largest)))
     with pytest.raises(ValueError, match="wall"):
         pycav.plot.space_time(result, "nowhere")
+
+
+def test_the_diagram_of_the_wall_may_begin_late(result):
+    figure = pycav.plot.space_time(result, since=40e-6, power=0.5)
+    assert figure.axes[0].get_ylim()[0] == pytest.approx(40e-6, abs=1e-6)
+    assert figure.axes[0].collections[0].norm.gamma == 0.5
+    with pytest.raises(ValueError, match="ends at"):
+        pycav.plot.space_time(result, since=1.0)
 
 
 @pytest.mark.parametrize("kind", ["gif", "mp4"])

@@ -87,6 +87,7 @@ class Bubble:
             pull = (1 + mach) * (p - p_inf) / rho + radius * change / (rho * c) - 1.5 * (1 - mach / 3) * speed**2
             return [speed / radius, pull / ((1 - mach) * radius)]
 
-        found = solve_ivp(rate, (0.0, end), [0.0, start], "DOP853", np.linspace(0, end, points), rtol=1e-9,
-                          atol=[1e-9, 1e-9 * c])
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # trial steps beyond the collapse, which are refused
+            found = solve_ivp(rate, (0.0, end), [0.0, start], "DOP853", np.linspace(0, end, points), rtol=1e-9,
+                              atol=[1e-9, 1e-9 * c])
         return np.asarray(found.t), np.asarray(self.radius * np.exp(found.y[0]))

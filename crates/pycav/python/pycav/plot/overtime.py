@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import Normalize, TwoSlopeNorm
+from matplotlib.colors import Normalize, PowerNorm, TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from ..mesh import Floats
@@ -14,7 +14,7 @@ from ..result import Result, open_run
 from ..theory import Bubble
 from .across import along
 from .section import Run
-from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WIDTH, legend, prefix, styled, ticks
+from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, prefix, styled, ticks
 
 
 @styled
@@ -119,15 +119,19 @@ def _place(result: Result, axes: Axes) -> None:
 
 
 @styled
-def space_time(run: Run, what: str = "wall", *, reach: float | None = None) -> Figure:
+def space_time(
+    run: Run, what: str = "wall", *, reach: float | None = None, since: float = 0.0, power: float = 1.0
+) -> Figure:
     """Space-time diagrams: "wall", the pressure p* on the interface over radius and time (from the histories); "axis", the
     pressure in the fluid and −σ_zz in the solid along the axis (from the snapshots: the more of them, the better).
 
     - `reach`: how far from the axis or from the wall is shown, m.
+    - `since`: the first time that the diagram of the wall shows, s.
+    - `power`: of its colours; below 1 it lifts what is weak beside the largest pressure.
     """
     result = open_run(run)
     if what == "wall":
-        return _wall(result, reach)
+        return _wall(result, reach, since, power)
     if what == "axis":
         return _axis(result, reach)
     raise ValueError(f'what is "wall" or "axis", not {what!r}')
@@ -138,22 +142,26 @@ def _panel(height: float = 3.4) -> tuple[Figure, Axes]:
     return figure, figure.add_subplot()
 
 
-def _wall(result: Result, reach: float | None) -> Figure:
+def _wall(result: Result, reach: float | None, since: float, power: float) -> Figure:
     data = result.histories
     if "interface/pressure" not in data:
         raise ValueError("the run has no wall")
     time, r = data["interface/time"].to_numpy(), data["interface/r"].to_numpy()
     far = float(r[-1]) if reach is None else reach
     shown = r <= far
-    pressure = data["interface/pressure"].to_numpy()[:, shown]
+    late = time >= since
+    if not late.any():
+        raise ValueError(f"the run ends at {time[-1]:.3g} s, before {since:.3g} s")
+    time, pressure = time[late], data["interface/pressure"].to_numpy()[late][:, shown]
     figure, axes = _panel()
-    _image(figure, axes, r[shown], time, pressure, "$p^*$", 99.9)
+    _image(figure, axes, r[shown], time, pressure, "$p^*$", 99.9, power)
     ticks(axes.xaxis, far, "$r$", "m")
     ticks(axes.yaxis, float(time[-1]), "$t$", "s")
     row, column = np.unravel_index(int(np.argmax(pressure)), pressure.shape)
-    axes.plot(r[shown][column], time[row], marker="+", color=INK, markersize=7)
+    for colour, width in ((WHITE, 2.6), (INK, 1.0)):  # seen on bright and on dark
+        axes.plot(r[shown][column], time[row], marker="+", color=colour, markersize=8, markeredgewidth=width, clip_on=False)
     scale, letter = prefix(float(pressure.max()))
-    axes.set_title(f"Pressure on the wall; largest of a row (+) {pressure.max() * scale:.0f} {letter}Pa", loc="left",
+    axes.set_title(f"Pressure on the wall; the largest (+) {pressure.max() * scale:.0f} {letter}Pa", loc="left",
                    fontsize=9)
     return figure
 
@@ -187,13 +195,16 @@ def _axis(result: Result, reach: float | None) -> Figure:
     return figure
 
 
-def _image(figure: Figure, axes: Axes, x: Floats, time: Floats, values: Floats, symbol: str, share: float) -> None:
+def _image(figure: Figure, axes: Axes, x: Floats, time: Floats, values: Floats, symbol: str, share: float,
+           power: float = 1.0) -> None:
     """A field over place and time on one scale that `share` per cent of the values are within."""
     top = float(np.nanpercentile(values, share))
     least = float(np.nanpercentile(values, 0.1))
     scale, letter = prefix(max(abs(top), abs(least)))
     tension = least < -0.02 * top
-    norm = TwoSlopeNorm(0, least * scale, top * scale) if tension and top > 0 else Normalize(least * scale, top * scale)
-    drawn = axes.pcolormesh(x, time, values * scale, cmap="RdBu_r" if tension else "cividis", norm=norm,
+    norm: Normalize = PowerNorm(power, least * scale, top * scale)
+    if tension and top > 0:
+        norm = TwoSlopeNorm(0, least * scale, top * scale)
+    drawn = axes.pcolormesh(x, time, values * scale, cmap="RdBu_r" if tension else "inferno", norm=norm,
                             shading="nearest", rasterized=True)
     figure.colorbar(drawn, ax=axes, label=f"{symbol} / {letter}Pa", extend="both", pad=0.02, aspect=30)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from collections.abc import Mapping
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from ..mesh import Box, Floats, Raster
 from ..result import Snapshot
@@ -22,22 +24,29 @@ MEGA = 1e-6
 
 
 @styled
-def overview(run: Run, time: float | None = None, reach: float | None = None) -> Figure:
+def overview(
+    run: Run, time: float | None = None, reach: float | None = None, *, strongest: Mapping[str, float] | None = None,
+    title: str | None = None, depth: float | None = None,
+) -> Figure:
     """Numerical schlieren in the fluid above, von Mises stress in the solid below, z upwards.
 
     - `reach`: only so far about the axis and the wall, m.
+    - `strongest`: ends of the scales, of "fluid" in kg/m⁴ and of "solid" in Pa, for pictures that are to be compared.
+    - `title`: instead of the time and the largest stress.
+    - `depth`: how much of the solid is shown, m; else `reach`.
     """
     section = Section.of(run, time, None)
-    boxes = _boxes(section, reach)
+    boxes = _boxes(section, reach, depth)
     figure, panels = _canvas(section, boxes)
-    title = f"$t$ = {section.time_shown}"
+    top = strongest or {}
+    words = f"$t$ = {section.time_shown}"
     for medium, axes in panels.items():
         snapshot, raster = section.snapshots[medium], Raster(section.snapshots[medium].mesh, boxes[medium], MOST)
         if medium == "fluid":
-            _schlieren(section, figure, axes, snapshot, raster)
+            _schlieren(section, figure, axes, snapshot, raster, top.get(medium))
         else:
-            _stress(section, figure, axes, snapshot, raster)
-            title += f"    {_largest(snapshot)}"
+            _stress(section, figure, axes, snapshot, raster, top.get(medium))
+            words += f"    {_largest(snapshot)}"
         _frame(section, axes, medium)
     last = list(panels.values())[-1]
     scale, letter = section.length_scale
@@ -53,11 +62,11 @@ def overview(run: Run, time: float | None = None, reach: float | None = None) ->
         low, high = lower.get_ylim()
         lower.set_yticks([z for z in lower.get_yticks() if low <= z < high - 1e-6 * (high - low)])
     width, height = figure.get_size_inches()
-    figure.text(LEFT / width, 1 - 0.16 / height, title, va="top", ha="left", fontsize=10, color=INK)
+    figure.text(LEFT / width, 1 - 0.16 / height, words if title is None else title, va="top", ha="left", fontsize=10, color=INK)
     return figure
 
 
-def _boxes(section: Section, reach: float | None) -> dict[str, Box]:
+def _boxes(section: Section, reach: float | None, depth: float | None) -> dict[str, Box]:
     """What is shown of each medium, the upper one first: z from, z to, r from, r to, m."""
     media = [medium for medium in ("fluid", "solid") if medium in section.snapshots]
     meshes = {medium: section.snapshots[medium].mesh for medium in media}
@@ -69,8 +78,8 @@ def _boxes(section: Section, reach: float | None) -> dict[str, Box]:
         if reach is not None and medium == "fluid":
             # A little higher than deep: the bubble stands off the wall, the stress is greatest near it.
             high = min(high, low + 1.2 * near)
-        elif reach is not None:
-            low = max(low, high - near)
+        elif medium == "solid" and (reach is not None or depth is not None):
+            low = max(low, high - (near if depth is None else depth))
         found[medium] = (low, high, float(mesh.low[1]), near)
     return found
 
@@ -87,15 +96,16 @@ def _canvas(section: Section, boxes: dict[str, Box]) -> tuple[Figure, dict[str, 
         up -= height * scale
         axes = figure.add_axes((LEFT / size[0], up / size[1], width * scale / size[0], height * scale / size[1]))
         axes.set(xlim=(left, first[3]), ylim=boxes[medium][:2])
+        axes.yaxis.set_major_locator(MaxNLocator(max(2, round(2 * height * scale)), steps=[1, 2, 2.5, 5, 10]))
         axes.yaxis.set_label_coords(-0.45 / (width * scale), 0.5)
         panels[medium] = axes
     return figure, panels
 
 
-def _schlieren(section: Section, figure: Figure, axes: Axes, snapshot: Snapshot, raster: Raster) -> None:
+def _schlieren(section: Section, figure: Figure, axes: Axes, snapshot: Snapshot, raster: Raster, top: float | None) -> None:
     image = np.log10(np.maximum(raster.paint(gradient(section.result, "fluid", snapshot)), 1e-30))
     # Three decades and a half below nearly the strongest show waves and interface at once.
-    strongest = float(np.nanpercentile(image, 99.9))
+    strongest = float(np.nanpercentile(image, 99.9)) if top is None else float(np.log10(top))
     drawn = _show(section, axes, raster, image, cmap="gray_r", norm=Normalize(strongest - 3.5, strongest))
     if "gas_fraction" in snapshot:
         fraction = snapshot["gas_fraction"]
@@ -106,12 +116,12 @@ def _schlieren(section: Section, figure: Figure, axes: Axes, snapshot: Snapshot,
     _bar(figure, axes, drawn, r"$\log_{10}\,|\nabla\rho|\;/\;(\mathrm{kg\,m^{-4}})$", "both")
 
 
-def _stress(section: Section, figure: Figure, axes: Axes, snapshot: Snapshot, raster: Raster) -> None:
+def _stress(section: Section, figure: Figure, axes: Axes, snapshot: Snapshot, raster: Raster, top: float | None) -> None:
     # A power below one lifts the waves, which are weak beside the maximum, out of the dark.
     stress = snapshot["von_mises"] * MEGA
-    norm = PowerNorm(0.6, 0.0, max(float(stress.max()), 1e-12))
+    norm = PowerNorm(0.6, 0.0, max(float(stress.max()) if top is None else top * MEGA, 1e-12))
     drawn = _show(section, axes, raster, raster.paint(stress), cmap="inferno", norm=norm)
-    _bar(figure, axes, drawn, "von Mises stress / MPa", "neither")
+    _bar(figure, axes, drawn, "von Mises stress / MPa", "neither" if top is None else "max")
 
 
 def _largest(snapshot: Snapshot) -> str:

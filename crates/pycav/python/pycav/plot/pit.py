@@ -27,7 +27,7 @@ ABOVE = 0.03  # of the depth shown is above it in the lower one
 @styled
 def pit(
     run: Run, time: float | None = None, reach: float | None = None, *, beside: Sequence[Run] = (),
-    names: Sequence[str] | None = None,
+    names: Sequence[str] | None = None, strongest: tuple[float, float] | None = None,
 ) -> Figure:
     """The pit. Above the surface's depth below its level far away, stretched; below the plastic strain, at true scale.
 
@@ -39,6 +39,7 @@ def pit(
     - `reach`: from the axis and below the surface, m; else a little more than the plastic zone.
     - `beside`: runs whose profiles at that time are drawn, too.
     - `names`: of the run and those beside; else their cells per radius.
+    - `strongest`: the depth in m and the plastic strain at the ends of the scales, for pictures that are to be compared.
     """
     profiles = [Profile.of(one, time) for one in (run, *beside)]
     labels = names or [profile.name for profile in profiles]
@@ -58,8 +59,9 @@ def pit(
                     for up, height in ((FOOT + lower + GAP, UPPER), (FOOT, lower)))
     for axes in (above, below):
         axes.set_xlim(left, across)
-    _profiles(above, profiles, labels, section.mirrored, UPPER * (across - left) / width)
-    _zone(figure, below, section, first, down)
+    deepest, largest = strongest or (None, None)
+    _profiles(above, profiles, labels, section.mirrored, UPPER * (across - left) / width, deepest)
+    _zone(figure, below, section, first, down, largest)
     return figure
 
 
@@ -71,11 +73,14 @@ def _reach(profile: Profile) -> tuple[float, float]:
     return across, max(1.2 * depth, 0.3 * across)
 
 
-def _profiles(axes: Axes, profiles: Sequence[Profile], labels: Sequence[str], mirrored: bool, span: float) -> None:
-    """The profiles, stretched; `span` is the panel's height at the scale of r, m."""
+def _profiles(axes: Axes, profiles: Sequence[Profile], labels: Sequence[str], mirrored: bool, span: float,
+              shown: float | None) -> None:
+    """The profiles, stretched so that `shown` in m fits; `span` is the panel's height at the scale of r, m."""
     first = profiles[0]
     deepest = max(1e-12, *(float(np.abs(profile.depth).max()) for profile in profiles))
     filled = max(1e-12, *(max(float(p.depth.max()) / BELOW, -float(p.depth.min()) / (1 - BELOW)) for p in profiles))
+    if shown is not None:
+        deepest, filled = shown, shown / BELOW
     # 1, 2 or 5 times a power of ten, as much as leaves some room.
     most = 0.9 * span / filled
     power = 10.0 ** math.floor(math.log10(most))
@@ -83,7 +88,7 @@ def _profiles(axes: Axes, profiles: Sequence[Profile], labels: Sequence[str], mi
     bottom = BELOW * span / stretch
     axes.set_ylim(bottom, bottom - span / stretch)
     for k, (profile, label) in enumerate(zip(profiles, labels)):
-        r, depth = _both(profile.r, profile.depth, mirrored)
+        r, depth = _both(*profile.line, mirrored)
         axes.plot(r, depth, color=COLOURS[k % 4], linestyle=DASHES[k % 4], label=label)
         if profile is first:
             axes.fill_between(r, depth, bottom, color="0.95", linewidth=0)
@@ -115,7 +120,7 @@ def _both(r: Floats, depth: Floats, mirrored: bool) -> tuple[Floats, Floats]:
     return np.concatenate([-r[other], r]), np.concatenate([depth[other], depth])
 
 
-def _zone(figure: Figure, axes: Axes, section: Section, profile: Profile, down: float) -> None:
+def _zone(figure: Figure, axes: Axes, section: Section, profile: Profile, down: float, largest: float | None) -> None:
     """The plastic strain below the deformed surface, z and r on one scale."""
     snapshot = section.snapshots["solid"]
     top, strain = float(snapshot.mesh.high[0]), strain_of(snapshot)
@@ -124,16 +129,17 @@ def _zone(figure: Figure, axes: Axes, section: Section, profile: Profile, down: 
 
     def place(r: Floats, z: Floats) -> tuple[Floats, Floats]:
         """r and depth of points of a grid: every column hangs from the surface above it."""
-        across, sunk = _both(r, np.interp(r, profile.r, profile.depth), section.mirrored)
+        across, sunk = _both(r, np.interp(r, *profile.line), section.mirrored)
         return np.broadcast_to(across[:, None], (len(across), len(z))), (top - z)[None, :] + sunk[:, None]
 
     edges = (raster.low[a] + np.arange(raster.shape[a] + 1) * raster.pixel[a] for a in (1, 0))
-    drawn = axes.pcolormesh(*place(*edges), section.mirror(raster.paint(strain)), rasterized=True, **colours(strain))
+    drawn = axes.pcolormesh(*place(*edges), section.mirror(raster.paint(strain)), rasterized=True,
+                            **colours(strain if largest is None else np.array([largest])))
     smooth = section.mirror(raster.paint(strain, snapshot.mesh.gradient(strain)))
     for level, _, width in LINES:
         if smooth.min() < level < smooth.max():
             axes.contour(*place(raster.r, raster.z), smooth, [level], colors=INK, linewidths=width)
-    axes.plot(*_both(profile.r, profile.depth, section.mirrored), color=BLUE)
+    axes.plot(*_both(*profile.line, section.mirrored), color=BLUE)
     axes.set_ylim(down, -ABOVE * down)
     axes.set_aspect("equal", adjustable="box")
     if section.mirrored:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
@@ -29,11 +33,16 @@ def grid_levels(run: Run, time: float | None = None, window: Window | None = Non
         colours = ListedColormap(mpl.colormaps["YlGnBu"](np.linspace(0.05, 0.75, high - low + 1)))
         drawn = section.show(axes, raster, raster.paint(level), cmap=colours, norm=Normalize(low - 0.5, high + 0.5))
         bar(figure, axes, drawn, f"level in the {medium}", part, ticks=np.arange(low, high + 1))
-        outlines = _outlines(snapshot.mesh, section.box)
-        for sign in (1, -1) if section.mirrored else (1,):
-            axes.add_collection(LineCollection(list(outlines * [1, sign]), colors=INK, linewidths=0.25))
+        blocks(section, axes, medium, (1, -1) if section.mirrored else (1,))
     section.annotate(axes, "Levels, and blocks of 16 × 16 cells", False)
     return figure
+
+
+def blocks(section: Section, axes: Axes, medium: str, signs: Sequence[int] = (1,), **style: Any) -> None:
+    """The outlines of a medium's blocks, at r > 0 for a sign of 1 and mirrored for −1."""
+    outlines = _outlines(section.snapshots[medium].mesh, section.box)
+    for sign in signs:
+        axes.add_collection(LineCollection(list(outlines * [1, sign]), **{"colors": INK, "linewidths": 0.25, **style}))
 
 
 def _outlines(mesh: Mesh, box: Box) -> Floats:

@@ -17,6 +17,8 @@ FAR = 0.1
 """Share of the extent in r, the outermost, whose mean level is that far away (docs/reference/output-summary.md, *The surface of the solid*)."""
 STILL = 0.01
 """Below this `surface_still` the surface is still."""
+CARRIED = 16
+"""Faces that one cell of the solid carries at most, where the fluid is four levels finer."""
 DISPLACEMENT = "interface/displacement_z"
 
 
@@ -58,6 +60,17 @@ class Profile:
     def name(self) -> str:
         cells = self.result.cells_per_radius
         return self.result.directory.name if cells is None else f"{cells:.3g} cells per radius"
+
+    @property
+    def line(self) -> tuple[Floats, Floats]:
+        """r and depth to draw, m: one point for neighbouring faces that one cell of the solid carries, which else make stairs."""
+        begins = np.flatnonzero(np.diff(self.depth, prepend=np.nan) != 0)
+        count = np.diff(begins, append=len(self.depth))
+        flat = np.repeat(count > CARRIED, count)  # longer than a cell: the surface is level there, to its ends
+        kept = np.zeros(len(self.depth), bool)
+        kept[begins] = True
+        r = np.where(flat, self.r, np.repeat(np.add.reduceat(self.r, begins) / count, count))
+        return r[kept | flat], self.depth[kept | flat]
 
     @property
     def numbers(self) -> dict[str, float]:

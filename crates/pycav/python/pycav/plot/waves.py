@@ -9,8 +9,9 @@ from matplotlib.figure import Figure
 
 from ..mesh import Floats
 from ..result import Result, Snapshot
+from .refinement import blocks as outlines
 from .section import Run, Section, Window, bar
-from .style import logarithmic, styled
+from .style import BLUE, logarithmic, styled
 
 LABELS = {"solid": r"$|\nabla\sigma_{zz}|\,/\,c_1^2$ / (kg m$^{-4}$)", "fluid": r"$|\nabla\rho|$ / (kg m$^{-4}$)"}
 
@@ -22,6 +23,7 @@ def schlieren(
     window: Window | None = None,
     *,
     levels: bool = False,
+    blocks: bool = False,
     strongest: Mapping[str, float] | None = None,
 ) -> Figure:
     """Magnitudes of the density's gradient in the fluid and of ∇σ_zz / c₁² in the solid, both logarithmic.
@@ -29,6 +31,7 @@ def schlieren(
     For a dilatational wave along z the latter is the solid's |∇ρ|; shear waves show as well. The line is φ = ½.
 
     - `levels`: outlines of the levels of refinement.
+    - `blocks`: outlines of the blocks of 16 × 16 cells, at r > 0 only.
     - `strongest`: ends of the scales in kg/m⁴ by medium, for pictures that are to be compared.
     """
     section = Section.of(run, time, window)
@@ -45,6 +48,8 @@ def schlieren(
             decades = 2.5 if strongest else float(np.clip(np.log10(max(top, 1e-12) / weakest), 1.5, 2.5))
         drawn = section.show(axes, raster, image, cmap="gray_r", norm=logarithmic(top, decades))
         bar(figure, axes, drawn, LABELS[medium], part, "both")
+        if blocks:
+            outlines(section, axes, medium, colors=BLUE, linewidths=0.4)
     section.annotate(axes, "Numerical schlieren", levels)
     return figure
 

@@ -1,0 +1,1 @@
+"""The gallery's pictures and films: what is run, what is drawn, how it is written."""
