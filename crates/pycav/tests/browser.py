@@ -15,6 +15,8 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -68,11 +70,105 @@ def browser() -> str:
     return found
 
 
-def look_at(page: Path, width: int = 1100, picture: Path | None = None) -> Seen:
+def look_at(page: Path, width: int = 1100, picture: Path | None = None, *, dark: bool = False) -> Seen:
     """Opens a page in a window of that width and tells what happened; with `picture`, draws it whole."""
+    with opened(page, width, dark=dark) as tab:
+        if picture is not None:
+            tab.draw(picture)
+        return tab.seen()
+
+
+@contextmanager
+def opened(page: Path, width: int = 1100, *, dark: bool = False, downloads: Path | None = None) -> Iterator[Tab]:
+    """A page in a window of that width, loaded, to be used; what it hands out goes to `downloads`."""
     with tempfile.TemporaryDirectory(prefix="browser-", ignore_cleanup_errors=True) as home:
         with _Chromium(browser(), home) as chromium:
-            return chromium.look_at(page.resolve().as_uri(), width, picture)
+            yield Tab(chromium, page.resolve().as_uri(), width, dark, downloads)
+
+
+class Tab:
+    """An open page, with a keyboard and a pointer."""
+
+    KEYS = {"ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35, "Escape": 27, "Enter": 13, "Tab": 9, " ": 32, "+": 187, "-": 189}
+
+    def __init__(self, chromium: _Chromium, address: str, width: int, dark: bool, downloads: Path | None) -> None:
+        self._chromium, self._address = chromium, address
+        target = chromium.ask("Target.createTarget", url="about:blank")["targetId"]
+        self._session = chromium.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self._ask(f"{domain}.enable")
+        self._ask("Emulation.setDeviceMetricsOverride", width=width, height=800, deviceScaleFactor=1, mobile=False)
+        if dark:
+            self._ask("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        if downloads is not None:
+            chromium.ask("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(downloads))
+        chromium.events.clear()
+        failed = self._ask("Page.navigate", url=address).get("errorText")
+        assert not failed, f"{address}: {failed}"
+        while not any(event["method"] == "Page.loadEventFired" for event in chromium.events):
+            chromium.events.append(chromium.message())
+        # Images may be decoded after they are loaded, and what scripts do late is said late.
+        self.value("Promise.all([...document.images].map(i => i.decode().catch(() => null)))"
+                   ".then(() => new Promise(done => setTimeout(() => done('ready'), 100)))")
+
+    def value(self, expression: str) -> Any:
+        """What an expression comes to, once it is there."""
+        answer = self._ask("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
+        assert "exceptionDetails" not in answer, answer
+        return answer["result"].get("value")
+
+    def until(self, expression: str) -> None:
+        """Waits until an expression is true."""
+        end = time.monotonic() + 10.0
+        while not self.value(expression):
+            assert time.monotonic() < end, f"not within 10 s: {expression}"
+            time.sleep(0.02)
+
+    def press(self, key: str) -> None:
+        """Presses a key and lets it go."""
+        text = {"text": {"Enter": "\r"}.get(key, key)} if len(key) == 1 or key == "Enter" else {}
+        for kind in ("keyDown", "keyUp"):
+            self._ask("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=self.KEYS[key],
+                      **(text if kind == "keyDown" else {}))
+
+    def point(self, kind: str, x: float, y: float, **more: Any) -> None:
+        """Moves the pointer, or what else `kind` is: `mousePressed`, `mouseReleased`, `mouseWheel`."""
+        button = {} if kind in ("mouseMoved", "mouseWheel") and "button" not in more else {"button": "left", "clickCount": 1}
+        self._ask("Input.dispatchMouseEvent", type=kind, x=x, y=y, **{**button, **more})
+
+    def click(self, x: float, y: float, times: int = 1) -> None:
+        """Clicks, or double-clicks."""
+        for count in range(1, times + 1):
+            for kind in ("mousePressed", "mouseReleased"):
+                self.point(kind, x, y, clickCount=count)
+
+    def drag(self, x: float, y: float, to: float) -> None:
+        """Drags along x."""
+        self.point("mousePressed", x, y)
+        for step in range(1, 6):
+            self.point("mouseMoved", x + (to - x) * step / 5, y, button="left", buttons=1)
+        self.point("mouseReleased", to, y)
+
+    def place(self, selector: str) -> dict[str, float]:
+        """Where an element is in the window, after it has been brought there: x, y, width, height."""
+        found = self.value(f"(() => {{ const e = document.querySelector({json.dumps(selector)}); e.scrollIntoView({{block: 'center'}});"
+                           " const b = e.getBoundingClientRect(); return {x: b.x, y: b.y, width: b.width, height: b.height}; })()")
+        return dict(found)
+
+    def draw(self, picture: Path) -> None:
+        """A picture of the whole page."""
+        picture.write_bytes(base64.b64decode(self._ask("Page.captureScreenshot", captureBeyondViewport=True)["data"]))
+
+    def seen(self) -> Seen:
+        """What there is to be seen, and what has been said up to now."""
+        state = json.loads(self.value(STATE))
+        seen = Seen(state["title"], state["images"], state["wide"])
+        for event in self._chromium.events:
+            _note(event, self._address, seen)
+        return seen
+
+    def _ask(self, method: str, **arguments: object) -> dict[str, Any]:
+        return self._chromium.ask(method, self._session, **arguments)
 
 
 class _Chromium:
@@ -88,7 +184,7 @@ class _Chromium:
             stdin=subprocess.DEVNULL, stdout=self._said, stderr=self._said, env={**os.environ, "HOME": home})
         os.close(from_us)
         os.close(to_us)
-        self._events: list[dict[str, Any]] = []
+        self.events: list[dict[str, Any]] = []
         self._rest = b""
         self._count = 0
 
@@ -106,37 +202,7 @@ class _Chromium:
             self._process.wait()
         self._said.close()
 
-    def look_at(self, address: str, width: int, picture: Path | None) -> Seen:
-        target = self._ask("Target.createTarget", url="about:blank")["targetId"]
-        session = self._ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-        for domain in ("Page", "Runtime", "Log", "Network"):
-            self._ask(f"{domain}.enable", session)
-        self._ask("Emulation.setDeviceMetricsOverride", session, width=width, height=800, deviceScaleFactor=1, mobile=False)
-        self._events.clear()
-        failed = self._ask("Page.navigate", session, url=address).get("errorText")
-        assert not failed, f"{address}: {failed}"
-        while not any(event["method"] == "Page.loadEventFired" for event in self._events):
-            self._events.append(self._message())
-        # Images may be decoded after they are loaded, and what scripts do late is said late.
-        self._evaluate(session, "Promise.all([...document.images].map(i => i.decode().catch(() => null)))"
-                                ".then(() => new Promise(done => setTimeout(() => done('ready'), 100)))")
-        state = json.loads(self._evaluate(session, STATE))
-        if picture is not None:
-            image = self._ask("Page.captureScreenshot", session, captureBeyondViewport=True)["data"]
-            picture.write_bytes(base64.b64decode(image))
-        seen = Seen(state["title"], state["images"], state["wide"])
-        for event in self._events:
-            _note(event, address, seen)
-        return seen
-
-    def _evaluate(self, session: str, expression: str) -> str:
-        answer = self._ask("Runtime.evaluate", session, expression=expression, awaitPromise=True, returnByValue=True)
-        assert "exceptionDetails" not in answer, answer
-        value = answer["result"].get("value")
-        assert isinstance(value, str), answer
-        return value
-
-    def _ask(self, method: str, session: str | None = None, **arguments: object) -> dict[str, Any]:
+    def ask(self, method: str, session: str | None = None, **arguments: object) -> dict[str, Any]:
         self._count += 1
         message = {"id": self._count, "method": method, "params": arguments} | ({"sessionId": session} if session else {})
         try:
@@ -144,13 +210,13 @@ class _Chromium:
         except BrokenPipeError:
             self._fail("has ended")
         while True:
-            answer = self._message()
+            answer = self.message()
             if answer.get("id") == self._count:
                 assert "error" not in answer, (method, answer["error"])
                 return dict(answer["result"])
-            self._events.append(answer)
+            self.events.append(answer)
 
-    def _message(self) -> dict[str, Any]:
+    def message(self) -> dict[str, Any]:
         end = time.monotonic() + LIMIT
         while b"\0" not in self._rest:
             if not select.select([self._read], [], [], max(0.0, end - time.monotonic()))[0]:
@@ -179,5 +245,5 @@ def _note(event: dict[str, Any], page: str, seen: Seen) -> None:
         seen.complaints.append(told["entry"]["text"])
     elif method == "Network.requestWillBeSent":
         address = told["request"]["url"]
-        if address != page and not address.startswith("data:"):
+        if address != page and not address.startswith(("data:", "blob:")):
             seen.requests.append(address)

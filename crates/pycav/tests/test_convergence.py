@@ -9,6 +9,7 @@ import pytest
 
 import pycav
 from pycav._report import page
+from pycav._report.numbers import shown
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +103,7 @@ def test_a_report_says_how_sure_its_numbers_are(study, result):
         number = study.record["numbers"]["wall_pressure_mean_peak"]
         own = number["uncertainties"][grid]
         assert own == pytest.approx(number["uncertainties"][2] * factor ** number["order_used"])
-        assert f" ± {pycav.plot.style.rounded(own, 'Pa')}" in text and f"order {number['order']:.2g}" in text
+        assert f" ± {shown(float(f'{own:.3g}'), 'Pa')}" in text and f"order {number['order']:.2g}" in text
         assert f"grid {grid} of 0 to 2" in text and f"{3.2 * 2**grid:g} cells per radius" in text
     assert "±" not in page(result)
 

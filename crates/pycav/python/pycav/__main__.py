@@ -1,6 +1,6 @@
 """`pycav`: the command line of `cav`, and reports.
 
-    pycav report RUN_DIR [--out PAGE.html]
+    pycav report RUN_DIR [--out PAGE.html] [--csv DIR]
     pycav run CASE ...          as `cav run CASE ...`; likewise check, fluid, solid, materials
 """
 
@@ -27,12 +27,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _report(given: list[str]) -> int:
     from ._report import report
 
-    parser = argparse.ArgumentParser(prog="pycav report", description="Write one self-contained page on a run.")
+    parser = argparse.ArgumentParser(
+        prog="pycav report", description="Write one self-contained page on a run: the answer, pictures over time, curves, damage, how far "
+        "to trust it. Prints the page's path.")
     parser.add_argument("run", metavar="RUN_DIR", help="directory of a run")
     parser.add_argument("--out", metavar="PAGE.html", help="the page [default: report.html in the directory]")
+    parser.add_argument("--csv", metavar="DIR", help="write the curves into this directory, too, as CSV with all rows")
     options = parser.parse_args(given)
     try:
-        print(report(options.run, options.out))
+        print(report(options.run, options.out, csv=options.csv))
     except (OSError, ValueError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

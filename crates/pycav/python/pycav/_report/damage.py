@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
-from ._health import Rows
-from .plot.style import percent, rounded, si
-from .plot.surface import has_pit
-from .result import Result
+from ..plot.style import percent, rounded, si
+from ..plot.surface import has_pit
+from ..result import Result
+
+Rows = Iterable[tuple[str, str, str]]
+
+LIKE = 0.5
+"""Misfit above which a load is not like a Gaussian pulse, whose numbers would then say nothing."""
 
 
 def damage(result: Result) -> Rows:
@@ -23,7 +28,7 @@ def damage(result: Result) -> Rows:
         yield "largest von Mises stress", si(summary.get("von_mises_peak"), "Pa"), _place(summary, "von_mises_peak")
         if not plastic:
             volume = summary.get("yielded_volume_peak")
-            yield "yielded volume, largest", si(volume, "m³") if strength else "–", "the solid is elastic: where it would yield"
+            yield "yielded volume, largest", (si(volume, "m³") if volume else "none") if strength else "–", "the solid is elastic: where it would yield"
             duration = data["solid/time"].to_numpy()[data["solid/yielded_volume"].to_numpy() > 0]
             if strength and len(duration):
                 yield "yields from, to", f"{si(duration[0], 's')}, {si(duration[-1], 's')}", "anywhere"
@@ -33,7 +38,7 @@ def damage(result: Result) -> Rows:
             yield from _load(summary)
     if "interface/impulse" in data:
         impulse = data["interface/impulse"].to_numpy()[-1]
-        yield "impulse on the wall, on the axis", f"{impulse[0]:.4g} Pa s", "∫ (p* − p at t = 0) dt"
+        yield "impulse on the wall, on the axis", f"{impulse[0]:.4g} Pa s", "at the end, ∫ (p* − p at t = 0) dt"
 
 
 def _place(summary: dict[str, Any], name: str) -> str:
@@ -98,8 +103,13 @@ def _load(summary: dict[str, Any]) -> Rows:
     """The Gaussian pulse that the wall's pressure is nearest to."""
     if summary.get("load_amplitude") is None:
         return
+    misfit = float(summary.get("load_misfit", math.nan))
+    if not misfit <= LIKE:
+        yield ("equivalent load", "none", "no pulse P₀ exp(−(r/Δr)²) exp(−((t − t₀)/Δt)²) is like the wall's pressure: "
+               f"of its squares' root the nearest one leaves {percent(misfit)}")
+        return
     yield ("equivalent load, P₀", rounded(summary["load_amplitude"], "Pa"),
            "P₀ exp(−(r/Δr)²) exp(−((t − t₀)/Δt)²), the pulse nearest to the wall's pressure; "
-           f"misfit {percent(summary.get('load_misfit', math.nan))}")
+           f"misfit {percent(misfit)}")
     yield "equivalent load, Δr", rounded(summary.get("load_radius"), "m"), ""
     yield "equivalent load, Δt", rounded(summary.get("load_duration"), "s"), f"about t₀ = {si(summary.get('load_time'), 's')}"

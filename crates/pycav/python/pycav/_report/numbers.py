@@ -1,0 +1,109 @@
+"""Key numbers: what one asks for first, in units of an engineer, and how sure they are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from .._convergence import Convergence, study_of
+from ..plot.style import rounded, si
+from ..plot.surface import has_pit
+from ..result import Result
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number with what stands behind it."""
+
+    label: str
+    value: str
+    around: str = ""
+    """Its uncertainty, where it is known"""
+    note: str = ""
+
+
+LABELS = {
+    "wall_pressure_peak": "Wall pressure on the axis, largest",
+    "wall_pressure_mean_peak": "Wall pressure on the axis, largest mean",
+    "wall_pressure_peak_anywhere": "Wall pressure anywhere, largest",
+    "wall_impulse": "Impulse on the wall, on the axis",
+    "jet_velocity_peak": "Fastest liquid on the axis",
+    "min_equivalent_radius": "Smallest equivalent radius",
+    "von_mises_peak": "von Mises stress, largest",
+    "yielded_volume_peak": "Volume that would yield, largest",
+    "plastic_strain_peak": "Plastic strain, largest",
+    "pit_depth": "Pit, depth",
+}
+"""The keys of the summary that have a number on the page, in their order."""
+
+UNITS = {"wall_impulse": "Pa s", "jet_velocity_peak": "m/s", "min_equivalent_radius": "m", "yielded_volume_peak": "m³",
+         "plastic_strain_peak": "%", "pit_depth": "m"}
+TIMES = {"min_equivalent_radius": "collapse_time"}
+
+
+def shown(value: float, unit: str) -> str:
+    """A number with four digits: pressures in MPa as soon as they reach a tenth of one, shares in per cent."""
+    if unit == "Pa" and abs(value) >= 1e5:
+        return f"{float(f'{value * 1e-6:.4g}'):g} MPa".replace("-", "−")
+    if unit == "%":
+        return f"{100 * value:.3g} %"
+    return si(value, unit)
+
+
+def key_numbers(result: Result) -> Iterable[Number]:
+    """The numbers that a run has."""
+    summary, study = result.summary, study_of(result)
+    has_wall = "interface/pressure" in result.histories
+    for name, label in LABELS.items():
+        value = summary.get(name)
+        if value is None or not math.isfinite(value) or _says_nothing(name, result) or (name.startswith("wall_") and not has_wall):
+            continue
+        if name == "wall_pressure_peak_anywhere" and value == summary.get("wall_pressure_peak"):
+            continue  # it was on the axis
+        unit = UNITS.get(name, "Pa")
+        notes = [f"at {si(float(time), 's')}"] if (time := summary.get(TIMES.get(name, f"{name}_time"))) is not None else []
+        if name == "wall_pressure_mean_peak" and summary.get("wall_pressure_mean_time") is not None:
+            label += f" over {rounded(float(summary['wall_pressure_mean_time']), 's')}"
+        if name == "min_equivalent_radius" and result.radius:
+            notes.append(f"{value / result.radius:.3g} of the first radius")
+        around, says = _uncertainty(*study, name, float(value), unit) if study is not None else ("", "")
+        is_pit = name == "pit_depth"  # three digits, as the table of the damage has it
+        yield Number(label, shown(float(f"{value:.3g}") if is_pit else float(value), unit), around, "; ".join([*notes, *filter(None, [says])]))
+
+
+def _says_nothing(name: str, result: Result) -> bool:
+    """Numbers that are there though nothing stands behind them: without a bubble, a yield strength, a pit."""
+    summary = result.summary
+    if name in ("jet_velocity_peak", "min_equivalent_radius"):
+        planar = result.parameters.get("geometry") == "planar"
+        return "bubble/equivalent_radius" not in result.histories or float(result.histories["bubble/equivalent_radius"][0]) <= 0 \
+            or (planar and name == "jet_velocity_peak")
+    if name == "yielded_volume_peak":
+        return not summary.get(name) or summary.get("yield_strength") is None or "plasticity" in result.parameters.get("solid", {})
+    return name == "pit_depth" and not has_pit(summary)
+
+
+def _uncertainty(study: Convergence, grid: int, name: str, value: float, unit: str) -> tuple[str, str]:
+    """What stands behind a number, and what is said of it: its uncertainty by the study, or why there is none."""
+    found = study.record["numbers"].get(name)
+    if found is None or found["values"][grid] != value:
+        return "", ""
+    own = found["uncertainties"][grid]
+    how = found["convergence"].replace("-", " ")
+    if own is None:
+        return "", f"on finer grids {how}"
+    order = how if found["order"] is None else f"order {found['order']:.2g}"
+    around = shown(float(f"{own:.3g}"), unit)
+    return f" ± {around}", order
+
+
+def resolution(result: Result) -> str:
+    """How fine the grid was, and where it stands in a study."""
+    cells, study = result.cells_per_radius, study_of(result)
+    told = [] if cells is None else [f"{cells:.4g} cells per radius of the bubble"]
+    counts = {medium: count.get("largest", 0) for medium, count in result.summary.get("cells", {}).items()}
+    told += [" and ".join(f"{count:,} cells in the {medium}" for medium, count in counts.items()) + " at most"] if counts else []
+    if study is not None:
+        told.append(f"grid {study[1]} of 0 to {len(study[0].grids) - 1} of a convergence study; ± is its grid-convergence index")
+    return "; ".join(told)
