@@ -108,7 +108,7 @@ def test_a_report_says_how_sure_its_numbers_are(study, result):
 
 
 def test_a_sweeps_impulse_is_the_summarys(result):
-    from pycav._sweep import measures
+    from pycav.sweeps.measures import measures
 
     assert measures(result)["wall_impulse"] == (result.summary["wall_impulse"], "Pa s")
     largest = float(result.histories["interface/impulse"].to_numpy()[:, 0].max())

@@ -29,19 +29,24 @@ if TYPE_CHECKING:
     from ._run import run
     from .simulation import Simulation
     from .solvers import FluidSolver, SolidSolver
-    from ._sweep import consistent_runs, stand_off_map, sweep
+    from .exchange import units
+    from .paraview import paraview_state
+    from .sweeps import bends, consistent_runs, failures, refine, stand_off_map, sweep, with_uncertainty
 
 __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
-    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "consistent_runs",
-    "convergence", "hits", "materials", "open", "plot", "report", "run", "stand_off_map", "sweep", "theory",
+    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "bends", "consistent_runs",
+    "convergence", "failures", "hits", "materials", "open", "paraview_state", "plot", "refine", "report", "run", "stand_off_map",
+    "sweep", "theory", "units", "with_uncertainty",
 ]
 
 # Where names live. They are fetched when they are first used: the processes of a run need none of them.
 _PLACES = {
     "Case": "case", "Cells": "cells", "Convergence": "_convergence", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
-    "consistent_runs": "_sweep", "convergence": "_convergence", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
+    "bends": "sweeps", "consistent_runs": "sweeps", "convergence": "_convergence", "failures": "sweeps", "hits": "_hits",
+    "materials": "case", "open": "result", "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "run": "_run",
+    "stand_off_map": "sweeps", "sweep": "sweeps", "units": "exchange", "with_uncertainty": "sweeps",
 }
 
 
