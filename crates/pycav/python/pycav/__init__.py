@@ -31,12 +31,12 @@ if TYPE_CHECKING:
     from .solvers import FluidSolver, SolidSolver
     from .exchange import units
     from .paraview import paraview_state
-    from .sweeps import bends, consistent_runs, failures, refine, stand_off_map, sweep, with_uncertainty
+    from .sweeps import bends, consistent_runs, failures, refine, save_map, stand_off_map, sweep, with_uncertainty
 
 __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
     "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "bends", "consistent_runs",
-    "convergence", "failures", "hits", "materials", "open", "paraview_state", "plot", "refine", "report", "run", "stand_off_map",
+    "convergence", "failures", "hits", "materials", "open", "paraview_state", "plot", "refine", "report", "run", "save_map", "stand_off_map",
     "sweep", "theory", "units", "with_uncertainty",
 ]
 
@@ -45,7 +45,7 @@ _PLACES = {
     "Case": "case", "Cells": "cells", "Convergence": "_convergence", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
     "bends": "sweeps", "consistent_runs": "sweeps", "convergence": "_convergence", "failures": "sweeps", "hits": "_hits",
-    "materials": "case", "open": "result", "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "run": "_run",
+    "materials": "case", "open": "result", "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "run": "_run", "save_map": "sweeps",
     "stand_off_map": "sweeps", "sweep": "sweeps", "units": "exchange", "with_uncertainty": "sweeps",
 }
 

@@ -194,8 +194,9 @@ class Result:
     @functools.cached_property
     def case(self) -> Case:
         """The effective case of the run."""
-        name = self.histories.attrs.get("case_name", "case")
-        return Case.from_toml((self.directory / "case.toml").read_text(), str(name))
+        with h5py.File(self.directory / f"{self.media[0]}.h5", "r") as file:
+            name = _text(file.attrs.get("case_name", "case"))
+        return Case.from_toml((self.directory / "case.toml").read_text(), name)
 
     @functools.cached_property
     def parameters(self) -> dict[str, Any]:

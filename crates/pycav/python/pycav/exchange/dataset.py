@@ -68,27 +68,34 @@ def _provenance(result: Result) -> dict[str, Any]:
 
 def snapshots(result: Result, fields: Sequence[str], spacing: float | None, window: Window | None) -> xarray.Dataset:
     """Fields of the snapshots at the middles of a regular grid, linear within each cell of the run."""
-    left = set(fields)
+    left, outside = set(fields), ""
     found = xarray.Dataset()
     for medium in result.media:
         series = result.snapshots(medium)
         own = [name for name in fields if name in series.fields]
         left -= set(own)
-        if own:
-            found = found.merge(_sampled(series, own, spacing, window))
+        low, high = _box(series, window)
+        if own and (high > low).all():
+            found = found.merge(_sampled(series, own, spacing, low, high))
+        elif own:
+            outside = medium
     if left:
         known = {name for medium in result.media for name in result.snapshots(medium).fields}
         raise ValueError(f"no snapshot has {', '.join(sorted(left))}, only {', '.join(sorted(known))}")
+    if not found:
+        raise ValueError(f"the window holds nothing of the {outside}")
     return found
 
 
-def _sampled(series: Snapshots, fields: Sequence[str], spacing: float | None, window: Window | None) -> xarray.Dataset:
+def _box(series: Snapshots, window: Window | None) -> tuple[Floats, Floats]:
+    """Corners (z, r) of what is sampled of a medium."""
     low, high = series[0].mesh.low, series[0].mesh.high
-    if window is not None:
-        low = np.maximum(low, [window[0], 0.0 if low[1] >= 0 else low[1]])
-        high = np.minimum(high, [window[1], window[2]])
-    if (high <= low).any():
-        raise ValueError(f"the window holds nothing of the {series.medium}")
+    if window is None:
+        return low, high
+    return np.maximum(low, [window[0], -np.inf]), np.minimum(high, [window[1], window[2]])
+
+
+def _sampled(series: Snapshots, fields: Sequence[str], spacing: float | None, low: Floats, high: Floats) -> xarray.Dataset:
     step = float((high - low).max()) / POINTS if spacing is None else float(spacing)
     counts = np.maximum(np.floor((high - low) / step + 1e-9).astype(int), 1)
     if not step > 0 or float(counts.prod()) * len(series) > MOST:

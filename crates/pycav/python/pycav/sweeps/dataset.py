@@ -50,6 +50,7 @@ def provenance(case: Case, axes: Axes, root: Path, places: Sequence[Path]) -> di
     found: dict[str, Any] = {
         "Conventions": "CF-1.11", "title": f"{case.name} over {', '.join(axes.names)}", "source": "cav",
         "history": f"{now} pycav.sweep", "date_created": now, "case_name": case.name, "case_hash": case.hash, "case": case.to_toml(),
+        "case_read": case._native.text, "case_changes": json.dumps(case._changes),
         "parameters": json.dumps(dict(zip(axes.names, axes.lists)), default=_json), "out": str(root),
     }
     for place in places:
@@ -58,6 +59,14 @@ def provenance(case: Case, axes: Axes, root: Path, places: Sequence[Path]) -> di
                 told = {name: str(plain(file.attrs[name])) for name in ("program", "git_revision") if name in file.attrs}
             return found | told | {"source": " ".join(told.values())}
     return found
+
+
+def case_of(data: xarray.Dataset) -> Case:
+    """The case of a sweep, as it was given: what follows from other keys still does."""
+    if "case_read" not in data.attrs:
+        raise ValueError("the dataset has no case among its attributes: give what pycav.sweep has returned")
+    case = Case.from_toml(str(data.attrs["case_read"]), str(data.attrs["case_name"]))
+    return case._changed(list(json.loads(data.attrs["case_changes"])))
 
 
 def _json(value: Any) -> Any:
@@ -71,7 +80,7 @@ def parameters(data: xarray.Dataset) -> dict[str, list[Any]]:
     return {str(name): [value.item() for value in data[name].to_numpy()] for name in data["error"].dims}
 
 
-def save(data: xarray.Dataset, path: str | os.PathLike[str]) -> Path:
+def save_map(data: xarray.Dataset, path: str | os.PathLike[str]) -> Path:
     """Writes a dataset as NetCDF-4 (`.nc`) or Zarr (`.zarr`); the old file is there until the new one is whole."""
     target = Path(path)
     if target.suffix not in (".nc", ".zarr"):
@@ -80,13 +89,21 @@ def save(data: xarray.Dataset, path: str | os.PathLike[str]) -> Path:
     fresh = target.with_name(f".{target.name}.new{target.suffix}")
     if target.suffix == ".zarr":
         shutil.rmtree(fresh, ignore_errors=True)
-        data.to_zarr(fresh, mode="w")
+        _to_zarr(data, fresh)
         shutil.rmtree(target, ignore_errors=True)
     else:
         packed = {name: {"zlib": True, "complevel": 4} for name, variable in data.variables.items() if variable.dtype.kind in "fi" and variable.ndim}
         data.to_netcdf(fresh, engine="h5netcdf", encoding=packed)
     os.replace(fresh, target)
     return target
+
+
+def _to_zarr(data: xarray.Dataset, path: Path) -> None:
+    import zarr
+
+    # The second format has texts in its specification, the third has not yet.
+    newer = int(zarr.__version__.partition(".")[0]) >= 3
+    data.to_zarr(path, mode="w", **({"zarr_format": 2} if newer else {}))
 
 
 def opened(data: xarray.Dataset | str | os.PathLike[str]) -> xarray.Dataset:

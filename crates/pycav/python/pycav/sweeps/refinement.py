@@ -9,9 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray
 
-from ..case import Case
 from ..mesh import Floats
-from .dataset import COMPLETE, FAILED, LEFT_OUT, numeric, opened, parameters
+from .dataset import COMPLETE, FAILED, LEFT_OUT, case_of, numeric, opened, parameters
 from .points import Point
 from .runs import sweep
 
@@ -83,13 +82,11 @@ def refine(
     - `options`: those of `sweep`; `measure` and `change` have to be those of the map.
     """
     data = opened(data)
-    if "case" not in data.attrs:
-        raise ValueError("the dataset has no case among its attributes: refine what pycav.sweep has returned")
+    case = case_of(data)
     found = bends(data, quantity, along=along, logarithmic=logarithmic)
     worst = [bend for bend in found if bend.error > tolerance and bend.low < bend.middle < bend.high][:values]
     known = parameters(data)
     wanted = {name: _merged(own, [bend.middle for bend in worst if bend.axis == name]) for name, own in known.items()}
-    case = Case.from_toml(str(data.attrs["case"]), str(data.attrs.get("case_name", "case")))
     counts = _Counts(data, known, {} if everywhere else _bent(data, quantity, worst, logarithmic, tolerance), everywhere)
     return sweep(case, wanted, data.attrs["out"] if out is None else out, **{"where": counts, **options})
 

@@ -16,7 +16,7 @@ from ..case import Case, Material
 from ..case import materials as library
 from ..result import Result
 from .cost import Cost
-from .dataset import FAILED, Measure, gather, opened, provenance, save
+from .dataset import FAILED, Measure, gather, opened, provenance, save_map
 from .executors import opened as executor_of
 from .measures import measures
 from .points import STAND_OFF, Axes, Change, Point, at_point
@@ -103,7 +103,7 @@ def sweep(
         data = gather(axes, places, errors, left_out | unrun, measure)
         data.attrs = provenance(case, axes, root, places)
         if to is not None:
-            save(data, to)
+            save_map(data, to)
     return data
 
 
