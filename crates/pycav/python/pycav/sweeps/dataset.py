@@ -103,7 +103,8 @@ def _to_zarr(data: xarray.Dataset, path: Path) -> None:
 
     # The second format has texts in its specification, the third has not yet.
     newer = int(zarr.__version__.partition(".")[0]) >= 3
-    data.to_zarr(path, mode="w", **({"zarr_format": 2} if newer else {}))
+    options: Any = {"zarr_format": 2} if newer else {}
+    data.to_zarr(path, mode="w", **options)
 
 
 def opened(data: xarray.Dataset | str | os.PathLike[str]) -> xarray.Dataset:
