@@ -4,7 +4,7 @@
     python3 scripts/damage_map.py [--out DIR] [--workers N] [--data FILE.nc] [--picture OUT.png]
 
 Sixty runs of cases/pit-near-steel.toml on half its cells per radius, and twelve of the points on half and on twice as many for the
-uncertainty: half an hour of one core. What is complete in DIR is not run again. Prints Markdown, writes the map as NetCDF, draws it.
+uncertainty: half an hour, one run after the other. What is complete in DIR is not run again. Prints Markdown, writes the map as NetCDF, draws it.
 Needs pycav (scripts/requirements.txt).
 """
 
@@ -44,11 +44,9 @@ def study(out, grid, parameters, workers):
 def small(data):
     """What is worth keeping: no directories of this machine, the precision that the numbers have."""
     kept = data.drop_vars(["directory", "error"])
-    kept = kept.astype({name: np.float32 for name in kept.data_vars if kept[name].dtype == float})
-    kept.attrs = {name: value for name, value in data.attrs.items() if name != "out"}
-    for name in kept.variables:
-        kept[name].attrs = dict(data[name].attrs)
-    return kept
+    for name in [name for name in kept.data_vars if kept[name].dtype == float]:
+        kept[name] = kept[name].astype(np.float32, keep_attrs=True)
+    return kept.assign_attrs(out="runs/damage-map")
 
 
 def table(data):
@@ -65,8 +63,13 @@ def table(data):
 
 
 def number(point, name, scale):
-    value, off = float(point[name]) * scale, float(point[f"{name}_uncertainty"]) * scale
-    return f"{value:.3g} ± {off:.1g}"
+    """A value and its uncertainty as a share."""
+    value, share = float(point[name]), float(point[f"{name}_uncertainty"] / abs(point[name]))
+    return f"{plain(value * scale)} ± {100 * share:.0f} %" if share <= 1 else f"{plain(value * scale)} ± > 100 %"
+
+
+def plain(value):
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def pit(point):
@@ -74,7 +77,7 @@ def pit(point):
         return "none"
     steep = float(point["pit_depth"]) > 0.05 * float(point["pit_radius"])
     moves = float(point["surface_still"]) > 0.1
-    return "≈ " * moves + number(point, "pit_depth", 1e6) + "*" * steep
+    return "≈ " * moves + number(point, "pit_depth", 1e6) + " *" * steep
 
 
 def repeated(maps):
@@ -86,8 +89,8 @@ def repeated(maps):
         for distance in REPEATED["stand_off"]:
             for pressure in REPEATED["fluid.ambient.pressure"]:
                 points = [own.sel({"stand_off": distance, "fluid.ambient.pressure": pressure, "solid.material": material}) for own in maps.values()]
-                depths = [f"{1e6 * float(point['pit_depth']):.3g}" for point in points]
-                peaks = [f"{1e-6 * float(point['sensors.disc.pressure_peak']):.3g}" for point in points]
+                depths = [f"{plain(1e6 * float(point['pit_depth']))}" for point in points]
+                peaks = [f"{plain(1e-6 * float(point['sensors.disc.pressure_peak']))}" for point in points]
                 print(f"| {material} | {distance:g} | {1e-6 * pressure:g} | " + " | ".join(depths + peaks) + " |")
 
 
@@ -104,8 +107,9 @@ def main():
     table(data)
     print()
     repeated({grid: maps[grid] for grid in GRIDS})
+    # Time on the clock: on a machine that does other work besides it is more than that of the core.
     hours = sum(float(own["wall_seconds"].sum()) for own in maps.values()) / 3600
-    print(f"\n{sum(own['status'].size for own in maps.values())} runs, {hours:.2g} hours of one core")
+    print(f"\n{sum(own['status'].size for own in maps.values())} runs, {60 * hours:.0f} minutes, one after the other")
     if options.picture:
         pycav.plot.damage_map(data, below=["sensors.disc.pressure_peak", "wall_impulse"]).savefig(options.picture, dpi=130)
 

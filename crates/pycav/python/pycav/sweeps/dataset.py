@@ -23,6 +23,9 @@ from .points import Axes, is_plain
 COMPLETE, FAILED, LEFT_OUT = 0, 1, 2
 FLAGS = {"flag_values": np.array([0, 1, 2], np.int8), "flag_meanings": "complete failed not_run", "long_name": "state of the run"}
 
+SMALL = 1 << 15
+"""Bytes up to which a variable of a file is not packed."""
+
 Measure = Callable[[Result], Mapping[str, tuple[float, str]]]
 
 
@@ -92,7 +95,9 @@ def save_map(data: xarray.Dataset, path: str | os.PathLike[str]) -> Path:
         _to_zarr(data, fresh)
         shutil.rmtree(target, ignore_errors=True)
     else:
-        packed = {name: {"zlib": True, "complevel": 4} for name, variable in data.variables.items() if variable.dtype.kind in "fi" and variable.ndim}
+        # Of a small variable what describes the packing takes more room than it saves.
+        packed = {name: {"zlib": True, "complevel": 4} for name, variable in data.variables.items()
+                  if variable.dtype.kind in "fi" and variable.nbytes > SMALL}
         data.to_netcdf(fresh, engine="h5netcdf", encoding=packed)
     os.replace(fresh, target)
     return target
