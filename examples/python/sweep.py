@@ -4,7 +4,6 @@ Stopped half way, it goes on where it was when it is started again.
 """
 
 import os
-from concurrent.futures import ThreadPoolExecutor
 
 import pycav
 from options import CASES, ask, coarser
@@ -14,10 +13,8 @@ case = coarser(pycav.Case(CASES / "collapse-near-steel.toml"), options.coarser, 
 case = case.with_({"time.snapshots": []})
 
 # Threads are enough: the interpreter is free while steps are made. One thread for each run wastes nothing.
-with ThreadPoolExecutor(os.cpu_count()) as executor:
-    data = pycav.stand_off_map(
-        case, [1.2, 1.6, 2.0, 2.5], ["structural-steel", "aluminium", "copper"], options.out / "map",
-        executor=executor, threads=1, progress=lambda point, how: print(point, how))
+data = pycav.stand_off_map(
+    case, [1.2, 1.6, 2.0, 2.5], ["structural-steel", "aluminium", "copper"], options.out / "map",
+    executor="threads", workers=os.cpu_count(), to=options.out / "map.nc")
 print(data["wall_pressure_peak"].to_pandas())
-data.drop_vars("error").to_netcdf(options.out / "map.nc", engine="scipy", format="NETCDF3_64BIT")
 pycav.plot.stand_off_map(data).savefig(options.out / "map.png")

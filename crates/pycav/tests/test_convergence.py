@@ -109,8 +109,29 @@ def test_a_report_says_how_sure_its_numbers_are(study, result):
 
 
 def test_a_sweeps_impulse_is_the_summarys(result):
-    from pycav._sweep import measures
+    from pycav.sweeps.measures import measures
 
     assert measures(result)["wall_impulse"] == (result.summary["wall_impulse"], "Pa s")
     largest = float(result.histories["interface/impulse"].to_numpy()[:, 0].max())
     assert result.summary["wall_impulse"] >= largest > 0
+
+
+def test_maps_estimate_their_uncertainty_by_the_same_rules(study):
+    from pycav.sweeps.uncertainty import estimated
+
+    cells = [result.cells_per_radius for result in study.results]
+    compared = set()
+    for name, number in study.record["numbers"].items():
+        if None in number["values"] or None in number["uncertainties"]:
+            continue
+        for grid in range(3):
+            others = [k for k in (2, 0, 1) if k != grid]
+            found = estimated([number["values"][k] for k in (grid, *others)], [cells[k] for k in (grid, *others)])
+            assert found.uncertainty == pytest.approx(number["uncertainties"][grid], rel=1e-9), (name, grid)
+            assert found.kind == number["convergence"], name
+        compared.add(number["convergence"])
+    assert "monotone" in compared
+    two = pycav.convergence(study.results[0].case, study.directory.parent / "two", levels=2, threads=1).record["numbers"]["wall_impulse"]
+    for grid in range(2):
+        found = estimated([two["values"][grid], two["values"][1 - grid]], [cells[grid], cells[1 - grid]])
+        assert found == (pytest.approx(two["uncertainties"][grid], rel=1e-9), "two-grids")

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import pycav
 from pycav._report.damage import damage, work_on_solid
-from pycav._sweep import measures
+from pycav.sweeps.measures import measures
 from pycav.plot import style
 from pycav.plot.style import rounded
 from pycav.plot.surface import Profile

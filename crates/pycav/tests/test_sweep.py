@@ -11,7 +11,7 @@ import pytest
 
 import pycav
 from pycav import _toml
-from pycav._sweep import at_point
+from pycav.sweeps.points import at_point
 
 MATERIALS = ["structural-steel", "aluminium"]
 

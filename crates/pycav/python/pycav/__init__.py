@@ -30,21 +30,27 @@ if TYPE_CHECKING:
     from ._run import run
     from .simulation import Simulation
     from .solvers import FluidSolver, SolidSolver
-    from ._sweep import consistent_runs, stand_off_map, sweep
+    from .exchange import units
+    from .paraview import paraview_state
+    from .sweeps import bends, consistent_runs, failures, refine, save_map, stand_off_map, sweep, with_uncertainty
 
 __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
-    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "collapse", "consistent_runs",
-    "convergence", "free_bubble", "hits", "materials", "open", "plot", "report", "run", "shocked_bubble", "stand_off_map", "sweep", "theory",
-    "wall_load",
+    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "bends", "collapse",
+    "consistent_runs", "convergence", "failures", "free_bubble", "hits", "materials", "open", "paraview_state",
+    "plot", "refine", "report", "run", "save_map", "shocked_bubble", "stand_off_map", "sweep", "theory", "units",
+    "wall_load", "with_uncertainty",
 ]
 
 # Where names live. They are fetched when they are first used: the processes of a run need none of them.
 _PLACES = {
     "Case": "case", "Cells": "cells", "Convergence": "_convergence", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
-    "collapse": "new", "consistent_runs": "_sweep", "convergence": "_convergence", "free_bubble": "new", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run",
-    "shocked_bubble": "new", "stand_off_map": "_sweep", "sweep": "_sweep", "wall_load": "new",
+    "bends": "sweeps", "collapse": "new", "consistent_runs": "sweeps", "convergence": "_convergence",
+    "failures": "sweeps", "free_bubble": "new", "hits": "_hits", "materials": "case", "open": "result",
+    "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "run": "_run", "save_map": "sweeps",
+    "shocked_bubble": "new", "stand_off_map": "sweeps", "sweep": "sweeps", "units": "exchange", "wall_load": "new",
+    "with_uncertainty": "sweeps",
 }
 
 

@@ -1,6 +1,8 @@
-"""`pycav`: the command line of `cav`, and reports.
+"""`pycav`: the command line of `cav`, reports, and runs for other programs.
 
     pycav report RUN_DIR [--out PAGE.html] [--csv DIR]
+    pycav paraview RUN_DIR [--out SCRIPT.py] [--vtu]
+    pycav netcdf RUN_DIR [--out FILE.nc] [--fields NAME ...]
     pycav run CASE ...          as `cav run CASE ...`; likewise check, fluid, solid, materials
 """
 
@@ -8,7 +10,8 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from . import _pycav
 
@@ -21,6 +24,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given[:1] == ["report"]:
         return _report(given[1:])
+    if given[:1] == ["paraview"]:
+        return _paraview(given[1:])
+    if given[:1] == ["netcdf"]:
+        return _netcdf(given[1:])
     return _pycav.main(["pycav", *given], PROGRAM)
 
 
@@ -37,6 +44,40 @@ def _report(given: list[str]) -> int:
     try:
         print(report(options.run, options.out, csv=options.csv))
     except (OSError, ValueError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def _paraview(given: list[str]) -> int:
+    from .paraview import paraview_state
+
+    parser = argparse.ArgumentParser(prog="pycav paraview", description="Write a script that opens a run in ParaView as a report draws it.")
+    parser.add_argument("run", metavar="RUN_DIR", help="directory of a run")
+    parser.add_argument("--out", metavar="SCRIPT.py", help="the script [default: paraview.py in the directory]")
+    parser.add_argument("--vtu", action="store_true", help="write the snapshots as .vtu, for a ParaView before 5.12; needs meshio")
+    options = parser.parse_args(given)
+    return _told(lambda: paraview_state(options.run, options.out, vtu=options.vtu))
+
+
+def _netcdf(given: list[str]) -> int:
+    from .result import Result
+
+    parser = argparse.ArgumentParser(prog="pycav netcdf", description="Write a run as one NetCDF file.")
+    parser.add_argument("run", metavar="RUN_DIR", help="directory of a run")
+    parser.add_argument("--out", metavar="FILE.nc", help="the file [default: run.nc in the directory]")
+    parser.add_argument("--fields", nargs="+", default=[], metavar="NAME", help="fields of the snapshots, on a regular grid")
+    parser.add_argument("--spacing", type=float, metavar="METRES", help="of that grid [default: 128 points along the longer side]")
+    options = parser.parse_args(given)
+    out = Path(options.out) if options.out else Path(options.run) / "run.nc"
+    return _told(lambda: Result(options.run).to_netcdf(out, options.fields, spacing=options.spacing))
+
+
+def _told(write: Callable[[], Path]) -> int:
+    """Writes something and says where; an error is a sentence."""
+    try:
+        print(write())
+    except (OSError, ValueError, ModuleNotFoundError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
     return 0

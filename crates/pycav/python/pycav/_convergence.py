@@ -10,8 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas
-import xarray
 
 from . import _pycav
 from .__main__ import PROGRAM
@@ -19,6 +17,8 @@ from .case import Case
 from .result import Result
 
 if TYPE_CHECKING:
+    import pandas
+    import xarray
     from matplotlib.figure import Figure
 
 RECORD = "convergence.json"
@@ -124,6 +124,8 @@ class Convergence:
         A variable's attributes are `units`, `convergence` and, where there is such a number, `order`, `richardson`, `gci`, `order_used`,
         `safety_factor`, `spread`.
         """
+        import xarray
+
         variables = {}
         for name, number in self.record["numbers"].items():
             values = [float("nan") if value is None else float(value) for value in number["values"]]
@@ -140,6 +142,8 @@ class Convergence:
     def table(self) -> pandas.DataFrame:
         """A row for each number: `unit`, a column for each grid, `convergence`, `order`, `richardson`, `gci`, `uncertainty` (of the finest
         grid, in the number's unit), `spread`."""
+        import pandas
+
         rows = {}
         for name, number in self.record["numbers"].items():
             known = [own for own, value in zip(number["uncertainties"], number["values"]) if value is not None]

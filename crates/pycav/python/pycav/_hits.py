@@ -11,9 +11,9 @@ import numpy as np
 import xarray
 
 from ._run import run
-from ._sweep import _is_complete
 from .case import Case
 from .result import Result, open_run
+from .sweeps.work import is_complete
 
 MEASURES = {
     "pit_depth": "m", "pit_radius": "m", "pit_volume": "m3", "plastic_strain_peak": "1", "plastic_work": "J",
@@ -56,7 +56,7 @@ def hits(
     for hit in range(1, n + 1):
         place = root / f"hit-{hit:0{len(str(n))}d}"
         repeated = _repeated(loading, solid or {}, results[-1].directory if results else None, longest)
-        if not _is_complete(place, repeated):
+        if not is_complete(place, repeated):
             run(repeated, place, threads=threads, force=True)
         results.append(open_run(place))
         if progress is not None:
@@ -75,7 +75,7 @@ def _number(value: Any) -> float:
 def _loading(case: Case | Result | str | os.PathLike[str], place: Path, threads: int | None) -> Result:
     """The run whose load is repeated."""
     if isinstance(case, Case):
-        if not _is_complete(place, case):
+        if not is_complete(place, case):
             run(case, place, threads=threads, force=True)
         return open_run(place)
     return case if isinstance(case, Result) else open_run(case)

@@ -22,6 +22,9 @@ class Case:
     """
 
     _native: _pycav.Case
+    _changes: tuple[str, ...] = ()
+    """What `with_` has changed since the text was read. An effective case would not do in its place: what follows from other keys, as
+    the scales of adaptation, is spelt out there and no longer follows."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self._native = _pycav.Case.load(os.fspath(path))
@@ -49,7 +52,13 @@ class Case:
         values, lists, arrays, dictionaries.
         """
         changes = {**(changes or {}), **more}
-        return self._of(self._native.with_sets([f"{path}={_toml.value(item)}" for path, item in changes.items()]))
+        return self._changed([f"{path}={_toml.value(item)}" for path, item in changes.items()])
+
+    def _changed(self, sets: list[str]) -> Case:
+        """A copy with changes `KEY=VALUE`."""
+        changed = self._of(self._native.with_sets(sets))
+        changed._changes = (*self._changes, *sets)
+        return changed
 
     def with_inflow(
         self,

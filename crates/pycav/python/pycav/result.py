@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any, overload
 
 import h5py
 import numpy as np
-import pandas
-import xarray
 from numpy.typing import NDArray
 
 from . import _toml
 from .case import Case
-from .histories import from_files, probes, text
 from .mesh import Floats, Mesh
 
 if TYPE_CHECKING:
+    import meshio
+    import pandas
     import pyvista
+    import xarray
 
 QUAD = 9  # VTK's number of a quadrilateral
 
@@ -64,6 +64,22 @@ class Snapshot:
         grid.field_data["time"] = [self.time]
         return grid
 
+    def geometry(self) -> tuple[Floats, NDArray[np.int64]]:
+        """Points (z, r, 0), m, shape (points, 3), and the four points of each cell, shape (cells, 4)."""
+        return self._series.geometry(self.step)
+
+    def to_meshio(self) -> meshio.Mesh:
+        """The snapshot with all its fields as meshio has it: x is z, y is r. Needs meshio: `pip install 'pycav[mesh]'`."""
+        from .exchange.meshes import mesh
+
+        return mesh(self)
+
+    def export(self, path: str | os.PathLike[str]) -> Path:
+        """Writes the snapshot in a format of meshio, by the file's ending: `.vtu`, `.xdmf`, `.msh` … Needs meshio."""
+        from .exchange.meshes import export
+
+        return export(self, path)
+
     def __repr__(self) -> str:
         return f"<pycav.Snapshot of the {self._series.medium} at {self.time:.6g} s>"
 
@@ -80,7 +96,7 @@ class Snapshots(Sequence[Snapshot]):
             """s"""
             self.fields: list[str] = list(file["VTKHDF/CellData"])
             self.units: dict[str, str] = {
-                name: text(data.attrs.get("units", "")) for name, data in file["VTKHDF/CellData"].items()}
+                name: _text(data.attrs.get("units", "")) for name, data in file["VTKHDF/CellData"].items()}
         self._mesh: tuple[tuple[int, int], Mesh] | None = None
 
     def __len__(self) -> int:
@@ -105,6 +121,12 @@ class Snapshots(Sequence[Snapshot]):
     def at(self, time: float) -> Snapshot:
         """The snapshot nearest to `time` in s."""
         return Snapshot(self, int(np.argmin(np.abs(self.times - time))))
+
+    def export(self, directory: str | os.PathLike[str]) -> Path:
+        """Writes all snapshots as `.vtu` files with a collection `MEDIUM.pvd`, for a ParaView before 5.12. Needs meshio."""
+        from .exchange.meshes import series
+
+        return series(self, directory)
 
     def field(self, name: str, step: int) -> Floats:
         if name not in self.fields:
@@ -140,6 +162,11 @@ class Snapshots(Sequence[Snapshot]):
         return f"<{len(self)} snapshots of the {self.medium}, 0 to {self.times[-1]:.6g} s>"
 
 
+def _text(value: Any) -> str:
+    """An attribute as a text."""
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
 def _entry(root: Any, name: str, step: int) -> int:
     """An entry of Steps; some of them have a column for each kind of cell, of which there is one."""
     return int(np.ravel(root["Steps"][name][step])[0])
@@ -167,8 +194,9 @@ class Result:
     @functools.cached_property
     def case(self) -> Case:
         """The effective case of the run."""
-        name = self.histories.attrs.get("case_name", "case")
-        return Case.from_toml((self.directory / "case.toml").read_text(), str(name))
+        with h5py.File(self.directory / f"{self.media[0]}.h5", "r") as file:
+            name = _text(file.attrs.get("case_name", "case"))
+        return Case.from_toml((self.directory / "case.toml").read_text(), name)
 
     @functools.cached_property
     def parameters(self) -> dict[str, Any]:
@@ -183,12 +211,50 @@ class Result:
     @functools.cached_property
     def histories(self) -> xarray.Dataset:
         """All histories with units and times as coordinates, by the names of docs/reference/output-histories.md: `bubble/volume`."""
+        from .histories import from_files
+
         return from_files([self.directory / f"{medium}.h5" for medium in self.media])
 
     @functools.cached_property
     def probes(self) -> dict[str, xarray.Dataset]:
         """The histories of each probe by its name, with the coordinate `time`."""
+        from .histories import probes
+
         return probes(self.histories)
+
+    def to_xarray(
+        self,
+        fields: Sequence[str] = (),
+        *,
+        spacing: float | None = None,
+        window: tuple[float, float, float] | None = None,
+    ) -> xarray.Dataset:
+        """The run as one dataset by the CF conventions, that needs no pycav to be read.
+
+        Histories have flat names, as `bubble_volume` and `interface_pressure`, with `units` and `long_name`; attributes of the dataset
+        are program, revision, case with its hash, date, and the summary as JSON.
+
+        - `fields`: of the snapshots, as `pressure` and `von_mises`, besides: over `snapshot_time`, `z_fluid` and `r_fluid` (or
+          `z_solid`, `r_solid`), named `fluid_pressure` and so on; of vectors the two components.
+        - `spacing`: of their regular grid, m; 128 points along the longer side if left out. Values are linear within each cell.
+        - `window`: (z_low, z_high, r_high), m.
+        """
+        from .exchange.dataset import dataset
+
+        return dataset(self, fields, spacing, window)
+
+    def to_netcdf(
+        self,
+        path: str | os.PathLike[str],
+        fields: Sequence[str] = (),
+        *,
+        spacing: float | None = None,
+        window: tuple[float, float, float] | None = None,
+    ) -> Path:
+        """Writes what `to_xarray` returns as one file of NetCDF-4."""
+        from .exchange.dataset import write
+
+        return write(self.to_xarray(fields, spacing=spacing, window=window), path)
 
     @functools.cached_property
     def fluid(self) -> Snapshots:
@@ -212,6 +278,8 @@ class Result:
 
         The solid has steps of its own; its columns are linear in between.
         """
+        import pandas
+
         times = self.histories["time"].to_numpy()
         columns = {}
         for name, data in self.histories.data_vars.items():
@@ -227,6 +295,8 @@ class Result:
     @property
     def key_numbers(self) -> pandas.DataFrame:
         """The peaks of the summary with their times: columns `value`, `unit`, `time` (s)."""
+        import pandas
+
         known = [row for row in KEY_NUMBERS if self.summary.get(row[0]) is not None
                  and not (row[0] == "yielded_volume_peak" and self.summary.get("yield_strength") is None)]
         rows = {name: (self.summary[name], unit, self.summary.get(time)) for name, unit, time in known}

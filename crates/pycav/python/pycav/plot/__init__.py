@@ -9,6 +9,7 @@ perceptually uniform and safe for the colour-blind.
 from .across import interface_continuity
 from .close_up import close_up
 from .convergence import convergence
+from .damage import damage_map, sweep_lines
 from .flow import pathlines, streamlines
 from .maps import pit_map, stand_off_map
 from .overtime import histories, space_time
@@ -22,7 +23,7 @@ from .waves import schlieren
 from .yielding import yield_function
 
 __all__ = [
-    "Window", "close_up", "convergence", "default_time", "grid_levels", "histories", "interface_continuity", "overview",
+    "Window", "close_up", "convergence", "damage_map", "default_time", "grid_levels", "histories", "interface_continuity", "overview",
     "pathlines", "pit", "pit_map", "plastic_strain", "schlieren", "space_time", "stand_off_map", "streamlines", "volume",
     "yield_function",
 ]

@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ..mesh import Floats
@@ -18,6 +19,8 @@ SHOWN = [
 LENGTHS = {"pit_depth": "depth of the pit", "pit_radius": "radius at half depth", "pit_rim": "height of the rim"}
 MOVES, STEEP = 0.1, 0.05
 """Where a pit's field is marked: `surface_still`, and depth over radius; beyond the latter a run warns, too."""
+UNSURE = 0.5
+"""A field is hatched where the uncertainty is more than this share of it."""
 COLOURS, MARKS = (BLUE, ORANGE, GREEN, PINK, INK, GREY), "osD^vP"
 
 
@@ -25,16 +28,19 @@ COLOURS, MARKS = (BLUE, ORANGE, GREEN, PINK, INK, GREY), "osD^vP"
 def stand_off_map(data: xarray.Dataset) -> Figure:
     """Wall-pressure peak, impulse, von Mises peak and yielded volume over the stand-off, a line for every material.
 
-    - `data`: what `pycav.stand_off_map` returned.
+    - `data`: what `pycav.stand_off_map` returned; with error bars where `pycav.with_uncertainty` has said how sure it is.
     """
     distance = data["stand_off"].to_numpy()
     figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True).ravel()
     for axes, (name, label, unit) in zip(panels, SHOWN):
         values = data[name].transpose("stand_off", "solid.material").to_numpy()
+        off = data[f"{name}_uncertainty"].transpose("stand_off", "solid.material").to_numpy() if f"{name}_uncertainty" in data else None
         for column, material in enumerate(data["solid.material"].to_numpy()):
             axes.plot(distance, values[:, column], color=COLOURS[column % 6], marker=MARKS[column % 6], markersize=4,
                       label=str(material))
+            if off is not None:
+                axes.errorbar(distance, values[:, column], off[:, column], color=COLOURS[column % 6], linestyle="none", capsize=2)
         largest = float(np.nanmax(values)) if np.isfinite(values).any() else 0.0
         if unit == "m$^3$":
             scale, letter = prefix(largest ** (1 / 3))  # of a length, whose cube the volume is
@@ -55,7 +61,8 @@ def pit_map(data: xarray.Dataset, quantity: str = "pit_depth") -> Figure:
 
     Materials are rows, the one of the largest value on top; columns reach half way to the next stand-off. A field where nothing
     stays says so, as does one whose run failed. Marks: ≈ where the surface still moves by more than a tenth of the depth,
-    * where the pit is deeper than a twentieth of its radius, which is much for the small strains of the model.
+    * where the pit is deeper than a twentieth of its radius, which is much for the small strains of the model; hatched where the
+    uncertainty of `pycav.with_uncertainty` is more than half of the value.
 
     - `data`: a sweep over `stand_off` and `solid.material` with a law of hardening, as of `pycav.stand_off_map`.
     - `quantity`: `pit_depth`, `pit_radius`, or `pit_rim`.
@@ -81,13 +88,18 @@ def pit_map(data: xarray.Dataset, quantity: str = "pit_depth") -> Figure:
     shown = np.ma.masked_array(values, ~(stays & (values > 0)))
     low, high = (float(shown.min()), float(shown.max())) if shown.count() else (1e-6, 1e-6)
     norm = LogNorm(0.999 * low, 1.001 * high)
-    drawn = axes.pcolormesh(_edges(distance), np.arange(len(names) + 1), shown, norm=norm, cmap=part_of("YlOrRd", 0.0, 0.9),
+    edges = _edges(distance)
+    unsure = (~(data[f"{quantity}_uncertainty"] <= UNSURE * data[quantity])).to_numpy() if f"{quantity}_uncertainty" in data else stays & False
+    drawn = axes.pcolormesh(edges, np.arange(len(names) + 1), shown, norm=norm, cmap=part_of("YlOrRd", 0.0, 0.9),
                             edgecolors=WHITE, linewidth=1.0)
     for row, column in np.ndindex(values.shape):
         value, here = float(values[row, column]), (row, column)
         says = "failed" if np.isnan(depth[here]) else "no pit" if not stays[here] else (
             "≈ " * bool(moves[here]) + rounded(value, "m") + "*" * bool(steep[here]))
         dark = stays[here] and norm(value) > 0.6
+        if stays[here] and unsure[here]:
+            left, right = float(edges[column]), float(edges[column + 1])
+            axes.add_patch(Rectangle((left, row), right - left, 1, fill=False, hatch="////", edgecolor="0.55", linewidth=0))
         axes.text(float(distance[column]), row + 0.5, says, ha="center", va="center", fontsize=8, color=WHITE if dark else INK)
     axes.set_yticks(np.arange(len(names)) + 0.5, names)
     axes.set_xticks(distance, [number(value) for value in distance])

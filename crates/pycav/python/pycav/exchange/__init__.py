@@ -1,0 +1,5 @@
+"""Runs for other programs: xarray, NetCDF, pint, meshio."""
+
+from .quantities import units
+
+__all__ = ["units"]

@@ -1,0 +1,94 @@
+"""The points of a sweep: which case is run where."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import _toml
+from ..case import Case
+
+STAND_OFF = "stand_off"
+
+Point = dict[str, Any]
+Change = Callable[[Point], Mapping[str, Any]]
+"""What else changes with a point, by the keys of `Case.with_`."""
+
+UNITS = {
+    STAND_OFF: "1", "pressure": "Pa", "density": "kg/m3", "radius": "m", "end": "s", "yield_strength": "Pa", "pi": "Pa",
+    "hardening_modulus": "Pa", "amplitude": "Pa", "width": "m", "gamma": "1", "levels": "1", "cfl": "1", "young": "Pa",
+    "poisson": "1", "c1": "m/s", "c2": "m/s", "gravity": "m/s2", "rise_time": "s", "rate_coefficient": "1",
+}
+"""Units of what one sweeps over, by the last word of the key."""
+
+
+class Axes:
+    """The values of each parameter, and all their combinations, the last parameter fastest."""
+
+    def __init__(self, parameters: Mapping[str, Sequence[Any]]) -> None:
+        self.names = list(parameters)
+        self.lists = [list(parameters[name]) for name in self.names]
+        if not self.names or not all(self.lists):
+            raise ValueError("a sweep needs parameters with one value or more each")
+        self.shape = tuple(len(values) for values in self.lists)
+        self.points: list[Point] = [dict(zip(self.names, values)) for values in itertools.product(*self.lists)]
+
+    def places(self, root: Path) -> list[Path]:
+        """The run directory of each point: a name that people can read and no two points share."""
+        numbers = itertools.product(*(range(len(values)) for values in self.lists))
+        return [root / _slug(point, own) for point, own in zip(self.points, numbers)]
+
+    def coordinates(self) -> dict[str, Any]:
+        """The parameters as coordinates; what is no number or text, as a material of one's own, by its number in the list."""
+        found: dict[str, Any] = {}
+        for name, values in zip(self.names, self.lists):
+            plain = [value if is_plain(value) else number for number, value in enumerate(values)]
+            attributes = {"long_name": "stand-off d/R" if name == STAND_OFF else name}
+            if all(isinstance(value, (int, float, np.number)) for value in values):
+                unit = UNITS.get(name.rpartition(".")[2])
+                attributes |= {"units": unit} if unit else {}
+            found[name] = ((name,), plain, attributes)
+        return found
+
+
+def is_plain(value: Any) -> bool:
+    return isinstance(value, (str, int, float, np.number)) and not isinstance(value, bool)
+
+
+def _slug(point: Point, numbers: Sequence[int]) -> str:
+    words = []
+    for (name, value), number in zip(point.items(), numbers):
+        shown = re.sub(r"[^A-Za-z0-9.+-]+", "-", str(value)) if is_plain(value) else str(number)
+        words.append(f"{name.rpartition('.')[2]}={shown}")
+    return ",".join(words)
+
+
+def at_point(case: Case, point: Mapping[str, Any], change: Change | None = None) -> Case:
+    """The case at a point of a sweep."""
+    changes = {name: value for name, value in point.items() if name != STAND_OFF}
+    if change is not None:
+        changes |= change(dict(point))
+    changed = case.with_(changes) if changes else case
+    if STAND_OFF not in point:
+        return changed
+    effective = _toml.parse(changed.to_toml())
+    region, wall = effective["fluid"]["region"][0], effective["fluid"]["z"][0]
+    if "radius" not in region:
+        raise ValueError("stand_off needs a sphere as the case's first region")
+    return changed.with_({"fluid.region.0.centre": [wall + float(point[STAND_OFF]) * region["radius"], region["centre"][1]]})
+
+
+def in_words(point: Mapping[str, Any]) -> str:
+    """A point on one line."""
+    return ", ".join(f"{name.rpartition('.')[2]} {_short(value)}" for name, value in point.items())
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return str(value.get("name", "of its own"))
+    return f"{value:g}" if isinstance(value, (float, np.floating)) else str(value)

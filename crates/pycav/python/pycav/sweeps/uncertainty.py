@@ -1,0 +1,140 @@
+"""How sure a map is: the same points on other grids."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray
+
+from ..mesh import Floats
+from .dataset import numeric, opened
+
+KINDS = ("interpolated", "monotone", "oscillatory", "divergent", "oscillatory-divergent", "coincident", "unchanged", "two-grids", "unknown")
+"""What the values of a point on several grids do; the words of docs/convergence.md, and `interpolated` between such points."""
+
+SAFETY, SAFETY_OF_TWO, ORDERS, ROUND_OFF = 1.25, 3.0, (0.5, 2.0), 1e-12
+
+
+class Estimate(NamedTuple):
+    """The uncertainty of a value on one of the grids, in its own unit, and what the values do."""
+
+    uncertainty: float
+    kind: str
+
+
+def with_uncertainty(
+    data: xarray.Dataset | str | os.PathLike[str],
+    *others: xarray.Dataset | str | os.PathLike[str],
+    quantities: Sequence[str] = ("pit_depth", "wall_impulse", "wall_pressure_peak", "plastic_strain_peak"),
+) -> xarray.Dataset:
+    """A map with what its numbers are off by, from maps of some of its points on finer and coarser grids.
+
+    At a point that the others have, too, the uncertainty is the grid-convergence index times the value, by the rules of `pycav.convergence`:
+    three grids give an order, two assume the second, with a safety factor of 3. Where three values have no order it is their
+    spread, largest minus smallest, or half of it if they oscillate. In between, the *share* of the value is interpolated linearly over
+    numeric parameters, and beyond them the nearest counts; for a text that the others lack, the largest of all.
+
+    - `data`: a dataset of `sweep`, or its file; `others`: sweeps over some of the same values, with other cells per radius.
+    - `quantities`: which numbers; those that the map lacks are passed over.
+
+    Each gets `NAME_uncertainty`, in its unit, and `NAME_convergence`, flags as of CF. NaN where nothing is known: at failed points, and
+    where all shares are of a value of 0.
+    """
+    maps = [opened(data), *(opened(other) for other in others)]
+    if len(maps) < 2:
+        raise ValueError("an uncertainty needs the map on two grids or more")
+    for other in maps[1:]:
+        _same_axes(maps[0], other)
+    result = maps[0].copy()
+    for name in quantities:
+        if all(name in own for own in maps):
+            _add(result, name, maps)
+    return result
+
+
+def _same_axes(data: xarray.Dataset, other: xarray.Dataset) -> None:
+    names = list(data["status"].dims)
+    if set(other["status"].dims) != set(names):
+        raise ValueError(f"the maps are over other parameters: {', '.join(map(str, names))} and {', '.join(map(str, other['status'].dims))}")
+    if any(not set(other[name].to_numpy()) & set(data[name].to_numpy()) for name in names):
+        raise ValueError("the maps have no point in common")
+
+
+def _add(result: xarray.Dataset, name: str, maps: Sequence[xarray.Dataset]) -> None:
+    axes = [str(axis) for axis in maps[0][name].dims]
+    common = {axis: [value for value in maps[0][axis].to_numpy() if all(value in own[axis].to_numpy() for own in maps[1:])]
+              for axis in axes}
+    parts = [own[[name, "cells_per_radius"]].sel(common).transpose(*axes) for own in maps]
+    values = np.array([part[name].to_numpy() for part in parts])
+    cells = np.array([part["cells_per_radius"].to_numpy() for part in parts])
+    shape = values.shape[1:]
+    share, kinds = np.full(shape, np.nan), np.zeros(shape, np.int8)
+    absolute = np.full(shape, np.nan)
+    for index in np.ndindex(shape):
+        at = (slice(None), *index)
+        estimate = estimated(values[at], cells[at])
+        absolute[index], kinds[index] = estimate.uncertainty, KINDS.index(estimate.kind)
+        if values[(0, *index)] != 0.0:
+            share[index] = abs(estimate.uncertainty / values[(0, *index)])
+    whole = _spread_out(result, common, axes, share)
+    uncertainty: xarray.DataArray = abs(result[name].transpose(*axes)) * whole
+    flags = xarray.zeros_like(uncertainty, dtype=np.int8)
+    uncertainty.loc[common] = absolute
+    flags.loc[common] = kinds
+    label = result[name].attrs.get("long_name", name)
+    uncertainty.attrs = {"units": result[name].attrs.get("units", "1"), "long_name": f"uncertainty of {label}, by other grids"}
+    flags.attrs = {"flag_values": np.arange(len(KINDS), dtype=np.int8), "flag_meanings": " ".join(kind.replace("-", "_") for kind in KINDS),
+                   "long_name": f"what {label} does on finer grids"}
+    result[f"{name}_uncertainty"], result[f"{name}_convergence"] = uncertainty, flags
+    result[name].attrs["ancillary_variables"] = f"{name}_uncertainty {name}_convergence"
+
+
+def _spread_out(result: xarray.Dataset, common: dict[str, list[Any]], axes: Sequence[str], share: Floats) -> xarray.DataArray:
+    """The share at every point of the map, from where it is known."""
+    if np.isfinite(share).any():
+        share = np.where(np.isfinite(share), share, np.nanmax(share))
+    for number, axis in enumerate(axes):
+        wanted, have = result[axis].to_numpy(), np.array(common[axis])
+        if axis in numeric(result):
+            order = np.argsort(have.astype(float))
+            own = np.moveaxis(share, number, -1)[..., order]
+            spread = np.apply_along_axis(lambda row: np.interp(wanted.astype(float), have[order].astype(float), row), -1, own)
+            share = np.moveaxis(spread, -1, number)
+        else:
+            rows = [share.take(list(have).index(value), number) if value in have else share.max(number) for value in wanted]
+            share = np.stack(rows, number)
+    return xarray.DataArray(share, {axis: result[axis] for axis in axes}, list(axes))
+
+
+def estimated(values: Sequence[float] | Floats, cells: Sequence[float] | Floats) -> Estimate:
+    """The uncertainty of the first of some values, each with its cells per radius: the rules of docs/convergence.md.
+
+    With f₃, f₂, f₁ on grids of ratio r: p = ln((f₃ − f₂)/(f₂ − f₁))/ln r, kept within 0.5 to 2, GCI = F |f₂ − f₁|/(r^p − 1), and on
+    a coarser grid r^p times as much (Roache, J. Fluids Eng. 116, 405, 1994).
+    """
+    own = float(cells[0])
+    rows = sorted({(float(cell), float(value)) for cell, value in zip(cells, values) if np.isfinite(value) and np.isfinite(cell)})
+    if not np.isfinite(values[0]) or len({cell for cell, _ in rows}) < 2:
+        return Estimate(float("nan"), "unknown")
+    (_, coarse), (cell_2, f2), (cell_1, f1) = ([(0.0, float("nan"))] + rows)[-3:]
+    fine = f1 - f2
+    if len(rows) < 3:
+        return Estimate(_of_order(abs(fine), cell_1 / cell_2, 2.0, SAFETY_OF_TWO, cell_1 / own), "two-grids")
+    before, ratio = f2 - coarse, cell_1 / cell_2
+    small = ROUND_OFF * max(abs(f1), abs(f2), abs(coarse))
+    if abs(fine) <= small:
+        return Estimate(0.0 if own >= cell_2 else abs(before), "unchanged" if abs(before) <= small else "coincident")
+    spread = max(f1, f2, coarse) - min(f1, f2, coarse)
+    if abs(fine) >= abs(before):
+        return Estimate(spread, "divergent" if fine * before > 0 else "oscillatory-divergent")
+    if fine * before < 0:
+        return Estimate(0.5 * spread, "oscillatory")
+    order = min(max(float(np.log(before / fine) / np.log(ratio)), ORDERS[0]), ORDERS[1])
+    return Estimate(_of_order(abs(fine), ratio, order, SAFETY, cell_1 / own), "monotone")
+
+
+def _of_order(difference: float, ratio: float, order: float, safety: float, coarser: float) -> float:
+    return float(safety * difference / (ratio**order - 1.0) * coarser**order)
