@@ -155,6 +155,11 @@ class Tab:
                            " const b = e.getBoundingClientRect(); return {x: b.x, y: b.y, width: b.width, height: b.height}; })()")
         return dict(found)
 
+    def as_printed(self, dark: bool = False) -> None:
+        """Shows the page as paper has it, whatever the screen is like."""
+        self._ask("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        self.value("new Promise(done => setTimeout(() => done('ready'), 100))")
+
     def draw(self, picture: Path) -> None:
         """A picture of the whole page."""
         picture.write_bytes(base64.b64decode(self._ask("Page.captureScreenshot", captureBeyondViewport=True)["data"]))

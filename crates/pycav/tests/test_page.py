@@ -37,6 +37,11 @@ def test_the_report_is_whole_in_a_browser(width, dark, page):
         # Nothing reaches out of the window.
         wide = tab.value("[...document.body.querySelectorAll('*')].filter(e => e.getBoundingClientRect().right > innerWidth + 1).length")
         assert wide == 0
+        tab.as_printed(dark)
+        assert tab.value("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+        assert tab.value("getComputedStyle(document.querySelector('.stage canvas')).filter") == "none"
+        assert tab.value("getComputedStyle(document.querySelector('.clock input')).display") == "none"
+        assert tab.seen().faults == []
 
 
 def test_the_report_on_a_fluid_alone_is_whole_in_a_browser(root, tmp_path):

@@ -85,7 +85,7 @@ class Chart {
 
   draw() {
     const width = this.figure.clientWidth - 2;
-    if (width <= 0) return;
+    if (width < 150) return; // not laid out yet
     const {left, right, top, bottom, height} = FRAME, span = this.span, [low, high] = this.heights();
     this.width = width;
     this.x = place => left + (place - span.low) / (span.high - span.low) * (width - left - right);

@@ -103,7 +103,7 @@ class Viewer {
   /** Sizes of everything for the width there is. */
   layOut() {
     const [low, high, left, right] = this.extent, width = this.place.clientWidth;
-    if (!width) return;
+    if (width < 150) return; // not laid out yet
     let across = width - MARGIN.left - MARGIN.right, up = across * (high - low) / (right - left);
     const tallest = Math.max(300, Math.min(680, 0.82 * window.innerHeight));
     this.isStretched = (high - low) > 6 * (right - left) || (right - left) > 12 * (high - low);
