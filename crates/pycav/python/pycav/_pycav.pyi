@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Case", "CaseError", "CouplingError", "FluidSolver", "InternalError", "NumericalError", "OutputError", "RunError",
-    "Simulation", "SolidSolver", "convergence", "main", "materials", "run_in_processes",
+    "Simulation", "SolidSolver", "convergence", "main", "materials", "new_collapse", "new_free_bubble", "new_shocked_bubble",
+    "new_wall_load", "run_in_processes",
 ]
 
 _Array = NDArray[np.float64]
