@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Pits and plastic strains that others have published or computed, beside this program's: docs/damage.md's tables.
+"""Pits and plastic strains that others have published or computed, beside this program's: docs/verification/pits.md's tables.
 
     python3 scripts/published_pits.py [plateau] [loads] [ratios] [--out DIR] [--cells 20] [--levels 4]
 

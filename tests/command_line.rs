@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 mod fixture;
 #[path = "command_line/left.rs"]
 mod left;
+#[path = "command_line/shown.rs"]
+mod shown;
 
 use fixture::{probe, small};
 use left::summary;
@@ -235,7 +237,8 @@ fn a_finished_run_is_replaced_only_by_force() {
 fn without_arguments_it_says_what_to_type_next() {
     let workshop = Workshop::new();
     let said = text(&good_run(&workshop, &[]));
-    for fragment in ["What to type next", "run cases/dickopp2012-coarse.toml", "check", "materials", "--help"]
+    for fragment in
+        ["What to type next", "run cases/collapse.toml", "cav new", "check", "materials", "--help"]
     {
         assert!(said.contains(fragment), "{said}");
     }

@@ -1,4 +1,4 @@
-//! Hostile input for some seconds: the corpus, and random changes of it. For hours: `fuzz/`, see docs/reliability.md.
+//! Hostile input for some seconds: the corpus, and random changes of it. For hours: `fuzz/`, see docs/verification/faults.md.
 
 // How many inputs were tried is told.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]

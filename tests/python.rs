@@ -1,7 +1,9 @@
-//! The Python package: built and installed into a virtual environment of its own, and tested there by its own tests.
+//! What is done with Python, in a virtual environment that is made once: the package is built, installed and tested there by its
+//! own tests; the book of `docs` is built, and what it tells people to type is run.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, OnceLock};
 
 /// Runs a command and fails with what it printed if it fails.
 fn run(what: &str, command: &mut Command) {
@@ -44,9 +46,20 @@ fn needed(project: &Path) -> Vec<String> {
     entries.map(|entry| entry.as_str().expect("a requirement").to_owned()).collect()
 }
 
-#[test]
-fn the_package_installs_from_source_and_passes_its_tests() {
-    let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/pycav");
+/// Both tests keep all cores busy: they take turns.
+static TURN: Mutex<()> = Mutex::new(());
+
+/// The Python of a virtual environment with the package, its tests' packages and the book's. It is made by the test that comes first.
+fn python() -> &'static Path {
+    static PYTHON: OnceLock<PathBuf> = OnceLock::new();
+    PYTHON.get_or_init(|| environment(&root().join("crates/pycav"), &root().join("docs/requirements.txt")))
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn environment(package: &Path, books: &Path) -> PathBuf {
     let (target, profile) = target();
     let environment = target.join("python");
     let python = environment.join("bin/python");
@@ -56,7 +69,7 @@ fn the_package_installs_from_source_and_passes_its_tests() {
     let pip = |arguments: &[&str]| {
         let mut pip = command(&python);
         pip.args(["-m", "pip", "--quiet", "--disable-pip-version-check"]).args(arguments);
-        pip.current_dir(&package).env("CARGO_TARGET_DIR", &target);
+        pip.current_dir(package).env("CARGO_TARGET_DIR", &target);
         // By itself it would be the release profile, for which every dependency would be compiled once more.
         pip.env("MATURIN_PEP517_ARGS", format!("--profile {profile}"));
         run("pip", &mut pip);
@@ -67,16 +80,51 @@ fn the_package_installs_from_source_and_passes_its_tests() {
     std::thread::scope(|scope| {
         scope.spawn(|| pip(&["wheel", "--no-deps", "--wheel-dir", directory, "."]));
         let needed = needed(&package.join("pyproject.toml"));
-        pip(&[&["install"], &*needed.iter().map(String::as_str).collect::<Vec<_>>()].concat());
+        let books = books.to_str().expect("a path in UTF-8");
+        pip(&[&["install", "-r", books], &*needed.iter().map(String::as_str).collect::<Vec<_>>()].concat());
     });
     let wheel = std::fs::read_dir(directory).expect("wheels").flatten().next().expect("a wheel").path();
     // Of that name and version another one may be there.
     pip(&["install", "--force-reinstall", "--no-deps", &wheel.to_string_lossy()]);
     pip(&["install", &format!("{}[test]", wheel.display())]);
-    let mut tests = command(&python);
-    // Type checkers, browsers and runs side by side: most of them keep one core busy.
-    tests.args(["-m", "pytest", "-q", "--color=no", "-p", "no:cacheprovider"]).current_dir(&package);
+    python
+}
+
+/// The Python tests of a directory. Type checkers, browsers and runs side by side: most of them keep one core busy.
+fn pytest(directory: &Path) {
+    let mut tests = command(python());
+    tests.args(["-m", "pytest", "-q", "--color=no", "-p", "no:cacheprovider"]).current_dir(directory);
     tests.args(["-n", "2", "--dist", "worksteal"]);
     tests.env("CAV_BINARY", env!("CARGO_BIN_EXE_cav"));
     run("pytest", &mut tests);
+}
+
+#[test]
+fn the_package_installs_from_source_and_passes_its_tests() {
+    let _turn = TURN.lock();
+    pytest(&root().join("crates/pycav"));
+}
+
+#[test]
+fn the_book_builds_its_notebooks_run_and_so_does_what_its_pages_say() {
+    let _turn = TURN.lock();
+    pytest(&root().join("docs/check"));
+    let mut book = command(python());
+    // All pages anew, two at a time, notebooks run whatever was kept of them; a warning is an error.
+    book.args([
+        "-m",
+        "sphinx",
+        "-W",
+        "--keep-going",
+        "-q",
+        "-a",
+        "-E",
+        "-j",
+        "2",
+        "-D",
+        "nb_execution_mode=force",
+        "docs",
+    ]);
+    book.arg(target().0.join("book")).current_dir(root());
+    run("building the book", &mut book);
 }

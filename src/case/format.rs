@@ -21,10 +21,10 @@ pub(super) fn duration(seconds: f64) -> String {
     }
 }
 
-/// A value with a prefix: `65.7 us`, `250 MPa`.
-pub(super) fn si(value: f64, unit: &str) -> String {
+/// A value with a prefix: `65.7 µs`, `250 MPa`.
+pub(crate) fn si(value: f64, unit: &str) -> String {
     const PREFIXES: [(f64, &str); 8] =
-        [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p")];
+        [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")];
     let (scale, prefix) = PREFIXES
         .into_iter()
         .find(|(scale, _)| value.abs() >= *scale * 0.99995)
@@ -66,10 +66,10 @@ mod tests {
 
     #[test]
     fn prefixes() {
-        assert_eq!(si(65.7e-6, "s"), "65.7 us");
+        assert_eq!(si(65.7e-6, "s"), "65.7 µs");
         assert_eq!(si(250e6, "Pa"), "250 MPa");
         assert_eq!(si(1e-3, "m"), "1 mm");
-        assert_eq!(si(195.3125e-6, "m"), "195.3 um");
+        assert_eq!(si(195.3125e-6, "m"), "195.3 µm");
         assert_eq!(si(0.0, "m"), "0 m");
         assert_eq!(plain(999.9734, "kg/m3"), "999.9734 kg/m3");
         assert_eq!(plain(1.0, "kg/m3"), "1 kg/m3");

@@ -5,10 +5,11 @@
 //! measured peaks see docs/reference/cases.md.
 
 use fluid::{InitialPressure, RayleighField};
-use mesh::{BLOCK, Domain};
+use mesh::BLOCK;
 
 use super::format::mebibytes;
-use super::{Case, CaseError, CaseErrors, FluidCase, GridCase, SolidCase};
+use super::start_grid::least_cells;
+use super::{Case, CaseError, CaseErrors, FluidCase, GridCase, Medium, SolidCase};
 
 /// A process without any cells, bytes: program, libraries, threads and their scratch, histories.
 const PROCESS: f64 = 28.0 * MEBI;
@@ -112,9 +113,7 @@ impl Case {
     pub fn fluid_memory(&self) -> Option<Memory> {
         let fluid = self.fluid.as_ref()?;
         let cells = self.output.interface_cells.unwrap_or(fluid.grid.finest()[1]);
-        let least = least_cells(self, &fluid.grid, |low, high, widths| {
-            fluid.initial.asks_for_finer(low, high, widths)
-        });
+        let least = least_cells(self, Medium::Fluid);
         let row = NUMBER * (1 + 3 * cells) as f64;
         Some(
             Memory::of(of_fluid(fluid), &fluid.grid, self.time.local_steps, least, row).with(of_field(fluid)),
@@ -124,7 +123,7 @@ impl Case {
     /// The solid's memory.
     pub fn solid_memory(&self) -> Option<Memory> {
         let solid = self.solid.as_ref()?;
-        let least = least_cells(self, &solid.grid, |_, _, _| false);
+        let least = least_cells(self, Medium::Solid);
         // Its initial stress carries the fluid's pressure.
         let field = self.fluid.as_ref().map_or(0.0, of_field);
         Some(Memory::of(of_solid(solid), &solid.grid, self.time.local_steps, least, 0.0).with(field))
@@ -165,49 +164,6 @@ impl Case {
     }
 }
 
-/// Cells that a grid has at the start at least: where level bounds, and what `asks` for finer ones (a block's corners and the
-/// widths of its cells), want them. More than any machine can hold are not counted on.
-fn least_cells(case: &Case, grid: &GridCase, asks: impl Fn([f64; 2], [f64; 2], [f64; 2]) -> bool) -> f64 {
-    const ENOUGH: usize = 1 << 22;
-    let in_block = (BLOCK * BLOCK) as f64;
-    let Some(adaptation) = &grid.adaptation else { return grid.cell_count() as f64 };
-    let (roots, finest) = (grid.root_level(), grid.levels);
-    let [along_z, along_r] = grid.cells_on(roots).map(|cells| cells / BLOCK);
-    let domain = Domain { geometry: case.geometry, z: grid.z, r: grid.r };
-    let is_refined = |level: usize, [i, j]: [usize; 2]| {
-        let cells = grid.cells_on(level);
-        let widths = [(grid.z[1] - grid.z[0]) / cells[0] as f64, (grid.r[1] - grid.r[0]) / cells[1] as f64];
-        let low = [grid.z[0] + (i * BLOCK) as f64 * widths[0], grid.r[0] + (j * BLOCK) as f64 * widths[1]];
-        let high = [low[0] + BLOCK as f64 * widths[0], low[1] + BLOCK as f64 * widths[1]];
-        let mut wanted = if asks(low, high, widths) { finest } else { roots };
-        for bound in adaptation.bounds.iter().filter(|bound| bound.zone.meets(low, high, widths, &domain)) {
-            wanted = wanted.max(usize::from(bound.at_least)).min(usize::from(bound.at_most));
-        }
-        wanted > level
-    };
-    let mut blocks = along_z.saturating_mul(along_r);
-    if blocks > ENOUGH {
-        return blocks as f64 * in_block;
-    }
-    // Depth first: at most three blocks wait on each level.
-    let mut waiting: Vec<(usize, [usize; 2])> = Vec::new();
-    for root in 0..along_z * along_r {
-        waiting.push((roots, [root % along_z, root / along_z]));
-        while let Some((level, [i, j])) = waiting.pop() {
-            if level < finest && is_refined(level, [i, j]) {
-                blocks += 3;
-                waiting.extend(
-                    [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[a, b]| (level + 1, [2 * i + a, 2 * j + b])),
-                );
-            }
-            if blocks > ENOUGH {
-                return blocks as f64 * in_block;
-            }
-        }
-    }
-    blocks as f64 * in_block
-}
-
 /// What the kernel says is available, bytes; unknown on systems that do not say.
 pub fn available_memory() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
@@ -243,13 +199,7 @@ mod tests {
 
     #[test]
     fn an_adaptive_grid_begins_with_what_its_regions_and_bounds_ask_for() {
-        let cells = |sets: &[&str]| {
-            let case = case(sets);
-            let fluid = case.fluid.as_ref().unwrap();
-            least_cells(&case, &fluid.grid, |low, high, widths| {
-                fluid.initial.asks_for_finer(low, high, widths)
-            })
-        };
+        let cells = |sets: &[&str]| least_cells(&case(sets), Medium::Fluid);
         assert_eq!(cells(&["fluid.adapt=false"]), 65536.0);
         let edge = cells(&[]);
         assert!(edge > 4096.0 && edge < 32768.0, "{edge}");

@@ -1,4 +1,4 @@
-//! The record of a study, `convergence.json`; docs/output.md says what is in it.
+//! The record of a study, `convergence.json`; docs/reference/output-summary.md says what is in it.
 
 use serde_json::{Map, Value, json};
 

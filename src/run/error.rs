@@ -121,6 +121,9 @@ pub enum RunError {
     /// Output could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The run is complete, its report is not.
+    #[error("the run is complete, but not its report: {0}")]
+    Report(String),
     /// A thread pool or a process could not be started.
     #[error("cannot start {what}: {source}")]
     Start {
@@ -144,7 +147,7 @@ impl RunError {
         if case.coupling.scheme == Scheme::External { Err(Self::PeerIsElsewhere { side }) } else { Ok(()) }
     }
 
-    /// The process's exit code, see `docs/command-line.md`.
+    /// The process's exit code, see `docs/reference/command-line.md`.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Case(_)
@@ -160,7 +163,7 @@ impl RunError {
             Self::Coupler(CouplerError::NoState { .. }) => 3,
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => 3,
             Self::Coupler(_) | Self::Start { .. } => 4,
-            Self::Output(_) | Self::Memory { .. } => 5,
+            Self::Output(_) | Self::Memory { .. } | Self::Report(_) => 5,
             Self::Child { code, .. } => *code,
             Self::Interrupted => 130,
             Self::Terminated => 143,
@@ -171,7 +174,7 @@ impl RunError {
     pub fn fault(&self) -> Fault {
         match self {
             Self::Fluid(_) | Self::Solid(_) | Self::TimeStepCollapsed { .. } => Fault::Numerical,
-            Self::Output(_) | Self::Directory(_) | Self::Memory { .. } => Fault::Output,
+            Self::Output(_) | Self::Directory(_) | Self::Memory { .. } | Self::Report(_) => Fault::Output,
             Self::Coupler(CouplerError::NoState { .. }) => Fault::Numerical,
             Self::Coupler(_) => Fault::Protocol,
             Self::Interrupted | Self::Terminated => Fault::Stopped,

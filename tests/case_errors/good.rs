@@ -324,11 +324,11 @@ fn the_report_knows_the_papers_case() {
     says(
         &report,
         &[
-            "256 x 256 = 65536 cells of 195.3 um",
+            "256 x 256 = 65536 cells of 195.3 µm",
             "256 blocks of 16 x 16",
             "51.2 cells per radius",
             "stand-off d/R = 2.000",
-            "Rayleigh collapse time 40.92 us",
+            "Rayleigh collapse time 40.92 µs",
             "reflection coefficient of pressure 0.934501",
             "4 in one of the fluid's",
         ],
@@ -339,8 +339,8 @@ fn the_report_knows_the_papers_case() {
     says(
         &report,
         &[
-            "adaptive, level 2 to 9: 16 x 16 to 2048 x 2048 cells of 24.41 um",
-            "adaptive, level 0 to 9: 16 x 16 to 8192 x 8192 cells of 6.104 um",
+            "adaptive, level 2 to 9: 16 x 16 to 2048 x 2048 cells of 24.41 µm",
+            "adaptive, level 0 to 9: 16 x 16 to 8192 x 8192 cells of 6.104 µm",
             "thresholds on the finest level 50 kPa (0.001 of 50 MPa)",
             "67108864 cells",
             "if all cells were on the finest level",

@@ -1,4 +1,4 @@
-//! What takes too long for the test command; `tests/long/` has the commands, docs/reliability.md their last results.
+//! What takes too long for the test command; `tests/long/` has the commands, docs/verification/faults.md their last results.
 
 use std::fs;
 use std::path::Path;

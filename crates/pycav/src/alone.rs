@@ -3,7 +3,8 @@
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
 use cav::run::process::launch::thread_pool;
-use mesh::{BLOCK, FaceState};
+use coupler::CommonRefinement;
+use mesh::{BLOCK, FaceState, Geometry};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -26,6 +27,7 @@ struct Parts<M> {
     solver: M,
     pool: ThreadPool,
     cfl: f64,
+    axisymmetric: bool,
 }
 
 impl<M: Medium> Parts<M> {
@@ -35,6 +37,37 @@ impl<M: Medium> Parts<M> {
 
     fn traces(&self, dt: f64) -> Vec<M::Trace> {
         if self.has_surface() { self.solver.traces(dt) } else { Vec::new() }
+    }
+}
+
+/// What the faces of a surface had in a step, and where they were.
+struct Surface {
+    begin: f64,
+    edges: Vec<f64>,
+    states: Vec<FaceState>,
+}
+
+impl Surface {
+    fn of<M: Medium>(solver: &M) -> Self {
+        let there = solver.interface().faces() > 0;
+        let edges = if there { solver.interface_edges() } else { Vec::new() };
+        Self { begin: solver.mesh().domain().r[0], edges, states: solver.interface().states().to_vec() }
+    }
+
+    /// Gives the faces of a grid that has adapted what they had in the step: means over what each has of the old ones.
+    fn carry_over<M: Medium>(&self, solver: &mut M, axisymmetric: bool) {
+        let now = Self::of(solver);
+        if now.edges == self.edges {
+            return;
+        }
+        let mut common = CommonRefinement::default();
+        common.update(self.begin, &self.edges, &now.edges, axisymmetric);
+        let interface = solver.interface_mut();
+        let of = |k: usize| {
+            let FaceState { pressure, velocity, power } = self.states[common.sub_faces()[k].first];
+            [pressure, velocity, power]
+        };
+        common.means_of(true, of, |face, row| interface.set(face, row.into()));
     }
 }
 
@@ -54,7 +87,8 @@ impl<M: Medium> Alone<M> {
             guarded(|| {
                 let pool = thread_pool(threads)?;
                 let solver = pool.install(|| M::of_case(case, initial))?;
-                Ok(Parts { solver, pool, cfl: case.time.cfl })
+                let axisymmetric = case.geometry == Geometry::Axisymmetric;
+                Ok(Parts { solver, pool, cfl: case.time.cfl, axisymmetric })
             })
         })?;
         Ok(Self(Mutex::new(parts)))
@@ -113,8 +147,11 @@ impl<M: Medium> Alone<M> {
                     );
                     FaceState { pressure, velocity, power }
                 });
-                let Parts { solver, pool, .. } = parts;
-                pool.install(|| solver.advance(dt))
+                let Parts { solver, pool, axisymmetric, .. } = parts;
+                let before = Surface::of(solver);
+                pool.install(|| solver.advance(dt))?;
+                before.carry_over(solver, *axisymmetric);
+                Ok(())
             })
         })?;
         py.check_signals()

@@ -55,7 +55,7 @@ impl Case {
 
     /// Reads a case from text.
     #[staticmethod]
-    fn from_toml(text: String, name: &str) -> PyResult<Self> {
+    pub fn from_toml(text: String, name: &str) -> PyResult<Self> {
         Self::read(text, name, format!("{name}.toml"), Vec::new())
     }
 

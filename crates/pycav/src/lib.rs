@@ -6,6 +6,7 @@
 //! | `simulation` | a run in this process, step by step |
 //! | `alone` | the fluid's and the solid's solver, each with its surface driven from Python |
 //! | `medium` | what of that is the fluid's or the solid's own |
+//! | `new` | cases for what is asked most often |
 //! | `fields` | cells and samples of a solver as arrays |
 //! | `initial` | initial states that Python functions give |
 //! | `launch` | runs in two processes, on finer and finer grids, and the command line |
@@ -23,6 +24,7 @@ mod initial;
 mod launch;
 mod log;
 mod medium;
+mod new;
 mod simulation;
 
 use pyo3::pymodule;
@@ -38,6 +40,8 @@ mod _pycav {
     use super::error::{CaseError, CouplingError, InternalError, NumericalError, OutputError, RunError};
     #[pymodule_export]
     use super::launch::{convergence, main, run_in_processes};
+    #[pymodule_export]
+    use super::new::{new_collapse, new_free_bubble, new_shocked_bubble, new_wall_load};
     #[pymodule_export]
     use super::simulation::Simulation;
 }

@@ -79,6 +79,22 @@ def test_a_wall_that_moves_sends_the_sound_of_it(root):
     assert still.surface_pressure[0] > 5e7 + 1000 * c * 0.1, "compression stiffens"
 
 
+def test_faces_that_come_with_a_finer_grid_have_what_was_there_in_the_step():
+    """A pulse comes down on a wall at rest; the grid there is refined, then coarsened."""
+    case = pycav.collapse(cells_per_radius=13, pressure=5e7, stand_off=0.8, wall="steel")
+    fluid = pycav.FluidSolver(case.with_({"fluid.adapt_every": 2}), threads=1)
+    faces = set()
+    while fluid.time < 0.5e-6:
+        before = len(fluid.surface_edges)
+        fluid.step(fluid.time_step_limit(), velocity=0.0)
+        pressure = fluid.surface_pressure
+        assert pressure.shape == fluid.surface_edges.shape
+        assert np.all(pressure > 1e3), "nothing has lost its pressure"
+        if len(fluid.surface_edges) != before:
+            faces.add(len(pressure))
+    assert faces, "the grid has changed at the wall"
+
+
 def test_a_fluid_without_a_surface_needs_nothing(root):
     fluid = pycav.FluidSolver(pycav.Case(root / "cases/shock-tube.toml"))
     assert fluid.surface_edges.size == 0

@@ -198,6 +198,13 @@ impl Section {
         }
     }
 
+    /// The first of its keys that has the same names as this one, if it is another.
+    pub fn same_names(&self, key: &Key) -> Option<&'static Key> {
+        let Values::Names(names) = key.values else { return None };
+        let has_them = |other: &&Key| matches!(other.values, Values::Names(others) if others == names);
+        self.keys.iter().find(has_them).filter(|first| first.name != key.name)
+    }
+
     /// The path of one of its keys.
     pub fn path_of(&self, key: &Key) -> String {
         if self.path.is_empty() { key.name.to_owned() } else { format!("{}.{}", self.path, key.name) }

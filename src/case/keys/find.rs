@@ -5,7 +5,7 @@ use super::{has_table, sections, terminal, without_numbers};
 
 /// A path that no key and no table has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no key or table `{path}`{}; `cav keys` lists all", suggested(.nearest))]
+#[error("there is no key or table `{path}`{} (`cav keys` lists all)", suggested(.nearest))]
 pub struct UnknownKey {
     /// The path.
     pub path: String,
@@ -92,4 +92,15 @@ fn nearest(asked: &str) -> Vec<String> {
     }
     paths.sort();
     paths.into_iter().take(MOST_SUGGESTED).map(|(_, path)| path).collect()
+}
+
+/// The paths of all tables and keys.
+#[must_use]
+pub fn key_paths() -> Vec<String> {
+    let mut paths: Vec<String> = sections().map(|section| section.path.to_owned()).collect();
+    paths.extend(sections().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))));
+    paths.retain(|path| !path.is_empty());
+    paths.sort();
+    paths.dedup();
+    paths
 }

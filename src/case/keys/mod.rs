@@ -21,7 +21,7 @@ mod tests;
 pub(super) mod time;
 
 pub(super) use declared::{Key, Preset, Section, Values};
-pub use find::{UnknownKey, describe_keys};
+pub use find::{UnknownKey, describe_keys, key_paths};
 pub use page::keys_page;
 
 /// All that is declared, in the order in which it is told.

@@ -32,21 +32,35 @@ fn written(section: &Section) -> String {
         head => format!("## `{head}`: {}\n", lower(section.title)),
     };
     if !section.about.is_empty() {
-        let _ = write!(text, "\n{}\n", linked(section.about));
+        for paragraph in section.about.split("\n\n") {
+            let _ = write!(text, "\n{}\n", fenced(paragraph));
+        }
     }
     text += "\n| key | unit | values | default | |\n|---|---|---|---|---|\n";
     for key in section.keys {
         let (values, default) = (key.allowed(), key.preset());
         let unit = if key.unit.is_empty() { String::new() } else { key.printed_unit() };
-        let row = [format!("`{}`", key.name), unit, values, default, told(key)];
+        let row = [format!("`{}`", key.name), unit, values, default, told(section, key)];
         let _ = writeln!(text, "| {} |", row.map(|cell| linked(&cell).replace('|', "\\|")).join(" | "));
     }
     text.truncate(text.trim_end().len());
     text
 }
 
+/// A paragraph; lines that are indented are code.
+fn fenced(paragraph: &str) -> String {
+    if !paragraph.starts_with("    ") {
+        return linked(paragraph);
+    }
+    let lines: Vec<&str> = paragraph.lines().map(|line| line.strip_prefix("    ").unwrap_or(line)).collect();
+    format!("```text\n{}\n```", lines.join("\n"))
+}
+
 /// What a key does, and what its names mean.
-fn told(key: &Key) -> String {
+fn told(section: &Section, key: &Key) -> String {
+    if let Some(first) = section.same_names(key) {
+        return format!("{} The names mean what they mean for `{}`.", key.about, first.name);
+    }
     match key.values {
         Values::Names(names) => {
             let meanings: Vec<String> =

@@ -30,7 +30,7 @@ pub(super) fn in_full(section: &Section) -> String {
         text.push('\n');
     }
     for key in section.keys {
-        text += &of_key(key, key.name, &mut pages);
+        text += &of_key(key, key.name, section.same_names(key), &mut pages);
     }
     text + &see(&pages)
 }
@@ -38,22 +38,24 @@ pub(super) fn in_full(section: &Section) -> String {
 /// One key with all that is told of it, under its full path.
 pub(super) fn one(section: &Section, key: &Key) -> String {
     let mut pages = Vec::new();
-    of_key(key, &section.path_of(key), &mut pages) + &see(&pages)
+    of_key(key, &section.path_of(key), None, &mut pages) + &see(&pages)
 }
 
-fn of_key(key: &Key, name: &str, pages: &mut Vec<&'static str>) -> String {
+/// - `same`: the key whose names these are, too, and where they have been told.
+fn of_key(key: &Key, name: &str, same: Option<&Key>, pages: &mut Vec<&'static str>) -> String {
     let unit =
         if matches!(key.unit, "" | "1") { String::new() } else { format!("  [{}]", key.printed_unit()) };
     let mut text = format!("{name}{unit}\n");
     text += &paragraph_of(key.about, 4, pages);
-    match key.values {
-        Values::Names(names) => {
+    match (key.values, same) {
+        (_, Some(same)) => text += &broken(&format!("values:  as of {}", same.name), 4, 13),
+        (Values::Names(names), None) => {
             for (name, meaning) in names {
                 let meaning = told(meaning, pages);
                 text += &broken(&format!("{:<18} {meaning}", format!("\"{name}\"")), 4, 23);
             }
         }
-        _ => text += &broken(&format!("values:  {}", told(&key.allowed(), pages)), 4, 13),
+        (_, None) => text += &broken(&format!("values:  {}", told(&key.allowed(), pages)), 4, 13),
     }
     text += &broken(&format!("default: {}", told(&key.preset(), pages)), 4, 13);
     text.push('\n');

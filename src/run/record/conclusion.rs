@@ -9,6 +9,7 @@ use crate::output::run_directory::{
 };
 use crate::output::{Join, RunDirectory, join_histories, summary};
 use crate::run::RunError;
+use crate::run::record::answer::answer;
 use crate::run::record::{equivalent_load, two_collapses};
 
 /// Joins the histories and the parts of the summary.
@@ -48,6 +49,8 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
         tracing::warn!("{warning}");
     }
     whole.insert("warnings".to_owned(), json!(warnings));
+    let answer = if completed { answer(&whole) } else { Vec::new() };
+    whole.insert("answer".to_owned(), json!(answer));
     summary::write(directory, SUMMARY, &whole)?;
     if completed {
         directory.remove_checkpoints()?;
@@ -130,9 +133,6 @@ fn warnings(whole: &Map<String, Value>) -> Vec<String> {
 /// Depth of a pit over its radius above which strains are no longer small.
 const DEEPEST_OF_RADIUS: f64 = 0.05;
 
-/// Above this `surface_still` the depth of the surface is none of a pit.
-const ALMOST_STILL: f64 = 0.1;
-
 /// What has to be said of the solid's surface.
 fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> {
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
@@ -147,14 +147,14 @@ fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> 
     });
     let moves = (whole.get("settled") == Some(&json!(false))).then(|| {
         format!(
-            "the surface was not still at time.longest: surface_still = {:.2e} (see docs/output.md); make time.longest later",
+            "the surface was not still at time.longest: surface_still = {:.2e} (see docs/reference/output-summary.md); make time.longest later",
             number("surface_still").unwrap_or(f64::NAN)
         )
     });
     deep.into_iter().chain(moves)
 }
 
-/// The numbers one asks for first, in words.
+/// What a run says when it has ended: the answer, what is to be distrusted, where it lies.
 pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
     let mut words = vec![format!(
@@ -162,23 +162,12 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
         whole.get("steps").and_then(Value::as_u64).unwrap_or(0),
         number("wall_seconds").unwrap_or(f64::NAN)
     )];
-    if let (Some(peak), Some(time)) = (number("wall_pressure_peak"), number("wall_pressure_peak_time")) {
-        words.push(format!("wall pressure {:.4e} Pa at {:.4e} s", peak, time));
-    }
-    if let (Some(peak), Some(time)) = (number("von_mises_peak"), number("von_mises_peak_time")) {
-        words.push(format!("von Mises {:.4e} Pa at {:.4e} s", peak, time));
-    }
-    if let (Some(depth), Some(radius), Some(still)) =
-        (number("pit_depth"), number("pit_radius"), number("surface_still"))
-        && still <= ALMOST_STILL
-    {
-        words.push(format!("pit {depth:.4e} m deep, radius {radius:.4e} m, surface_still {still:.1e}"));
-    }
-    if let (Some(radius), Some(time)) = (number("min_equivalent_radius"), number("collapse_time")) {
-        words.push(format!("smallest equivalent radius {:.4e} m at {:.4e} s", radius, time));
-    }
-    let warnings = whole.get("warnings").and_then(Value::as_array).into_iter().flatten();
-    words.extend(warnings.filter_map(Value::as_str).map(|warning| format!("warning: {warning}")));
+    let texts = |key: &str| {
+        let list = whole.get(key).and_then(Value::as_array).into_iter().flatten();
+        list.filter_map(Value::as_str).map(str::to_owned).collect::<Vec<_>>()
+    };
+    words.extend(texts("answer"));
+    words.extend(texts("warnings").iter().map(|warning| format!("warning: {warning}")));
     words.push(format!("see {}", directory.display()));
     words.join("\n")
 }

@@ -14,8 +14,10 @@
 //! | [`film`] | of the liquid between bubble and wall |
 //! | [`timed`] | where the wall time goes |
 //! | [`equivalent_load`] | the Gaussian pulse nearest to what pressed on the wall |
+//! | [`answer`] | the answer in words
 //! | [`conclusion`] | one history and one summary of both sides' parts |
 
+pub mod answer;
 pub mod collapse;
 pub mod conclusion;
 pub mod equivalent_load;

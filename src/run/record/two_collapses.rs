@@ -49,12 +49,27 @@ impl Turns {
     }
 }
 
-/// The part of the summary that is about the rebound and the second collapse; empty for a run without a bubble or a collapse.
+/// The part of the summary that is about the bubble's size at the start and, for a run with a collapse, the rebound and the second
+/// collapse; empty for a run without a bubble.
 ///
 /// - `collapse_time`: of the first collapse, s.
 pub fn summary(history: &Path, collapse_time: Option<f64>) -> Map<String, Value> {
-    let found = collapse_time.and_then(|time| of_file(&File::open(history).ok()?, time));
-    found.unwrap_or_default()
+    let Ok(file) = File::open(history) else { return Map::new() };
+    let mut part = collapse_time.and_then(|time| of_file(&file, time)).unwrap_or_default();
+    if let Some(radius) = first_radius(&file) {
+        part.insert("initial_equivalent_radius".to_owned(), json!(radius));
+    }
+    part
+}
+
+/// The equivalent radius of the gas at the start, m, if there is gas.
+fn first_radius(file: &File) -> Option<f64> {
+    let radii = dataset_if_there(file, "bubble/equivalent_radius")?;
+    if radii.size() == 0 {
+        return None;
+    }
+    let first = radii.read_slice_1d::<f64, _>(0..1).ok()?;
+    first.first().copied().filter(|radius| *radius > 0.0)
 }
 
 fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {

@@ -2,7 +2,7 @@
 
 use mesh::{Field, Geometry, Mesh, for_some_blocks};
 
-use crate::initial::shapes::{contains, may_cut, samples};
+use crate::initial::shapes::{may_cut, samples};
 use crate::state::Contents;
 use crate::{
     Gravity, InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, RayleighField, TRACE_GAS,
@@ -215,7 +215,7 @@ fn pure(state: PhaseState) -> Primitive {
 /// The state at a point: the last region painted over it, else the ambient.
 fn at_point<'a>(initial: &'a InitialCondition, ambient: &'a PhaseState, point: [f64; 2]) -> &'a PhaseState {
     (initial.regions.iter().rev())
-        .find(|region| contains(&region.shape, point))
+        .find(|region| region.shape.contains(point))
         .map_or(ambient, |region| &region.state)
 }
 

@@ -10,12 +10,12 @@ const SAMPLES: usize = 32;
 /// The share of a cell's volume that a shape holds, by sampling where its edge may cut the cell.
 pub(crate) fn share_within(shape: &Shape, geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> f64 {
     if !may_cut(shape, centre, widths) {
-        return if contains(shape, centre) { 1.0 } else { 0.0 };
+        return if shape.contains(centre) { 1.0 } else { 0.0 };
     }
     let (mut within, mut all) = (0.0, 0.0);
     for (weight, point) in samples(geometry, centre, widths) {
         all += weight;
-        within += if contains(shape, point) { weight } else { 0.0 };
+        within += if shape.contains(point) { weight } else { 0.0 };
     }
     within / all
 }
@@ -34,11 +34,13 @@ pub(crate) fn samples(
     })
 }
 
-/// Whether a point is within a shape.
-pub(crate) fn contains(shape: &Shape, [z, r]: [f64; 2]) -> bool {
-    match shape {
-        Shape::Sphere { centre, radius } => (z - centre[0]).hypot(r - centre[1]) < *radius,
-        Shape::Box { z: [z0, z1], r: [r0, r1] } => z >= *z0 && z < *z1 && r >= *r0 && r < *r1,
+impl Shape {
+    /// Whether a point (z, r), m, is within it.
+    pub fn contains(&self, [z, r]: [f64; 2]) -> bool {
+        match self {
+            Self::Sphere { centre, radius } => (z - centre[0]).hypot(r - centre[1]) < *radius,
+            Self::Box { z: [z0, z1], r: [r0, r1] } => z >= *z0 && z < *z1 && r >= *r0 && r < *r1,
+        }
     }
 }
 

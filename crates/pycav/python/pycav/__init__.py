@@ -2,8 +2,8 @@
 
     import pycav
 
-    case = pycav.Case("cases/dickopp2012-coarse.toml")
-    result = pycav.run(case.with_(**{"fluid.levels": 4, "solid.levels": 2}), out="runs/first")
+    case = pycav.collapse(radius=1e-3, pressure=2e7, stand_off=1.5, wall="al-1100-o", cells_per_radius=20)
+    result = pycav.run(case, out="runs/first")
     print(result.summary["wall_pressure_peak"])
     pycav.plot.histories(result).savefig("histories.png")
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .cells import Cells
     from ._hits import hits
     from ._report import report
+    from .new import collapse, free_bubble, shocked_bubble, wall_load
     from .result import Result, Snapshot
     from .result import open_run as open
     from ._run import run
@@ -33,15 +34,17 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
-    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "consistent_runs",
-    "convergence", "hits", "materials", "open", "plot", "report", "run", "stand_off_map", "sweep", "theory",
+    "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "collapse", "consistent_runs",
+    "convergence", "free_bubble", "hits", "materials", "open", "plot", "report", "run", "shocked_bubble", "stand_off_map", "sweep", "theory",
+    "wall_load",
 ]
 
 # Where names live. They are fetched when they are first used: the processes of a run need none of them.
 _PLACES = {
     "Case": "case", "Cells": "cells", "Convergence": "_convergence", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
-    "consistent_runs": "_sweep", "convergence": "_convergence", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
+    "collapse": "new", "consistent_runs": "_sweep", "convergence": "_convergence", "free_bubble": "new", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run",
+    "shocked_bubble": "new", "stand_off_map": "_sweep", "sweep": "_sweep", "wall_load": "new",
 }
 
 

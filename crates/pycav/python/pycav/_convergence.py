@@ -100,7 +100,7 @@ class Convergence:
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = Path(directory)
         self.record: dict[str, Any] = json.loads((self.directory / RECORD).read_text())
-        """All of `convergence.json`, see docs/output.md."""
+        """All of `convergence.json`, see docs/reference/output-summary.md."""
 
     @property
     def grids(self) -> list[dict[str, Any]]:

@@ -42,7 +42,7 @@ class Snapshot:
 
     @property
     def fields(self) -> list[str]:
-        """Names of the fields, see docs/output.md."""
+        """Names of the fields, see docs/reference/output.md."""
         return self._series.fields
 
     def __getitem__(self, name: str) -> Floats:
@@ -160,7 +160,7 @@ class Result:
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
-        """The numbers one asks for first, see docs/output.md."""
+        """The numbers one asks for first, see docs/reference/output-summary.md."""
         found: dict[str, Any] = json.loads((self.directory / "summary.json").read_text())
         return found
 
@@ -182,7 +182,7 @@ class Result:
 
     @functools.cached_property
     def histories(self) -> xarray.Dataset:
-        """All histories with units and times as coordinates, by the names of docs/output.md: `bubble/volume`."""
+        """All histories with units and times as coordinates, by the names of docs/reference/output-histories.md: `bubble/volume`."""
         return from_files([self.directory / f"{medium}.h5" for medium in self.media])
 
     @functools.cached_property

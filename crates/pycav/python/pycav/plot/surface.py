@@ -14,7 +14,7 @@ from .section import Run
 from .style import percent, rounded
 
 FAR = 0.1
-"""Share of the extent in r, the outermost, whose mean level is that far away (docs/output.md, *The surface of the solid*)."""
+"""Share of the extent in r, the outermost, whose mean level is that far away (docs/reference/output-summary.md, *The surface of the solid*)."""
 STILL = 0.01
 """Below this `surface_still` the surface is still."""
 DISPLACEMENT = "interface/displacement_z"

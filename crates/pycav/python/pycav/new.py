@@ -1,0 +1,92 @@
+"""Cases for what is asked most often, as ``cav new`` writes them: SI, with domain, grid and times that follow."""
+
+from __future__ import annotations
+
+from . import _pycav
+from .case import Case
+
+VAPOUR_PRESSURE = 2340.0
+"""Water's at 20 °C, Pa: what a bubble holds at the least."""
+
+
+def collapse(
+    radius: float = 1e-3,
+    pressure: float = 2e7,
+    stand_off: float = 1.5,
+    wall: str = "al-1100-o",
+    *,
+    gas_pressure: float = VAPOUR_PRESSURE,
+    cells_per_radius: float = 40.0,
+    elastic: bool = False,
+) -> Case:
+    """A gas bubble that collapses in water near a wall, which may yield.
+
+    Parameters
+    ----------
+    radius
+        R, m.
+    pressure
+        Of the liquid far away, Pa; above `gas_pressure`.
+    stand_off
+        d/R, the distance of the bubble's centre from the wall in radii, 0 to 1000; below 1 the wall cuts the bubble.
+    wall
+        A material of the library, a short name such as ``"steel"``, or ``"rigid"``.
+    gas_pressure
+        Of the gas in the bubble, Pa. Peaks depend on it the more the lower `pressure` is.
+    cells_per_radius
+        Finest cells of the fluid per radius, 4 to 2000.
+    elastic
+        Leave the wall elastic, whatever it could bear.
+
+    Raises
+    ------
+    CaseError
+        Numbers that make no case, each named with what is allowed.
+    ValueError
+        No such wall, with the nearest names.
+    """
+    return Case._of(_pycav.new_collapse(radius, pressure, stand_off, wall, gas_pressure, cells_per_radius, elastic))
+
+
+def free_bubble(
+    radius: float = 1e-3,
+    pressure: float = 1e6,
+    *,
+    gas_pressure: float = 10 * VAPOUR_PRESSURE,
+    cells_per_radius: float = 40.0,
+) -> Case:
+    """A gas bubble that collapses in unbounded water and rebounds. Arguments and errors as of `collapse`."""
+    return Case._of(_pycav.new_free_bubble(radius, pressure, gas_pressure, cells_per_radius))
+
+
+def shocked_bubble(
+    radius: float = 1e-4,
+    pressure: float = 1e5,
+    amplitude: float = 35e6,
+    stand_off: float = 2.0,
+    wall: str = "steel",
+    *,
+    cells_per_radius: float = 40.0,
+) -> Case:
+    """An air bubble that a lithotripter's pulse (Church 1989) collapses near a wall.
+
+    - `pressure`: of water and air before the pulse, Pa; `amplitude`: the largest of the pulse above that, Pa.
+
+    The others, and errors, are those of `collapse`.
+    """
+    return Case._of(_pycav.new_shocked_bubble(radius, pressure, amplitude, stand_off, wall, cells_per_radius))
+
+
+def wall_load(
+    amplitude: float = 1e9,
+    radius: float = 5e-4,
+    duration: float = 1e-6,
+    wall: str = "steel",
+    *,
+    cells_per_radius: float = 20.0,
+) -> Case:
+    """A pressure A exp(−r²/b²) sin²(πt/T) on a wall, without a fluid: the pit.
+
+    - `amplitude`: A, Pa; `radius`: b, m; `duration`: T, s; `cells_per_radius`: of the load. Errors as of `collapse`.
+    """
+    return Case._of(_pycav.new_wall_load(amplitude, radius, duration, wall, cells_per_radius))

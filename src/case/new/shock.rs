@@ -1,0 +1,150 @@
+//! A pulse from afar that collapses a bubble near a wall.
+
+use std::f64::consts::{FRAC_PI_3, PI};
+use std::fmt::Write as _;
+
+use super::super::error::CaseErrors;
+use super::super::format::si;
+use super::checks::Checks;
+use super::grid::Blocks;
+use super::parts::{Bubble, number, sound, times};
+use super::quantity::Dimension;
+use super::wall::{Wall, plasticity};
+
+/// Radii between the bubble and the side where the pulse comes in.
+const ABOVE: f64 = 4.0;
+/// Radii of the domain from the axis.
+const ACROSS: f64 = 8.0;
+/// Radii of the solid downwards.
+const DEEP: f64 = 8.0;
+/// Church's pulse: decay, 1/s, and angular frequency, rad/s.
+const DECAY: f64 = 9.1e5;
+const FREQUENCY: f64 = 2.0 * PI * 83.3e3;
+/// Shortest time in which the front rises, s, and the fewest cells that it is wide.
+const RISE: f64 = 20e-9;
+const RISE_CELLS: f64 = 8.0;
+/// The mean of the pulse over its positive part, in its amplitude: what drives the collapse.
+const MEAN: f64 = 0.6;
+/// Rows of the table of the pulse after its front.
+const ROWS: u32 = 40;
+
+/// A lithotripter's pulse collapses a gas bubble near a wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShockedBubble {
+    /// R, m.
+    pub radius: f64,
+    /// Pressure of liquid and gas before the pulse, Pa.
+    pub pressure: f64,
+    /// Largest pressure of the pulse above that, Pa.
+    pub amplitude: f64,
+    /// d/R: at least 0.
+    pub stand_off: f64,
+    /// What the bubble collapses at.
+    pub wall: Wall,
+    /// Finest cells of the fluid per radius.
+    pub cells_per_radius: f64,
+}
+
+impl ShockedBubble {
+    /// The case file.
+    ///
+    /// # Errors
+    /// Numbers that make no case, each named with what is allowed.
+    pub fn text(&self) -> Result<String, CaseErrors> {
+        let Self { radius, pressure, amplitude, stand_off, cells_per_radius, .. } = *self;
+        Checks::default()
+            .positive("radius", radius, "m")
+            .positive("pressure", pressure, "Pa")
+            .positive("amplitude", amplitude, "Pa")
+            .hold(
+                (0.0..=1e3).contains(&stand_off),
+                "stand_off",
+                stand_off,
+                "from 0 to 1000",
+                "give d/R, the distance of the bubble's centre from the wall in radii",
+            )
+            .cells(cells_per_radius)
+            .done()?;
+        let blocks = Blocks::of(radius, cells_per_radius);
+        let top = blocks.rounded((stand_off + ABOVE) * radius);
+        let c = sound(pressure);
+        let driven = Bubble { radius, pressure: pressure + MEAN * amplitude, gas_pressure: pressure };
+        let arrival = (top - (stand_off + 1.0) * radius) / c;
+        let collapse = arrival + driven.rayleigh_time();
+        let end = collapse + (stand_off + 6.0) * radius / c;
+        let shares = [0.5, 0.7, 0.85, 0.95, 1.0].map(|share| arrival + share * (collapse - arrival));
+        let afterwards = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0].map(|after| collapse + after * radius / c);
+        let mut text = self.heading(arrival, collapse);
+        text += &times(
+            end,
+            "the collapse and what it sends to the wall",
+            [0.5 * arrival, arrival].into_iter().chain(shares).chain(afterwards),
+        );
+        text += "\n[fluid]                         # above the wall at z = 0\n";
+        text += &blocks.keys(
+            0.0,
+            (stand_off + ABOVE) * radius,
+            ACROSS * radius,
+            &format!("{cells_per_radius} cells per radius where the waves are"),
+        );
+        let bubble = Bubble { radius, pressure, gas_pressure: pressure };
+        text += &bubble.keys(stand_off * radius);
+        text += "\n[fluid.boundary]\nz_max = \"inflow\"                # where the pulse comes in\nr_max = \"wall\"                  # it runs along it\n";
+        text += &self.pulse(end);
+        self.wall_keys(&mut text, &blocks.coarser());
+        let _ = write!(
+            text,
+            "\n[[probe]]                       # the pulse before it meets the bubble\nname = \"incident\"\nposition = [{}, 0.0]\nmedium = \"fluid\"\n",
+            number(top - 0.5 * radius)
+        );
+        Ok(text)
+    }
+
+    fn heading(&self, arrival: f64, collapse: f64) -> String {
+        let [radius, pressure, amplitude] = [
+            (self.radius, Dimension::Length),
+            (self.pressure, Dimension::Pressure),
+            (self.amplitude, Dimension::Pressure),
+        ]
+        .map(|(value, dimension)| dimension.shortest(value));
+        let (stand_off, wall, cells) = (self.stand_off, self.wall.name(), self.cells_per_radius);
+        let [arrival, collapse] = [arrival, collapse].map(|time| si(time, "s"));
+        format!(
+            "# A lithotripter's pulse of {amplitude} collapses an air bubble of {radius}, {stand_off} radii above a wall ({wall}).
+#
+#   cav new shock --radius {radius} --pressure {pressure} --amplitude {amplitude} --stand-off {stand_off} --wall {wall} \\
+#       --cells-per-radius {cells}
+#
+# The pulse is Church's (1989), p = 2 P exp(-alpha t) cos(omega t + pi/3). Its front reaches the bubble at {arrival};
+# the bubble collapses at about {collapse}.
+
+"
+        )
+    }
+
+    /// `[fluid.inflow]`: Church's pulse as a table that is linear in between.
+    fn pulse(&self, end: f64) -> String {
+        let rise = RISE.max(RISE_CELLS * self.radius / self.cells_per_radius / sound(self.pressure));
+        let shape = |t: f64| 2.0 * (-DECAY * t).exp() * (FREQUENCY * t + FRAC_PI_3).cos();
+        let mut rows = vec![format!("[0.0, {}]", number(self.pressure))];
+        rows.extend((0..=ROWS).map(|row| {
+            let after = (end - rise).max(rise) * f64::from(row) / f64::from(ROWS);
+            format!("[{}, {}]", number(rise + after), number(self.pressure + self.amplitude * shape(after)))
+        }));
+        let lines: Vec<String> = rows.chunks(4).map(|chunk| format!("    {},", chunk.join(", "))).collect();
+        format!("\n[fluid.inflow]\npressure = [\n{}\n]\n", lines.join("\n"))
+    }
+
+    fn wall_keys(&self, text: &mut String, blocks: &Blocks) {
+        let Wall::Solid(material) = &self.wall else {
+            *text += "\n[coupling]\nscheme = \"rigid\"                # a wall that does not move\n";
+            return;
+        };
+        *text += "\n[solid]                         # below it\n";
+        *text +=
+            &blocks.keys(DEEP * self.radius, 0.0, ACROSS * self.radius, "cells twice as wide as the fluid's");
+        let _ = write!(text, "material = \"{}\"\ninitial_stress = \"hydrostatic\"\n", material.name());
+        *text += "\n[solid.boundary]\nr_max = \"symmetry\"              # as the wall of the fluid\n";
+        *text += &plasticity(material);
+    }
+}

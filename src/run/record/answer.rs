@@ -1,0 +1,241 @@
+//! The answer in words: what hit the wall, what yields, how deep, how sure, where to look next.
+
+use serde_json::{Map, Value};
+
+use crate::case::format;
+
+/// Above this `surface_still` the depth of the surface is none of a pit.
+const ALMOST_STILL: f64 = 0.1;
+/// By how much more the wall gets elsewhere than on the axis before that is worth a sentence.
+const ELSEWHERE: f64 = 1.05;
+
+/// The sentences that `summary.json` keeps as `answer`, from its other keys.
+pub fn answer(whole: &Map<String, Value>) -> Vec<String> {
+    let summary = Summary(whole);
+    let sentences =
+        [bubble(summary), wall(summary), elsewhere(summary), solid(summary), sure(summary), next(summary)];
+    sentences.into_iter().flatten().collect()
+}
+
+#[derive(Clone, Copy)]
+struct Summary<'a>(&'a Map<String, Value>);
+
+impl Summary<'_> {
+    fn number(self, key: &str) -> Option<f64> {
+        self.0.get(key).and_then(Value::as_f64)
+    }
+
+    /// A number with its unit, if it is there.
+    fn said(self, key: &str, unit: &str) -> Option<String> {
+        self.number(key).map(|value| si(value, unit))
+    }
+}
+
+/// With three digits, which is more than a run is worth.
+fn si(value: f64, unit: &str) -> String {
+    format::si(format!("{value:.2e}").parse().unwrap_or(value), unit)
+}
+
+fn percent(share: f64) -> String {
+    let digits = if share < 0.001 {
+        3
+    } else if share < 0.1 {
+        1
+    } else {
+        0
+    };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+fn bubble(summary: Summary<'_>) -> Option<String> {
+    let first = summary.number("initial_equivalent_radius")?;
+    let Some((smallest, time)) = summary.number("min_equivalent_radius").zip(summary.number("collapse_time"))
+    else {
+        let last = summary.said("final_equivalent_radius", "m")?;
+        return Some(format!(
+            "The bubble, of {} at the start, has no collapse within the run; it ends with {last}.",
+            si(first, "m")
+        ));
+    };
+    let mut words = format!(
+        "The bubble is smallest at {}: {}, {} of its first radius.",
+        si(time, "s"),
+        si(smallest, "m"),
+        percent(smallest / first)
+    );
+    if let Some(jet) = summary.number("jet_velocity_peak").filter(|jet| *jet > 0.0) {
+        words += &format!(" On the axis liquid runs towards the wall with up to {}.", si(jet, "m/s"));
+    }
+    Some(words)
+}
+
+fn wall(summary: Summary<'_>) -> Option<String> {
+    let (peak, time) =
+        (summary.said("wall_pressure_peak", "Pa")?, summary.number("wall_pressure_peak_time")?);
+    let since = summary.number("collapse_time").map(|collapse| time - collapse);
+    let when = match since {
+        Some(since) if since > 0.0 => format!(", {} after that", si(since, "s")),
+        Some(since) => format!(", {} before that", si(-since, "s")),
+        None => String::new(),
+    };
+    let mut words = format!("The wall is hit with {peak} on the axis at {}{when}", si(time, "s"));
+    if let Some((mean, over)) =
+        summary.said("wall_pressure_mean_peak", "Pa").zip(summary.said("wall_pressure_mean_time", "s"))
+    {
+        words += &format!("; averaged over {over} it is {mean}");
+    }
+    words.push('.');
+    if let Some(impulse) = summary.said("wall_impulse", "Pa s") {
+        words += &format!(" The impulse there is {impulse}.");
+    }
+    Some(words)
+}
+
+fn elsewhere(summary: Summary<'_>) -> Option<String> {
+    let [axis, anywhere] =
+        ["wall_pressure_peak", "wall_pressure_peak_anywhere"].map(|key| summary.number(key));
+    let (axis, anywhere) = axis.zip(anywhere)?;
+    let time = summary.said("wall_pressure_peak_anywhere_time", "s")?;
+    (anywhere > ELSEWHERE * axis)
+        .then(|| format!("Elsewhere on the wall it is {} at {time}.", si(anywhere, "Pa")))
+}
+
+fn solid(summary: Summary<'_>) -> Option<String> {
+    let stress = summary.number("von_mises_peak")?;
+    let (said, time) = (si(stress, "Pa"), summary.said("von_mises_peak_time", "s")?);
+    if let Some(strain) = summary.number("plastic_strain_peak").filter(|strain| *strain > 0.0) {
+        let deep =
+            summary.said("plastic_zone_depth", "m").map_or(String::new(), |deep| format!(", down to {deep}"));
+        return Some(format!(
+            "The solid yields{deep}: plastic strain up to {}. {}",
+            percent(strain),
+            pit(summary)
+        ));
+    }
+    let Some(strength) = summary.number("yield_strength") else {
+        return Some(format!("The largest von Mises stress in the solid is {said} at {time}."));
+    };
+    let limit = si(strength, "Pa");
+    if stress < strength || summary.0.contains_key("plastic_strain_peak") {
+        return Some(format!(
+            "The solid stays elastic: the largest von Mises stress, {said} at {time}, is {} of its yield strength {limit}.",
+            percent(stress / strength)
+        ));
+    }
+    Some(format!(
+        "The solid would yield: the largest von Mises stress, {said} at {time}, is {:.2} times its yield strength {limit}; \
+         [solid.plasticity] lets it.",
+        stress / strength
+    ))
+}
+
+/// The pit that stays, once the surface is still.
+fn pit(summary: Summary<'_>) -> String {
+    let still = summary.number("surface_still").is_some_and(|still| still <= ALMOST_STILL);
+    match summary.said("pit_depth", "m").zip(summary.said("pit_radius", "m")) {
+        Some((depth, radius)) if still => {
+            format!("A pit stays, {depth} deep and {radius} in radius at half of that.")
+        }
+        _ => "The surface still moves at the end, so no pit is given: make time.end later.".to_owned(),
+    }
+}
+
+fn sure(summary: Summary<'_>) -> Option<String> {
+    let cells = summary.number("cells_per_radius").map(|cells| format!("{cells:.0} cells per radius"));
+    let warnings = summary.0.get("warnings").and_then(Value::as_array).map_or(0, Vec::len);
+    let held = match warnings {
+        0 => "nothing in the run speaks against it".to_owned(),
+        1 => "one warning".to_owned(),
+        more => format!("{more} warnings"),
+    };
+    let words = [cells, Some(held)].into_iter().flatten().collect::<Vec<_>>().join(", ");
+    Some(format!("How sure: {words}; cav run CASE --refine 3 says how far these numbers are converged."))
+}
+
+fn next(summary: Summary<'_>) -> Option<String> {
+    let cells = summary.0.get("cells")?.as_object()?;
+    let files: Vec<String> = ["fluid", "solid"]
+        .iter()
+        .filter(|side| cells.contains_key(**side))
+        .map(|side| format!("{side}.vtkhdf"))
+        .collect();
+    Some(format!(
+        "Look next: pycav report makes a page of it; {} hold the fields, history.h5 the curves.",
+        files.join(" and ")
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn told(summary: &Value) -> String {
+        answer(summary.as_object().expect("an object")).join("\n")
+    }
+
+    #[test]
+    fn an_answer_says_what_hit_the_wall_and_what_stays() {
+        let mut summary = json!({
+            "initial_equivalent_radius": 1e-3, "min_equivalent_radius": 7.8e-5, "collapse_time": 7.82e-6,
+            "jet_velocity_peak": 1791.0, "wall_pressure_peak": 4.46e8, "wall_pressure_peak_time": 8.268e-6,
+            "wall_pressure_peak_anywhere": 4.5e8, "wall_pressure_peak_anywhere_time": 8.3e-6,
+            "wall_pressure_mean_peak": 4.18e8, "wall_pressure_mean_time": 8.3e-8, "wall_impulse": 695.8,
+            "von_mises_peak": 7.9e7, "von_mises_peak_time": 8.4e-6, "yield_strength": 3.4e7,
+            "plastic_strain_peak": 0.01166, "plastic_zone_depth": 1.9e-3, "pit_depth": 1.193e-5, "pit_radius": 7.443e-4,
+            "surface_still": 0.0127, "cells_per_radius": 40.0, "warnings": [], "cells": {"fluid": {}, "solid": {}},
+        });
+        let text = told(&summary);
+        for words in [
+            "smallest at 7.82 µs: 78 µm, 7.8 % of its first radius",
+            "1.79 km/s",
+            "446 MPa on the axis at 8.27 µs, 448 ns after",
+            "averaged over 83 ns it is 418 MPa",
+            "696 Pa s",
+            "yields, down to 1.9 mm: plastic strain up to 1.2 %",
+            "A pit stays, 11.9 µm deep and 744 µm in radius",
+            "40 cells per radius, nothing",
+            "fluid.vtkhdf and solid.vtkhdf",
+        ] {
+            assert!(text.contains(words), "{words}\n{text}");
+        }
+        assert!(!text.contains("Elsewhere"), "{text}");
+        summary["surface_still"] = json!(0.3);
+        summary["wall_pressure_peak_anywhere"] = json!(6e8);
+        summary["warnings"] = json!(["one"]);
+        let text = told(&summary);
+        for words in ["no pit is given", "Elsewhere on the wall it is 600 MPa at 8.3 µs", "one warning"] {
+            assert!(text.contains(words), "{words}\n{text}");
+        }
+    }
+
+    #[test]
+    fn a_solid_stays_elastic_or_would_yield() {
+        let mut summary = json!({"von_mises_peak": 6.114e7, "von_mises_peak_time": 3.6e-5, "yield_strength": 2.861e8,
+            "plastic_strain_peak": 0.0, "cells": {"solid": {}}});
+        assert!(
+            told(&summary)
+                .contains("stays elastic: the largest von Mises stress, 61.1 MPa at 36 µs, is 21 % of")
+        );
+        // The same law lets a stress rise above its first yield strength only by yielding; without a law nothing does.
+        summary.as_object_mut().expect("an object").remove("plastic_strain_peak");
+        summary["von_mises_peak"] = json!(5.722e8);
+        assert!(
+            told(&summary)
+                .contains("would yield: the largest von Mises stress, 572 MPa at 36 µs, is 2.00 times")
+        );
+        summary.as_object_mut().expect("an object").remove("yield_strength");
+        assert!(told(&summary).contains("The largest von Mises stress in the solid is 572 MPa"));
+        assert!(!told(&summary).contains("wall"), "no fluid, no wall pressure");
+    }
+
+    #[test]
+    fn a_bubble_that_does_not_collapse_is_said_not_to() {
+        let summary = json!({"initial_equivalent_radius": 1e-3, "final_equivalent_radius": 8e-4, "min_equivalent_radius": null,
+            "collapse_time": null, "cells": {"fluid": {}}});
+        assert!(told(&summary).contains(
+            "The bubble, of 1 mm at the start, has no collapse within the run; it ends with 800 µm."
+        ));
+    }
+}
