@@ -125,6 +125,8 @@ fn examples(program: &str, path: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    use clap::FromArgMatches;
+
     use super::*;
 
     /// All commands with their paths.
