@@ -1,27 +1,28 @@
 //! The command line: `cav`, and `python -m pycav` likewise.
 
+mod arguments;
+mod check;
+mod help;
+mod keys;
 mod log;
 mod new;
+mod print;
+mod reference;
 mod report;
+mod run;
+mod scripts;
 
 use std::ffi::OsString;
-use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::path::Path;
 
-use crate::case::{Case, CaseErrors, materials_table, report as report_of, sketch};
-use crate::convergence::plan::Source;
-use crate::convergence::study::study;
-use crate::convergence::table::table;
-use crate::output::OutputError;
-use crate::run::process::drive::Joining;
-use crate::run::process::launch::run_side;
-use crate::run::process::launch_options::Options;
-use crate::run::process::stop::Stop;
-use crate::run::{RunError, resume, run, wall};
-use clap::{Args, Parser, Subcommand};
+use clap::{FromArgMatches, Parser, Subcommand};
 use coupler::Participant;
-use log::{Follower, log_to};
+
+use crate::case::materials_table;
+use crate::run::RunError;
+use arguments::{RunArgs, SideArgs};
+use print::{complain, print};
+pub use reference::reference;
 
 /// A cavitation bubble collapsing near an elastic solid: what it does to the wall.
 #[derive(Parser)]
@@ -34,140 +35,43 @@ struct Cli {
 #[derive(Subcommand)]
 enum Commands {
     /// Run a case and leave a run directory.
+    ///
+    /// A coupled case starts two processes, the fluid's and the solid's, and watches them. One medium alone, or a fluid above a
+    /// rigid wall, needs one process. Progress goes to standard error: a bar on a terminal, else a plain line now and then.
+    ///
+    /// With --refine the case runs on N grids. Each has its run directory in DIR, which also gets convergence.json; without --out
+    /// that is the case's own with "-convergence" behind. A table of values, observed orders and grid-convergence indices goes to
+    /// standard output. The same command again goes on: what is complete is kept, the rest is taken up from its checkpoint.
     Run(RunArgs),
     /// Write a case file for what is asked; without a kind, list the kinds.
     New(new::New),
     /// Check a case: cells, memory, time steps, impedances, run time.
-    Check {
-        /// The case file.
-        case: PathBuf,
-        /// Change a key of the case, as fluid.region.0.radius=0.01; may be repeated.
-        #[arg(long = "set", value_name = "KEY=VALUE")]
-        sets: Vec<String>,
-        /// Draw the start of the case, with the blocks of its grids, into a file.
-        #[arg(long, value_name = "FILE")]
-        png: Option<PathBuf>,
-    },
+    ///
+    /// Nothing is run. Besides it says cells per radius, the Rayleigh time, and warnings. Of an adaptive grid it names levels and
+    /// thresholds; memory and time are then upper bounds, with a tenth of them as a guess. What begins with more memory than the
+    /// machine has available is refused by every command that runs it.
+    Check(check::CheckArgs),
+    /// Show the keys of a case file: values, units, defaults.
+    Keys(keys::KeysArgs),
     /// Run the fluid's side alone; the solid's runs elsewhere under the same --run.
+    ///
+    /// The two sides are started in two terminals, in either order. Both need the same case, the same --set, the same --run and the
+    /// same directory. The fluid makes the run directory and shows the progress. A side waits for the other for
+    /// coupling.connect_timeout seconds. If the cases differ, both sides end with exit code 4 and say so.
     Fluid(SideArgs),
     /// Run the solid's side alone; the fluid's runs elsewhere under the same --run.
+    ///
+    /// See `fluid`: both sides need the same case, --set, --run and directory.
     Solid(SideArgs),
     /// List the library of materials.
+    ///
+    /// Densities, wave speeds, yield strengths and sources; and below, for those that have some, the constants of the Johnson-Cook
+    /// law with theirs, and what other sources say.
     Materials,
-}
-
-/// What is run, and where.
-#[derive(Args)]
-struct What {
-    /// The run directory [default: output.directory of the case, else runs/NAME].
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Change a key of the case, as fluid.region.0.radius=0.01; may be repeated.
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    sets: Vec<String>,
-    /// Replace the directory of a finished run.
-    #[arg(long)]
-    force: bool,
-}
-
-/// How it is run.
-#[derive(Args)]
-struct How {
-    /// Worker threads of each process [default: all processors].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
-    /// Keep a checkpoint after so much wall time: a number with ms, s, min or h, or off.
-    #[arg(long, value_name = "TIME", default_value = "5min", value_parser = Every::parse)]
-    checkpoint_every: Every,
-    /// Show nothing but errors.
-    #[arg(short, long, conflicts_with = "verbose")]
-    quiet: bool,
-    /// Log more; twice: everything.
-    #[arg(short, long, action = clap::ArgAction::Count)]
-    verbose: u8,
-}
-
-#[derive(Args)]
-struct RunArgs {
-    /// The case file.
-    #[arg(required_unless_present = "resume")]
-    case: Option<PathBuf>,
-    #[command(flatten)]
-    what: What,
-    /// Go on with the run in DIR that was not finished.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["case", "out", "sets", "force"])]
-    resume: Option<PathBuf>,
-    #[command(flatten)]
-    how: How,
-    /// Run both sides in this process instead of two.
-    #[arg(long)]
-    in_process: bool,
-    /// Make a page of the run when it has ended, where pycav is there.
-    #[arg(long)]
-    report: bool,
-    /// Run the case on N grids, 2 to 5, each with cells half as wide as the one before, and say what its numbers converge to.
-    /// Each has a run directory in DIR; the same command again goes on.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=5), conflicts_with_all = ["resume", "report"])]
-    refine: Option<u16>,
-}
-
-#[derive(Args)]
-struct SideArgs {
-    /// The case file.
-    case: PathBuf,
-    #[command(flatten)]
-    what: What,
-    #[command(flatten)]
-    how: How,
-    /// The run's id, the same on both sides.
-    #[arg(long, value_name = "ID")]
-    run: String,
-    /// Started by `cav run`.
-    #[arg(long, hide = true)]
-    child: bool,
-    /// The step of the checkpoint to go on from.
-    #[arg(long, hide = true)]
-    from: Option<u64>,
-    /// What the case is called, if not as its file.
-    #[arg(long, hide = true)]
-    name: Option<String>,
-}
-
-/// After how much wall time; `None` is never.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Every(Option<Duration>);
-
-impl Every {
-    /// From a number, of seconds unless a unit follows, or `off`.
-    fn parse(text: &str) -> Result<Self, String> {
-        if text == "off" {
-            return Ok(Self(None));
-        }
-        let every = match text.parse() {
-            Ok(seconds) => Duration::try_from_secs_f64(seconds).ok(),
-            Err(_) => humantime::parse_duration(text).ok(),
-        };
-        every
-            .map(|every| Self(Some(every)))
-            .ok_or_else(|| "give a time, as 30s, 5min or 1h, or off".to_owned())
-    }
-}
-
-fn options(case: &Path, what: &What, how: &How) -> Options {
-    Options {
-        case_path: case.to_path_buf(),
-        sets: what.sets.clone(),
-        out: what.out.clone(),
-        force: what.force,
-        in_process: false,
-        threads: how.threads.map(usize::from),
-        checkpoint_every: how.checkpoint_every.0,
-        from: None,
-        name: None,
-        program: Vec::new(),
-        quiet: how.quiet,
-        verbosity: how.verbose,
-    }
+    /// Write a completion script for a shell.
+    Completions(scripts::CompletionsArgs),
+    /// Write the manual's pages.
+    Man(scripts::ManArgs),
 }
 
 const NEXT: &str = "\
@@ -177,20 +81,30 @@ What to type next:
   cav run cases/collapse.toml            a bubble collapses above aluminium: ten seconds
   cav new                                a case for a bubble of your own
   cav check CASE                         what a case is and costs, without running it
+  cav keys                               what a case file may say
   cav materials                          the library of walls
   cav --help                             everything else
 
 From the source directory `cargo run --release --` stands for `cav`.
 
-docs/cases.md explains the keys of a case file, docs/reference/output.md what a run leaves behind.
+docs/reference/cases.md explains case files, docs/reference/output.md what a run leaves behind.
 ";
 
 /// Does what a command line says, the program's name first; returns the exit code.
 ///
 /// - `program`: the command by which this program can be started again, for a run in two processes; empty where it is
 ///   this process's own executable.
-pub fn main(arguments: impl IntoIterator<Item = OsString>, program: &[OsString]) -> u8 {
-    let cli = match Cli::try_parse_from(arguments) {
+/// - `others`: commands that the caller does itself, with what they do: they are named in helps and completions.
+pub fn main(
+    arguments: impl IntoIterator<Item = OsString>,
+    program: &[OsString],
+    others: &[(String, String)],
+) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let name = arguments.first().and_then(|first| Path::new(first).file_stem()?.to_str()).unwrap_or("cav");
+    let command = help::command(name, others);
+    let matched = command.clone().try_get_matches_from(&arguments);
+    let cli = match matched.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
             // Help and version are asked for and go to standard output.
@@ -202,130 +116,19 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, program: &[OsString])
         None => print(NEXT),
         Some(Commands::Materials) => print(&materials_table()),
         Some(Commands::New(args)) => new::text(args).map_err(RunError::from).and_then(|text| print(&text)),
-        Some(Commands::Check { case, sets, png }) => check(&case, &sets, png.as_deref()),
-        Some(Commands::Run(args)) => run_case(&args, program),
-        Some(Commands::Fluid(args)) => side(&args, Participant::Fluid),
-        Some(Commands::Solid(args)) => side(&args, Participant::Solid),
+        Some(Commands::Check(args)) => check::check(&args),
+        Some(Commands::Run(args)) => run::run_case(&args, program),
+        Some(Commands::Fluid(args)) => run::side(&args, Participant::Fluid),
+        Some(Commands::Solid(args)) => run::side(&args, Participant::Solid),
+        Some(Commands::Keys(args)) => return keys::keys(&args),
+        Some(Commands::Completions(args)) => return scripts::completions(&args, command, name),
+        Some(Commands::Man(args)) => return scripts::man(&args, command),
     };
     match result {
         Ok(()) => 0,
         Err(error) => {
             complain(&error);
             error.exit_code()
-        }
-    }
-}
-
-/// What a case means, drawn and in numbers.
-fn check(path: &Path, sets: &[String], png: Option<&Path>) -> Result<(), RunError> {
-    let case = Case::load(path, sets)?;
-    wall::check(&case)?;
-    if let Some(file) = png {
-        sketch::png(&case, file).map_err(|source| OutputError::Io {
-            path: file.to_path_buf(),
-            action: "write",
-            source,
-        })?;
-    }
-    let drawn = sketch::letters(&case).unwrap_or_default();
-    print(&format!("{drawn}\n{}", report_of(&case)))
-}
-
-fn run_case(args: &RunArgs, program: &[OsString]) -> Result<(), RunError> {
-    let path = args.case.as_deref().unwrap_or(Path::new(""));
-    let options = Options {
-        program: program.to_vec(),
-        in_process: args.in_process,
-        ..options(path, &args.what, &args.how)
-    };
-    let log = |directory: &Path| log_to(directory, options.verbosity, true);
-    if let Some(directory) = &args.resume {
-        let stop = Stop::on_signals()?;
-        let directory = resume(directory, &options, &stop, log)?;
-        return if args.report { report::make(&directory, program) } else { Ok(()) };
-    }
-    if let Some(grids) = args.refine {
-        return refine(usize::from(grids), &options);
-    }
-    let case = Case::load(&options.case_path, &options.sets)?;
-    let stop = Stop::on_signals()?;
-    let directory = run(&case, &options, &stop, log)?;
-    if args.report { report::make(&directory, program) } else { Ok(()) }
-}
-
-/// A case on so many grids, and the table of its numbers.
-fn refine(grids: usize, options: &Options) -> Result<(), RunError> {
-    let source = Source::of_file(&options.case_path, &options.sets)?;
-    let stop = Stop::on_signals()?;
-    let log = Follower::begin(options.verbosity);
-    let study = study(&source, grids, options, &stop, |directory| log.follow(directory))?;
-    if !options.quiet {
-        print(&table(&study.grids, &study.ends))?;
-    }
-    study.failure.map_or(Ok(()), Err)
-}
-
-fn side(args: &SideArgs, participant: Participant) -> Result<(), RunError> {
-    let common = options(&args.case, &args.what, &args.how);
-    let options = Options { from: args.from, name: args.name.clone(), ..common };
-    let mut case = Case::load(&options.case_path, &options.sets)?;
-    if let Some(name) = &options.name {
-        case.name.clone_from(name);
-    }
-    let stop = Stop::on_signals()?;
-    if args.child {
-        stop.watch_launcher();
-    }
-    let joining = Joining { run_id: args.run.clone(), participant, notice: None };
-    let log = |directory: &Path| log_to(directory, options.verbosity, !args.child);
-    run_side(&case, &options, joining, args.child, &stop, log)
-}
-
-fn print(text: &str) -> Result<(), RunError> {
-    let mut out = std::io::stdout().lock();
-    // A reader that has seen enough (`cav materials | head`) is no error.
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    Ok(())
-}
-
-fn complain(error: &RunError) {
-    match error {
-        RunError::Case(errors) => eprint!("{}", render(errors)),
-        RunError::Grid { number, levels, source } => match &**source {
-            RunError::Case(errors) => eprint!("grid {number} ({levels}):\n{}", render(errors)),
-            _ => eprintln!("error: {error}"),
-        },
-        other => eprintln!("error: {other}"),
-    }
-    tracing::error!("{error}");
-}
-
-fn render(errors: &CaseErrors) -> String {
-    errors.render(std::io::stderr().is_terminal())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn intervals_are_numbers_with_units_or_off() {
-        let seconds =
-            |text| Every::parse(text).ok().map(|Every(every)| every.map(|every| every.as_secs_f64()));
-        for (text, expected) in [
-            ("5min", 300.0),
-            ("0.5 h", 1800.0),
-            ("1h 30min", 5400.0),
-            ("2 days", 172_800.0),
-            ("250ms", 0.25),
-            ("3s", 3.0),
-            ("7", 7.0),
-        ] {
-            assert_eq!(seconds(text), Some(Some(expected)), "{text}");
-        }
-        assert_eq!(seconds("off"), Some(None));
-        for text in ["", "min", "-3s", "-3", "5 parsecs", "1e400", "nan", "99999999999999999999h"] {
-            assert_eq!(seconds(text), None, "{text}");
         }
     }
 }

@@ -5,5 +5,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(cav::command_line::main(std::env::args_os(), &[]))
+    ExitCode::from(cav::command_line::main(std::env::args_os(), &[], &[]))
 }

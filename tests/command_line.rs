@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 mod fixture;
 #[path = "command_line/left.rs"]
 mod left;
+#[path = "command_line/shown.rs"]
+mod shown;
 
 use fixture::{probe, small};
 use left::summary;

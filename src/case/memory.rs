@@ -2,7 +2,7 @@
 //!
 //! Counted is what is there at the same time at the worst moment, a snapshot that is made while the one before is still being
 //! written: fields and registers of the solver, the values of both snapshots and the meshes that they are on. Against
-//! measured peaks see docs/cases.md.
+//! measured peaks see docs/reference/cases.md.
 
 use fluid::{InitialPressure, RayleighField};
 use mesh::BLOCK;

@@ -1,4 +1,4 @@
-//! Case files: TOML in SI units, read into a validated [`Case`]. `docs/cases.md` lists every key.
+//! Case files: TOML in SI units, read into a validated [`Case`]. [`keys_page`] lists every key.
 
 mod check;
 mod cross;
@@ -7,6 +7,7 @@ mod error;
 mod far_field;
 pub(crate) mod format;
 mod initial_pressure;
+mod keys;
 mod load;
 mod loading;
 mod materials;
@@ -47,10 +48,12 @@ use solid::{InitialStress, Material, PotentialPulse, Weight};
 
 pub use check::report;
 pub use error::{CaseError, CaseErrors};
+pub use keys::adaptation::DEFAULT_ADAPT_EVERY;
+pub use keys::{UnknownKey, describe_keys, key_paths, keys_page};
 pub use load::{GaussianLoad, LoadCase};
 pub use materials::materials_table;
 pub use memory::{Memory, available_memory};
-pub use read_adaptation::{DEFAULT_ADAPT_EVERY, DEFAULT_ERROR};
+pub use read_adaptation::DEFAULT_ERROR;
 pub use recorded_load::RecordedLoad;
 pub use steps::SMALLEST_STEP;
 

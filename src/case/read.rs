@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::error::{CaseError, suggest};
-use super::read_grid::MOST_CELLS;
+use super::keys::{records, time as of_time};
 use super::reader::{Faults, Table, array};
 use super::shared::{Context, PlacedProbe, name_of};
 use super::{
@@ -29,9 +29,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     let mut faults = Faults::default();
     let mut root = Table::root(&document);
 
-    let geometry = root
-        .choice("geometry", &Geometry::NAMES, &mut faults)
-        .map_or(Geometry::Axisymmetric, |given| given.value);
+    let geometry = root.name("geometry", &Geometry::NAMES, &mut faults);
     let time = time(&mut root, &mut faults);
     let (coupling, scheme) = read_coupling::coupling(&mut root, &mut faults);
     if time.as_ref().is_some_and(|time| time.settles) {
@@ -117,24 +115,19 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
     let settles = matches!(table.text("end"), Some("settled"));
     let end = if settles {
         table.raw("end");
-        table.required_positive("longest", "s", faults)
+        table.required_positive("longest", faults)
     } else {
-        let end = table.required_positive("end", "s", faults);
+        let end = table.required_positive("end", faults);
         if let Some(longest) = table.raw("longest") {
             let help = "remove it, or write end = \"settled\"";
             faults.of(&longest, "only a run with end = \"settled\" has a limit besides its end", help);
         }
         end
     };
-    let cfl = table.number("cfl", "1", faults);
-    if let Some(cfl) = &cfl
-        && !(cfl.value > 0.0 && cfl.value <= 0.9)
-    {
-        faults.of(cfl, format!("must lie in (0, 0.9], got {:?}", cfl.value), "0.45 is a good value");
-    }
-    let local_steps = table.boolean("local_steps", faults);
-    let snapshots = table.numbers("snapshots", "s", faults);
-    let every = table.number("snapshot_every", "s", faults);
+    let cfl = table.within("cfl", "0.45 is a good value", faults);
+    let local_steps = table.flag("local_steps", faults);
+    let snapshots = table.numbers("snapshots", faults);
+    let every = table.number("snapshot_every", faults);
     table.finish(faults);
 
     if let (Some(_), Some(every)) = (&snapshots, &every) {
@@ -166,8 +159,8 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
     Some(Time {
         end,
         settles,
-        cfl: cfl.map_or(0.45, |given| given.value),
-        local_steps: local_steps.is_some_and(|given| given.value),
+        cfl: cfl.map_or(of_time::CFL, |given| given.value),
+        local_steps,
         snapshots: resolve(times, end),
     })
 }
@@ -189,7 +182,7 @@ fn probes(root: &mut Table<'_>, faults: &mut Faults) -> Vec<PlacedProbe> {
     for mut table in root.tables("probe", faults) {
         let name =
             name_of(&mut table, "probe", |name| probes.iter().any(|other| other.probe.name == name), faults);
-        let position = table.required_pair("position", "m, as [z, r]", faults);
+        let position = table.required_pair("position", faults);
         if !table.has("medium") {
             table.missing("medium", "give `medium = \"fluid\"` or \"solid\"", faults);
         }
@@ -208,7 +201,7 @@ fn output(root: &mut Table<'_>, end: Option<f64>, faults: &mut Faults) -> Output
     let mut output = OutputCase {
         directory: None,
         fields: None,
-        compression: 4,
+        compression: records::COMPRESSION,
         interface_cells: None,
         interface_every: None,
         mean_time: None,
@@ -221,12 +214,7 @@ fn output(root: &mut Table<'_>, end: Option<f64>, faults: &mut Faults) -> Output
         output.directory = Some(PathBuf::from(directory.value));
     }
     if let Some(given) = table.raw("fields") {
-        let mut allowed: Vec<&str> = fluid::CELL_FIELDS.iter().map(|field| field.name).collect();
-        for field in solid::CELL_FIELDS {
-            if !allowed.contains(&field.name) {
-                allowed.push(field.name);
-            }
-        }
+        let allowed = records::fields();
         let mut fields: Vec<String> = Vec::new();
         for element in array(&given, "a list of field names", "quotes", faults).unwrap_or_default() {
             match element.value.as_str() {
@@ -244,11 +232,11 @@ fn output(root: &mut Table<'_>, end: Option<f64>, faults: &mut Faults) -> Output
         }
         output.fields = Some(fields);
     }
-    if let Some(level) = table.whole("compression", 0..=9, faults) {
+    if let Some(level) = table.whole("compression", faults) {
         output.compression = u8::try_from(level.value).unwrap_or(9);
     }
-    output.interface_cells = table.whole("interface_cells", 1..=MOST_CELLS, faults).map(|given| given.value);
-    output.interface_every = table.positive("interface_every", "s", faults);
+    output.interface_cells = table.whole("interface_cells", faults).map(|given| given.value);
+    output.interface_every = table.positive("interface_every", faults);
     if let (Some(every), Some(end), Some(given)) =
         (output.interface_every, end, table.place("interface_every"))
         && end / every > MOST_ROWS * (1.0 + 1e-9)
@@ -256,7 +244,7 @@ fn output(root: &mut Table<'_>, end: Option<f64>, faults: &mut Faults) -> Output
         let message = format!("{every:?} s means more than {MOST_ROWS:e} rows until time.end = {end:?} s");
         faults.of(&given, message, format!("give {:?} s or more", end / MOST_ROWS));
     }
-    output.mean_time = table.positive("mean_time", "s", faults);
+    output.mean_time = table.positive("mean_time", faults);
     if let (Some(mean), Some(end), Some(given)) = (output.mean_time, end, table.place("mean_time"))
         && mean > end
     {

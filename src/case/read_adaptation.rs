@@ -2,19 +2,12 @@
 
 use mesh::{Adaptation, LevelBound, Side, Zone};
 
+use super::keys::adaptation::DEFAULT_ADAPT_EVERY;
 use super::reader::{Faults, Given, LARGEST, Table};
 
 /// The error that adaptation may add where a case says nothing and prescribes no wave: about that of a collapse between grids twice as
 /// fine as one another.
 pub const DEFAULT_ERROR: f64 = 1e-2;
-
-/// More levels than this are a mistake.
-pub(super) const MOST_LEVELS: usize = 20;
-
-/// Steps between two adaptations where a case does not say.
-pub const DEFAULT_ADAPT_EVERY: usize = 8;
-/// More steps than this between two adaptations are a mistake.
-const MOST_STEPS: usize = 1000;
 
 /// The shapes of zones by name.
 #[derive(Clone, Copy, PartialEq)]
@@ -48,13 +41,7 @@ pub(super) struct Asked {
 impl Asked {
     /// - `has_interfaces`: whether the side knows anything but waves.
     fn read(table: &mut Table<'_>, has_interfaces: bool, faults: &mut Faults) -> Self {
-        let mut share = |key: &'static str, help: &str| {
-            let given = table.number(key, "1", faults)?;
-            if !(given.value > 0.0 && given.value < 1.0) {
-                faults.of(&given, format!("must lie in (0, 1), got {:?}", given.value), help);
-            }
-            Some(given)
-        };
+        let mut share = |key: &'static str, help: &str| table.within(key, help, faults);
         let error =
             share("error", "0.01 is the default where no wave is prescribed; a smaller one keeps more cells");
         let epsilon = share(
@@ -91,9 +78,9 @@ pub(super) fn adaptation(
     interface: Option<Side>,
     faults: &mut Faults,
 ) -> (Option<Adaptation>, Asked) {
-    let adapt = table.boolean("adapt", faults).is_none_or(|given| given.value);
+    let adapt = table.flag("adapt", faults);
     let asked = Asked::read(table, has_interfaces, faults);
-    let every = table.whole("adapt_every", 1..=MOST_STEPS, faults);
+    let every = table.whole("adapt_every", faults);
     let bounds: Vec<LevelBound> = (table.tables("refine", faults).into_iter())
         .flat_map(|table| bounds(table, levels, interface, faults))
         .collect();
@@ -125,8 +112,8 @@ fn bounds(
 /// A region around a circle in which each doubling of the distance from its centre is one level coarser: cells there are as wide
 /// as they are far away, so that far sides cost little.
 fn outer(table: &mut Table<'_>, levels: Levels, faults: &mut Faults) -> Option<Vec<LevelBound>> {
-    let centre = table.required_pair("centre", "m, as [z, r]", faults);
-    let radius = table.required_positive("radius", "m", faults);
+    let centre = table.required_pair("centre", faults);
+    let radius = table.required_positive("radius", faults);
     let (centre, radius) = (centre?.value, radius?);
     let coarser = 1..=levels.finest.saturating_sub(levels.roots);
     let ring = |halvings: usize| LevelBound {
@@ -147,7 +134,7 @@ fn bound(
 ) -> Option<LevelBound> {
     let zone = kind.and_then(|kind| zone(&mut table, &kind, interface, faults));
     let [at_least, at_most] = ["at_least", "at_most"].map(|key| {
-        let given = table.whole(key, 0..=MOST_LEVELS, faults)?;
+        let given = table.whole(key, faults)?;
         if given.value > levels.finest {
             let message = format!("must be from 0 to {}, got {}", levels.finest, given.value);
             faults.of(
@@ -201,8 +188,8 @@ fn zone(
 ) -> Option<Zone> {
     match kind.value {
         Kind::Sphere => {
-            let centre = table.required_pair("centre", "m, as [z, r]", faults);
-            let radius = table.required_positive("radius", "m", faults);
+            let centre = table.required_pair("centre", faults);
+            let radius = table.required_positive("radius", faults);
             let inside = table.choice("where", &[("inside", true), ("outside", false)], faults);
             let (centre, radius) = (centre?.value, radius?);
             Some(if inside.is_none_or(|given| given.value) {

@@ -4,29 +4,24 @@ use std::path::Path;
 
 use coupler::{Kappa, Participant, Scheme, StarSolver};
 
+use super::keys::coupling as keys;
 use super::reader::{Faults, Given, Table};
 use super::recorded_load::RecordedLoad;
 use super::shared::history;
 use super::{CouplingCase, GaussianLoad, LoadCase};
-
-/// The most steps that one side makes within one of the other.
-const MOST_STEPS_IN_ONE: u32 = 16;
-
-/// More iterations a step than this are a mistake.
-const MOST_ITERATIONS: usize = 10_000;
 
 pub(super) fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCase, Option<Given<Scheme>>) {
     let mut coupling = CouplingCase {
         scheme: Scheme::Riemann,
         star: StarSolver::Exact,
         kappa: Kappa::Off,
-        step_ratio: MOST_STEPS_IN_ONE,
+        step_ratio: keys::MOST_STEPS_IN_ONE as u32,
         first: Participant::Fluid,
-        tolerance: 1e-6,
-        max_iterations: 100,
+        tolerance: keys::TOLERANCE,
+        max_iterations: keys::ITERATIONS as u32,
         load: None,
-        connect_timeout: 30.0,
-        patience: 600.0,
+        connect_timeout: keys::CONNECT_TIMEOUT,
+        patience: keys::PATIENCE,
     };
     let default =
         Given { value: Scheme::Riemann, path: "coupling.scheme".to_owned(), span: root.span.clone() };
@@ -44,9 +39,7 @@ pub(super) fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCa
     if let Some(scheme) = &scheme {
         coupling.scheme = scheme.value;
     }
-    if let Some(star) = table.choice("star", &StarSolver::NAMES, faults) {
-        coupling.star = star.value;
-    }
+    coupling.star = table.name("star", &StarSolver::NAMES, faults);
     if let Some(kappa) = table.choice("kappa", &Kappa::NAMES, faults) {
         coupling.kappa = kappa.value;
         if kappa.value != Kappa::Off && scheme.as_ref().is_some_and(|given| given.value != Scheme::Weak) {
@@ -56,7 +49,7 @@ pub(super) fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCa
     if coupling.scheme.exchanges_cells() {
         coupling.step_ratio = 1;
     }
-    if let Some(ratio) = table.whole("step_ratio", 1..=MOST_STEPS_IN_ONE as usize, faults) {
+    if let Some(ratio) = table.whole("step_ratio", faults) {
         coupling.step_ratio = ratio.value as u32;
         if ratio.value > 1
             && let Some(scheme) = scheme.as_ref().filter(|given| given.value.exchanges_cells())
@@ -76,15 +69,11 @@ pub(super) fn coupling(root: &mut Table<'_>, faults: &mut Faults) -> (CouplingCa
         coupling.first = first.value;
         only_in(&[Scheme::Weak, Scheme::Strong], faults, &first.path, &first.span);
     }
-    if let Some(tolerance) = table.number("tolerance", "1", faults) {
+    if let Some(tolerance) = table.within("tolerance", "give a small share, as 1e-6", faults) {
         coupling.tolerance = tolerance.value;
-        if !(tolerance.value > 0.0 && tolerance.value < 1.0) {
-            let message = format!("must be above 0 and below 1, got {:?}", tolerance.value);
-            faults.of(&tolerance, message, "give a small share, as 1e-6");
-        }
         only_in(&[Scheme::Strong], faults, &tolerance.path, &tolerance.span);
     }
-    if let Some(most) = table.whole("max_iterations", 1..=MOST_ITERATIONS, faults) {
+    if let Some(most) = table.whole("max_iterations", faults) {
         coupling.max_iterations = most.value as u32;
         only_in(&[Scheme::Strong], faults, &most.path, &most.span);
     }
@@ -117,9 +106,9 @@ fn load(coupling: &mut Table<'_>, scheme: Option<&Given<Scheme>>, faults: &mut F
     if table.has("run") {
         return recorded(table, faults);
     }
-    let amplitude = table.required("amplitude", "Pa", faults);
-    let radius = table.required_positive("radius", "m", faults);
-    let history = history(&mut table, "history", "s and 1", faults);
+    let amplitude = table.required("amplitude", faults);
+    let radius = table.required_positive("radius", faults);
+    let history = history(&mut table, "history", faults);
     table.finish(faults);
     let load = GaussianLoad { amplitude: amplitude?.value, radius: radius?, history: history?.value };
     Some(LoadCase::Gaussian(load))

@@ -7,6 +7,7 @@ use fluid::{
 };
 use mesh::{Geometry, Limiter, Side};
 
+use super::keys::fluid::GAS;
 use super::read_grid::{GridPlace, grid};
 use super::read_near_wall::near_wall;
 use super::read_shape::{Kind, body, on_axis, shape};
@@ -45,7 +46,8 @@ pub(super) fn fluid(
         table.missing("liquid", "write [fluid.liquid] with gamma and pi, for water 7.15 and 3e8", faults);
         None
     };
-    let air = StiffenedGas { gamma: 1.4, pi: 0.0 };
+    let [gamma, pi] = GAS;
+    let air = StiffenedGas { gamma, pi };
     let gas = match table.table("gas", faults) {
         Some(table) => stiffened_gas(table, Some(air), faults),
         None => Some(air),
@@ -70,9 +72,8 @@ pub(super) fn fluid(
         let others = (inflow.as_ref(), gravity);
         far_field::decide(&mut boundary, &named, initial, grid, media, others, context, faults);
     }
-    let riemann = table.choice("riemann", &RiemannSolver::NAMES, faults);
-    let model = table.choice("model", &Model::NAMES, faults);
-    let model = model.map_or(Model::FiveEquation, |given| given.value);
+    let riemann = table.name("riemann", &RiemannSolver::NAMES, faults);
+    let model = table.name("model", &Model::NAMES, faults);
     let by_default = if model == Model::SaurelAbgrall { Sharpening::None } else { Sharpening::Thinc };
     let sharpening = table.choice("interface", &Sharpening::NAMES, faults);
     if let Some(given) = sharpening.as_ref().filter(|given| given.value == Sharpening::Thinc)
@@ -85,9 +86,9 @@ pub(super) fn fluid(
             "model = \"five-equation\" (the default), or interface = \"none\"",
         );
     }
-    let limiter = table.choice("limiter", &Limiter::NAMES, faults);
-    let scale_pressure = table.positive("scale_pressure", "Pa", faults);
-    let scale_density = table.positive("scale_density", "kg/m3", faults);
+    let limiter = table.name("limiter", &Limiter::NAMES, faults);
+    let scale_pressure = table.positive("scale_pressure", faults);
+    let scale_density = table.positive("scale_density", faults);
     table.finish(faults);
     let (grid, place) = placed?;
     let (liquid, gas, initial) = (liquid?, gas?, initial?);
@@ -101,10 +102,10 @@ pub(super) fn fluid(
         initial,
         boundary,
         inflow,
-        riemann: riemann.map_or(RiemannSolver::Hllc, |given| given.value),
+        riemann,
         model,
         sharpening: sharpening.map_or(by_default, |given| given.value),
-        limiter: limiter.map_or(Limiter::Mc, |given| given.value),
+        limiter,
         near_wall: fluid::NearWall { reference_pressure: scale_pressure, ..near_wall },
         scale_pressure,
         scale_density,
@@ -120,15 +121,15 @@ fn stiffened_gas(
     default: Option<StiffenedGas>,
     faults: &mut Faults,
 ) -> Option<StiffenedGas> {
-    let mut value = |key, unit, default: Option<f64>, faults: &mut Faults| match default {
+    let mut value = |key, default: Option<f64>, faults: &mut Faults| match default {
         Some(default) if !table.has(key) => {
             table.raw(key);
             Some(Given { value: default, path: String::new(), span: 0..0 })
         }
-        _ => table.required(key, unit, faults),
+        _ => table.required(key, faults),
     };
-    let gamma = value("gamma", "1", default.map(|eos| eos.gamma), faults);
-    let pi = value("pi", "Pa", default.map(|eos| eos.pi), faults);
+    let gamma = value("gamma", default.map(|eos| eos.gamma), faults);
+    let pi = value("pi", default.map(|eos| eos.pi), faults);
     table.finish(faults);
     let (gamma, pi) = (gamma?, pi?);
     let mut sound = true;
@@ -152,7 +153,7 @@ fn gravity(
     setting: &Setting,
     faults: &mut Faults,
 ) -> Option<Gravity> {
-    let given = table.number("gravity", "m/s2", faults).filter(|given| given.value != 0.0)?;
+    let given = table.number("gravity", faults).filter(|given| given.value != 0.0)?;
     let (ambient, grid) = (&initial.ambient, setting.grid.as_ref()?);
     let gravity = Gravity { acceleration: given.value, level: grid.z[0] };
     if ambient.phase == Phase::Gas {
@@ -235,9 +236,9 @@ fn state(
         table.raw("phase");
         default
     };
-    let density = table.required_positive("density", "kg/m3", faults);
-    let pressure = table.required("pressure", "Pa", faults);
-    let velocity = table.pair("velocity", "m/s", faults).map_or([0.0; 2], |given| given.value);
+    let density = table.required_positive("density", faults);
+    let pressure = table.required("pressure", faults);
+    let velocity = table.pair("velocity", faults).map_or([0.0; 2], |given| given.value);
     let pressure = pressure?;
     if let Some(eos) = phase.and_then(|phase| setting.eos(phase))
         && pressure.value + eos.pi <= 0.0
@@ -268,15 +269,15 @@ fn pulse(
 ) -> Option<Pulse> {
     let kind = shape(&mut table, &[("sphere", Kind::Sphere), ("plane", Kind::Plane)], faults)?;
     let centre = centre(&mut table, kind, faults);
-    let width = table.required_positive("width", "m", faults);
-    let amplitude = table.required("amplitude", "Pa", faults);
+    let width = table.required_positive("width", faults);
+    let amplitude = table.required("amplitude", faults);
     let shape = if kind == Kind::Sphere {
         if let Some(centre) = &centre {
             on_axis(centre, setting.geometry, faults);
         }
         Some(PulseShape::Sphere)
     } else {
-        let given = table.pair("direction", "1", faults);
+        let given = table.pair("direction", faults);
         let faulty = given.is_none() && table.has("direction");
         let direction = given.map(|given| unit(&given, setting.geometry, faults));
         (!faulty).then_some(PulseShape::Plane { direction })
@@ -300,10 +301,11 @@ fn centre(table: &mut Table<'_>, kind: Kind, faults: &mut Faults) -> Option<Give
         table.missing("centre", "give `centre = [z, r]` in m", faults);
         return None;
     };
+    let unit = table.unit("centre");
     let value = if kind == Kind::Plane && !given.value.is_array() {
-        number(&given, "m", faults).map(|z| [z, 0.0])
+        number(&given, &unit, faults).map(|z| [z, 0.0])
     } else {
-        pair(&given, "m, as [z, r]", faults)
+        pair(&given, &format!("{unit}, as [z, r]"), faults)
     };
     Some(Given { value: value?, path: given.path, span: given.span })
 }
@@ -375,7 +377,7 @@ fn inflow(
         let help = "make a side \"inflow\" under [fluid.boundary], or remove the table";
         faults.at(&path, &inflow.span, "no side is an \"inflow\"", help);
     }
-    let pressure = history(&mut inflow, "pressure", "s and Pa", faults);
+    let pressure = history(&mut inflow, "pressure", faults);
     inflow.finish(faults);
     let pressure = pressure?;
     if let Some(eos) = liquid

@@ -4,12 +4,10 @@ use coupler::Scheme;
 use mesh::{BLOCK, Geometry, Side};
 
 use super::GridCase;
-use super::read_adaptation::{Asked, Levels, MOST_LEVELS, adaptation};
+use super::keys::grid::{MOST_CELLS, MOST_LEVELS};
+use super::read_adaptation::{Asked, Levels, adaptation};
 use super::reader::{Faults, Given, Table};
 use super::shared::Context;
-
-/// More cells than this along one direction are a mistake.
-pub(super) const MOST_CELLS: usize = 1 << 20;
 
 /// Where a side's ranges stand, for what is found out when both sides are known.
 pub(super) struct GridPlace {
@@ -43,8 +41,8 @@ pub(super) fn grid(
         faults.of(given, message, "start at r = 0.0, or take geometry = \"planar\"");
         r = None;
     }
-    let cells = table.whole_pair("cells", 1..=MOST_CELLS, faults);
-    let levels = table.whole("levels", 0..=MOST_LEVELS, faults);
+    let cells = table.whole_pair("cells", faults);
+    let levels = table.whole("levels", faults);
     let levels = match levels {
         Some(given) => Some(given.value),
         // Present and faulty, or absent: then there is one level.

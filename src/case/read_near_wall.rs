@@ -3,21 +3,15 @@
 use fluid::NearWall;
 
 use super::GridCase;
-use super::read_adaptation::MOST_LEVELS;
-use super::read_grid::MOST_CELLS;
+use super::keys::adaptation::FILM_CELLS;
+use super::keys::grid::{MOST_CELLS, MOST_LEVELS};
 use super::reader::{Faults, Table};
 use super::shared::Context;
 use coupler::Scheme;
 
-/// Levels above `levels` at most: each halves the cells, and the steps with them.
-const MOST_ABOVE: usize = 6;
 /// Levels where a shock is about to hit the wall, where a case does not say and levels have steps of their own: a fine cell more then
 /// costs little. Without, all cells would make the steps of the finest.
 const SHOCK_LEVELS: usize = 2;
-/// Cells that a film has across where a case does not say.
-const FILM_CELLS: usize = 8;
-/// Bounds of that; more than a block has cells along a side would not be seen.
-const FILM_CELLS_RANGE: std::ops::RangeInclusive<usize> = 2..=mesh::BLOCK;
 
 /// How far the grid rises next to the wall, and what the adaptation must know of it.
 ///
@@ -34,9 +28,9 @@ pub(super) fn near_wall(
     let mut given = [None, None, None];
     if let Some(mut table) = table.table("near_wall", faults) {
         given = [
-            table.whole("shock_levels", 0..=MOST_ABOVE, faults),
-            table.whole("film_levels", 0..=MOST_ABOVE, faults),
-            table.whole("film_cells", FILM_CELLS_RANGE, faults),
+            table.whole("shock_levels", faults),
+            table.whole("film_levels", faults),
+            table.whole("film_cells", faults),
         ];
         table.finish(faults);
     }

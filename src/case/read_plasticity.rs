@@ -45,18 +45,19 @@ struct Numbers(Vec<(&'static str, Given<f64>)>);
 
 impl Numbers {
     fn read(table: &mut Table<'_>, faults: &mut Faults) -> Self {
-        let all = [
-            ("yield_strength", table.number("yield_strength", "Pa", faults)),
-            ("hardening_modulus", table.number("hardening_modulus", "Pa", faults)),
-            ("hardening_exponent", table.number("hardening_exponent", "1", faults)),
-            ("rate_coefficient", table.number("rate_coefficient", "1", faults)),
-            ("reference_rate", table.number("reference_rate", "1/s", faults)),
-            ("softening_exponent", table.number("softening_exponent", "1", faults)),
-            ("melting_temperature", table.number("melting_temperature", "K", faults)),
-            ("reference_temperature", table.number("reference_temperature", "K", faults)),
-            ("heat_capacity", table.number("heat_capacity", "J/(kg K)", faults)),
-            ("taylor_quinney", table.number("taylor_quinney", "1", faults)),
+        const NUMBERS: [&str; 10] = [
+            "yield_strength",
+            "hardening_modulus",
+            "hardening_exponent",
+            "rate_coefficient",
+            "reference_rate",
+            "softening_exponent",
+            "melting_temperature",
+            "reference_temperature",
+            "heat_capacity",
+            "taylor_quinney",
         ];
+        let all = NUMBERS.map(|key| (key, table.number(key, faults)));
         Self(all.into_iter().filter_map(|(key, given)| Some((key, given?))).collect())
     }
 

@@ -20,8 +20,8 @@ pub(super) fn sensors(root: &mut Table<'_>, faults: &mut Faults) -> Vec<PlacedSe
             faults,
         );
         let place = table.place("radius");
-        let radius = table.required_positive("radius", "m", faults);
-        let rise_time = table.positive("rise_time", "s", faults);
+        let radius = table.required_positive("radius", faults);
+        let rise_time = table.positive("rise_time", faults);
         table.finish(faults);
         if let (Some(name), Some(radius), Some(place)) = (name, radius, place) {
             let sensor = Sensor { name, radius, rise_time: rise_time.unwrap_or(0.0) };

@@ -45,8 +45,8 @@ pub(super) fn body(
 ) -> Option<Shape> {
     let kind = shape(table, &[("sphere", Kind::Sphere), ("box", Kind::Box)], faults)?;
     if kind == Kind::Sphere {
-        let centre = table.required_pair("centre", "m, as [z, r]", faults);
-        let radius = table.required_positive("radius", "m", faults);
+        let centre = table.required_pair("centre", faults);
+        let radius = table.required_positive("radius", faults);
         if let Some(centre) = &centre {
             on_axis(centre, geometry, faults);
             if let Some(grid) = grid.filter(|grid| !grid.contains(centre.value)) {

@@ -23,17 +23,17 @@ pub(super) fn solid(
 ) -> Option<(SolidCase, GridPlace)> {
     let placed = grid(&mut table, context, Side::ZMax, faults);
     let material = material(&mut table, faults);
-    let initial_stress = table.choice("initial_stress", &InitialStress::NAMES, faults);
+    let initial_stress = table.name("initial_stress", &InitialStress::NAMES, faults);
     let initial = table.string("initial", faults);
     let boundary = sides(&mut table, context, faults);
-    let gravity = table.number("gravity", "m/s2", faults).filter(|given| given.value != 0.0);
-    let limiter = table.choice("limiter", &Limiter::NAMES, faults);
+    let gravity = table.number("gravity", faults).filter(|given| given.value != 0.0);
+    let limiter = table.name("limiter", &Limiter::NAMES, faults);
     let given = table.table("plasticity", faults);
     let is_plastic = given.is_some();
     let plasticity = given.and_then(|given| plasticity(given, material.as_ref(), faults));
     let pulses: Vec<Option<PotentialPulse>> =
         table.tables("pulse", faults).into_iter().map(|table| pulse(table, context, faults)).collect();
-    let scale_stress = table.positive("scale_stress", "Pa", faults);
+    let scale_stress = table.positive("scale_stress", faults);
     table.finish(faults);
     if is_plastic && plasticity.is_none() {
         return None;
@@ -51,10 +51,10 @@ pub(super) fn solid(
         material,
         plasticity,
         weight,
-        initial_stress: initial_stress.map_or(InitialStress::Uniaxial, |given| given.value),
+        initial_stress,
         initial: initial.map(|given| PathBuf::from(given.value)),
         boundary,
-        limiter: limiter.map_or(Limiter::Mc, |given| given.value),
+        limiter,
         pulses,
     };
     Some((case, place))
@@ -117,17 +117,17 @@ fn custom(mut table: Table<'_>, faults: &mut Faults) -> Option<Material> {
     const PAIRS: [[&str; 2]; 3] = [["c1", "c2"], ["young", "poisson"], ["lambda", "mu"]];
     let span = table.span.clone();
     let name = table.string("name", faults);
-    let density = table.required("density", "kg/m3", faults);
-    let yield_strength = table.number("yield_strength", "Pa", faults);
+    let density = table.required("density", faults);
+    let yield_strength = table.number("yield_strength", faults);
     let named: Vec<[&str; 2]> =
         PAIRS.into_iter().filter(|pair| pair.iter().any(|key| table.has(key))).collect();
     let numbers = [
-        table.number("c1", "m/s", faults),
-        table.number("c2", "m/s", faults),
-        table.number("young", "Pa", faults),
-        table.number("poisson", "1", faults),
-        table.number("lambda", "Pa", faults),
-        table.number("mu", "Pa", faults),
+        table.number("c1", faults),
+        table.number("c2", faults),
+        table.number("young", faults),
+        table.number("poisson", faults),
+        table.number("lambda", faults),
+        table.number("mu", faults),
     ];
     let exactly = "give exactly one pair: c1 and c2, or young and poisson, or lambda and mu";
     let path = table.path.clone();
@@ -248,9 +248,9 @@ fn sides(table: &mut Table<'_>, context: Context, faults: &mut Faults) -> [Bound
 }
 
 fn pulse(mut table: Table<'_>, context: Context, faults: &mut Faults) -> Option<PotentialPulse> {
-    let centre = table.required_pair("centre", "m, as [z, r]", faults);
-    let width = table.required_positive("width", "m", faults);
-    let amplitude = table.required("amplitude", "m2", faults);
+    let centre = table.required_pair("centre", faults);
+    let width = table.required_positive("width", faults);
+    let amplitude = table.required("amplitude", faults);
     table.finish(faults);
     if let Some(centre) = &centre
         && context.geometry == Geometry::Axisymmetric

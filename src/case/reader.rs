@@ -1,7 +1,9 @@
 //! Reading TOML tables key by key, so that every fault of a file is found in one go.
 //!
 //! A [`Table`] hands out the values of the keys it is asked for and remembers the keys; what is left over at the end
-//! is an unknown key, and the keys asked for are the valid names.
+//! is an unknown key, and the keys asked for are the valid names. What a key is (its unit, range, names and default) is
+//! declared in [`keys`]; one that is asked for and not declared there is a defect of the program, and no case with its table
+//! can be read.
 
 use std::ops::Range;
 
@@ -9,11 +11,9 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::suggest;
+use super::keys::{self, Key, Preset, Values};
 use super::values::whole;
 pub(super) use super::values::{Faults, Given, LARGEST, SMALLEST, array, describe, number, pair, wrong_type};
-
-/// How long a side may be told to wait for the other, s: from a millisecond to thirty years.
-const WAITING: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
 
 /// A TOML table being read. `None` from a getter means "absent" or "present but faulty"; the fault is recorded then.
 pub(super) struct Table<'a> {
@@ -21,11 +21,46 @@ pub(super) struct Table<'a> {
     pub path: String,
     pub span: Range<usize>,
     asked: Vec<&'static str>,
+    /// Keys whose declaration does not fit what is read.
+    defects: Vec<(&'static str, String)>,
 }
 
 impl<'a> Table<'a> {
     pub fn root(document: &'a Spanned<DeTable<'a>>) -> Self {
-        Self { entries: document.get_ref(), path: String::new(), span: 0..0, asked: Vec::new() }
+        Self::new(document.get_ref(), String::new(), 0..0)
+    }
+
+    fn new(entries: &'a DeTable<'a>, path: String, span: Range<usize>) -> Self {
+        Self { entries, path, span, asked: Vec::new(), defects: Vec::new() }
+    }
+
+    /// What a key is declared to be.
+    fn declared(&self, key: &str) -> Option<&'static Key> {
+        keys::key(&keys::without_numbers(&self.path), key)
+    }
+
+    /// The unit that a key is declared to have; of a point with its coordinates.
+    pub fn unit(&self, key: &str) -> String {
+        match self.declared(key) {
+            Some(Key { unit, values: Values::Point, .. }) => format!("{unit}, as [z, r]"),
+            Some(key) => key.unit.to_owned(),
+            None => String::new(),
+        }
+    }
+
+    /// Keeps in mind that a key was asked for, and whether it is declared.
+    fn ask(&mut self, key: &'static str) {
+        self.asked.push(key);
+        let path = keys::without_numbers(&self.path_of(key));
+        if self.declared(key).is_none() && !keys::has_table(&path) {
+            self.defect(key, "it is not declared".to_owned());
+        }
+        #[cfg(test)]
+        keys::seen::note(path);
+    }
+
+    fn defect(&mut self, key: &'static str, what: String) {
+        self.defects.push((key, what));
     }
 
     /// The path of one of its keys.
@@ -54,7 +89,7 @@ impl<'a> Table<'a> {
 
     /// The value of a key as it stands.
     pub fn raw(&mut self, key: &'static str) -> Option<Given<&'a DeValue<'a>>> {
-        self.asked.push(key);
+        self.ask(key);
         let value = self.entries.get(key)?;
         Some(Given { value: value.get_ref(), path: self.path_of(key), span: value.span() })
     }
@@ -73,7 +108,7 @@ impl<'a> Table<'a> {
 
     fn from_value(given: Given<&'a DeValue<'a>>, faults: &mut Faults) -> Option<Self> {
         if let DeValue::Table(entries) = given.value {
-            Some(Self { entries, path: given.path, span: given.span, asked: Vec::new() })
+            Some(Self::new(entries, given.path, given.span))
         } else {
             let help = format!("write it as a table: [{}] and its keys below", given.path);
             wrong_type(&given, "a table", help, faults);
@@ -100,23 +135,23 @@ impl<'a> Table<'a> {
     }
 
     /// A finite number; integers count.
-    pub fn number(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<f64>> {
+    pub fn number(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<f64>> {
         let given = self.raw(key)?;
-        let value = number(&given, unit, faults)?;
+        let value = number(&given, &self.unit(key), faults)?;
         Some(Given { value, path: given.path, span: given.span })
     }
 
     /// A finite number that must be there.
-    pub fn required(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<f64>> {
+    pub fn required(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<f64>> {
         if !self.has(key) {
-            self.missing(key, format!("give `{key} = ...` in {unit}"), faults);
+            self.missing(key, format!("give `{key} = ...` in {}", self.unit(key)), faults);
         }
-        self.number(key, unit, faults)
+        self.number(key, faults)
     }
 
     /// A positive number; a default makes it optional.
-    pub fn positive(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<f64> {
-        let given = self.number(key, unit, faults)?;
+    pub fn positive(&mut self, key: &'static str, faults: &mut Faults) -> Option<f64> {
+        let given = self.number(key, faults)?;
         let got = given.value;
         if got >= SMALLEST {
             return Some(got);
@@ -126,17 +161,34 @@ impl<'a> Table<'a> {
         } else {
             format!("must be positive, got {got:?}")
         };
-        faults.of(&given, message, format!("give a number > 0 in {unit}"));
+        faults.of(&given, message, format!("give a number > 0 in {}", self.unit(key)));
         None
     }
 
-    /// A time to wait, s, within a range that clocks can count.
+    /// A number of the interval that is declared.
+    pub fn within(&mut self, key: &'static str, help: &str, faults: &mut Faults) -> Option<Given<f64>> {
+        let given = self.number(key, faults)?;
+        let Some(Key { values: Values::Within(interval), .. }) = self.declared(key) else {
+            self.defect(key, "its interval is not declared".to_owned());
+            return None;
+        };
+        if !interval.contains(given.value) {
+            faults.of(&given, format!("must lie in {interval}, got {:?}", given.value), help);
+        }
+        Some(given)
+    }
+
+    /// A time to wait, s, of the interval that is declared: one that clocks can count.
     pub fn waiting(&mut self, key: &'static str, faults: &mut Faults) -> Option<f64> {
-        let given = self.number(key, "s", faults)?;
-        if WAITING.contains(&given.value) {
+        let given = self.number(key, faults)?;
+        let Some(Key { values: Values::Within(interval), .. }) = self.declared(key) else {
+            self.defect(key, "its interval is not declared".to_owned());
+            return None;
+        };
+        if interval.contains(given.value) {
             return Some(given.value);
         }
-        let (least, most) = (WAITING.start(), WAITING.end());
+        let (least, most) = interval.ends();
         let message = if given.value <= 0.0 {
             format!("must be positive, got {:?}", given.value)
         } else {
@@ -147,45 +199,41 @@ impl<'a> Table<'a> {
     }
 
     /// A positive number that must be there.
-    pub fn required_positive(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<f64> {
+    pub fn required_positive(&mut self, key: &'static str, faults: &mut Faults) -> Option<f64> {
         if !self.has(key) {
-            self.missing(key, format!("give `{key} = ...` in {unit}"), faults);
+            self.missing(key, format!("give `{key} = ...` in {}", self.unit(key)), faults);
         }
-        self.positive(key, unit, faults)
+        self.positive(key, faults)
     }
 
     /// A list of finite numbers.
-    pub fn numbers(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<Vec<f64>>> {
+    pub fn numbers(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<Vec<f64>>> {
         let given = self.raw(key)?;
-        let elements = array(&given, "a list of numbers", unit, faults)?;
-        let values: Vec<Option<f64>> = elements.iter().map(|e| number(e, unit, faults)).collect();
+        let unit = self.unit(key);
+        let elements = array(&given, "a list of numbers", &unit, faults)?;
+        let values: Vec<Option<f64>> = elements.iter().map(|e| number(e, &unit, faults)).collect();
         let value = values.into_iter().collect::<Option<Vec<f64>>>()?;
         Some(Given { value, path: given.path, span: given.span })
     }
 
     /// Two finite numbers, `[a, b]`.
-    pub fn pair(&mut self, key: &'static str, unit: &str, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
+    pub fn pair(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
         let given = self.raw(key)?;
-        let value = pair(&given, unit, faults)?;
+        let value = pair(&given, &self.unit(key), faults)?;
         Some(Given { value, path: given.path, span: given.span })
     }
 
     /// Two finite numbers that must be there.
-    pub fn required_pair(
-        &mut self,
-        key: &'static str,
-        unit: &str,
-        faults: &mut Faults,
-    ) -> Option<Given<[f64; 2]>> {
+    pub fn required_pair(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
         if !self.has(key) {
-            self.missing(key, format!("give `{key} = [..., ...]` in {unit}"), faults);
+            self.missing(key, format!("give `{key} = [..., ...]` in {}", self.unit(key)), faults);
         }
-        self.pair(key, unit, faults)
+        self.pair(key, faults)
     }
 
     /// A range `[a, b]` with a < b, in metres.
     pub fn range(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
-        let given = self.required_pair(key, "m", faults)?;
+        let given = self.required_pair(key, faults)?;
         let [low, high] = given.value;
         if high - low >= SMALLEST {
             return Some(given);
@@ -201,29 +249,28 @@ impl<'a> Table<'a> {
         None
     }
 
-    /// A whole number within a range.
-    pub fn whole(
-        &mut self,
-        key: &'static str,
-        allowed: std::ops::RangeInclusive<usize>,
-        faults: &mut Faults,
-    ) -> Option<Given<usize>> {
+    /// A whole number of the range that is declared.
+    pub fn whole(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<usize>> {
         let given = self.raw(key)?;
-        let value = whole(&given, &allowed, faults)?;
+        let Some(Key { values: Values::Whole(low, high), .. }) = self.declared(key) else {
+            self.defect(key, "its range is not declared".to_owned());
+            return None;
+        };
+        let value = whole(&given, &(*low..=*high), faults)?;
         Some(Given { value, path: given.path, span: given.span })
     }
 
-    /// Two whole numbers within a range, that must be there.
-    pub fn whole_pair(
-        &mut self,
-        key: &'static str,
-        allowed: std::ops::RangeInclusive<usize>,
-        faults: &mut Faults,
-    ) -> Option<Given<[usize; 2]>> {
+    /// Two whole numbers of the range that is declared, that must be there.
+    pub fn whole_pair(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<[usize; 2]>> {
         let Some(given) = self.raw(key) else {
             self.missing(key, format!("give `{key} = [along z, along r]`, whole numbers"), faults);
             return None;
         };
+        let Some(Key { values: Values::Cells(low, high), .. }) = self.declared(key) else {
+            self.defect(key, "its range is not declared".to_owned());
+            return None;
+        };
+        let allowed = *low..=*high;
         let elements = array(&given, "two whole numbers", "cells along z and r", faults)?;
         let [z, r] = elements.as_slice() else {
             let message = format!("must be two whole numbers, got {}", elements.len());
@@ -245,8 +292,21 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// `true` or `false`; the default that is declared where the case does not say.
+    pub fn flag(&mut self, key: &'static str, faults: &mut Faults) -> bool {
+        match self.declared(key) {
+            Some(Key { default: Preset::Flag(default), .. }) => {
+                self.boolean(key, faults).map_or(*default, |given| given.value)
+            }
+            _ => {
+                self.defect(key, "its default is not declared".to_owned());
+                false
+            }
+        }
+    }
+
     /// `true` or `false`.
-    pub fn boolean(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<bool>> {
+    fn boolean(&mut self, key: &'static str, faults: &mut Faults) -> Option<Given<bool>> {
         let given = self.raw(key)?;
         if let DeValue::Boolean(value) = given.value {
             Some(Given { value: *value, path: given.path, span: given.span })
@@ -256,13 +316,42 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// One of a closed set of names.
+    /// One of a closed set of names; the default that is declared where the case does not say.
+    pub fn name<T: Copy>(
+        &mut self,
+        key: &'static str,
+        names: &[(&'static str, T)],
+        faults: &mut Faults,
+    ) -> T {
+        let chosen = self.choice(key, names, faults).map(|given| given.value);
+        let default = match self.declared(key) {
+            Some(Key { default: Preset::Name(default), .. }) => {
+                names.iter().find(|(name, _)| name == default).map(|(_, value)| *value)
+            }
+            _ => None,
+        };
+        if default.is_none() {
+            self.defect(key, "its default is not declared".to_owned());
+        }
+        chosen.or(default).unwrap_or(names[0].1)
+    }
+
+    /// One of a closed set of names, which are those that are declared.
     pub fn choice<T: Copy>(
         &mut self,
         key: &'static str,
         names: &[(&'static str, T)],
         faults: &mut Faults,
     ) -> Option<Given<T>> {
+        let is_declared = match self.declared(key) {
+            Some(Key { values: Values::Names(declared), .. }) => {
+                declared.iter().map(|(name, _)| name).eq(names.iter().map(|(name, _)| name))
+            }
+            _ => false,
+        };
+        if !is_declared {
+            self.defect(key, "its names are not those that are declared".to_owned());
+        }
         let given = self.raw(key)?;
         let allowed = || names.iter().map(|(name, _)| *name);
         let DeValue::String(text) = given.value else {
@@ -278,6 +367,10 @@ impl<'a> Table<'a> {
 
     /// Refuses every key that nothing asked for.
     pub fn finish(self, faults: &mut Faults) {
+        for (key, what) in &self.defects {
+            let message = format!("a defect of this program, not of the case: {what} in src/case/keys");
+            faults.at(&self.path_of(key), &self.span, message, "please report it");
+        }
         for key in self.entries.keys() {
             let name = key.get_ref().as_ref();
             if !self.asked.contains(&name) {

@@ -65,13 +65,13 @@ pub(super) fn boundaries<B: Copy + PartialEq>(
     sides
 }
 
-/// A list of [time, value] with ascending times; `units` are those of both.
+/// A list of [time, value] with ascending times.
 pub(super) fn history(
     table: &mut Table<'_>,
     key: &'static str,
-    units: &str,
     faults: &mut Faults,
 ) -> Option<Given<Vec<[f64; 2]>>> {
+    let units = &table.unit(key);
     let Some(given) = table.raw(key) else {
         table.missing(key, format!("give `{key} = [[t, value], ...]` in {units}"), faults);
         return None;

@@ -147,7 +147,7 @@ impl RunError {
         if case.coupling.scheme == Scheme::External { Err(Self::PeerIsElsewhere { side }) } else { Ok(()) }
     }
 
-    /// The process's exit code, see `docs/command-line.md`.
+    /// The process's exit code, see `docs/reference/command-line.md`.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Case(_)

@@ -186,7 +186,7 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Replace("scheme = \"riemann\"", "scheme = \"strong\"\nstep_ratio = 2"), &["coupling.step_ratio", "scheme = \"strong\" both sides make the same steps"]),
     (Replace("scheme = \"riemann\"", "first = \"solid\""), &["coupling.first", "only scheme = \"weak\" or \"strong\" knows this key"]),
     (Replace("scheme = \"riemann\"", "scheme = \"strong\"\nfirst = \"slid\""), &["coupling.first", "did you mean `solid`?"]),
-    (Replace("scheme = \"riemann\"", "scheme = \"strong\"\ntolerance = 1.0\nmax_iterations = 0"), &["coupling.tolerance: must be above 0 and below 1, got 1.0", "coupling.max_iterations", "1 to 10000"]),
+    (Replace("scheme = \"riemann\"", "scheme = \"strong\"\ntolerance = 1.0\nmax_iterations = 0"), &["coupling.tolerance: must lie in (0, 1), got 1.0", "coupling.max_iterations", "1 to 10000"]),
     (Replace("scheme = \"riemann\"", "scheme = \"explicit\"\ntolerance = 1e-3\nmax_iterations = 3"), &["coupling.tolerance: only scheme = \"strong\"", "coupling.max_iterations: only scheme = \"strong\""]),
     (Replace("scheme = \"riemann\"", "patience = -1"), &["coupling.patience: must be positive"]),
     (Replace("scheme = \"riemann\"", "patience = 1e10\nconnect_timeout = 1e-4"), &["coupling.patience: must be from 0.001 to 1e9 s, got 10000000000.0", "coupling.connect_timeout: must be from", "give seconds from 0.001 to 1e9"]),

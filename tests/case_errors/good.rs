@@ -36,8 +36,9 @@ pub fn round_trip(case: &Case) {
 
 #[test]
 fn shipped_cases_load_without_warnings_and_survive_being_written_out() {
-    let listed = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/cases.md"))
-        .expect("docs/cases.md is there");
+    let listed =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reference/cases.md"))
+            .expect("docs/reference/cases.md is there");
     for path in shipped() {
         let case = load(&path);
         assert!(case.warnings().is_empty(), "{}: {:?}", path.display(), case.warnings());
@@ -49,7 +50,7 @@ fn shipped_cases_load_without_warnings_and_survive_being_written_out() {
             assert!(text.contains(part), "{} does not say `{part}`", path.display());
         }
         let name = path.file_name().expect("a file").to_string_lossy().into_owned();
-        assert!(listed.contains(&name), "docs/cases.md does not list {name}");
+        assert!(listed.contains(&name), "docs/reference/cases.md does not list {name}");
     }
 }
 

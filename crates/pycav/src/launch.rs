@@ -135,7 +135,15 @@ fn interruptible<T: Send>(
 }
 
 /// Does what a command line of `cav` says; returns the exit code.
+///
+/// - `others`: commands that Python does itself, with what they do, for the helps.
 #[pyfunction]
-pub fn main(py: Python<'_>, arguments: Vec<OsString>, program: Vec<OsString>) -> PyResult<u8> {
-    Ok(py.detach(|| guarded(|| Ok(cav::command_line::main(arguments, &program))))?)
+#[pyo3(signature = (arguments, program, others=Vec::new()))]
+pub fn main(
+    py: Python<'_>,
+    arguments: Vec<OsString>,
+    program: Vec<OsString>,
+    others: Vec<(String, String)>,
+) -> PyResult<u8> {
+    Ok(py.detach(|| guarded(|| Ok(cav::command_line::main(arguments, &program, &others))))?)
 }

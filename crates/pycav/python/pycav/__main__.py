@@ -3,7 +3,7 @@
     pycav report RUN_DIR [--out PAGE.html] [--csv DIR]
     pycav paraview RUN_DIR [--out SCRIPT.py] [--vtu]
     pycav netcdf RUN_DIR [--out FILE.nc] [--fields NAME ...]
-    pycav run CASE ...          as `cav run CASE ...`; likewise check, fluid, solid, materials
+    pycav run CASE ...          as `cav run CASE ...`; likewise all commands of `cav`, see `pycav --help`
 """
 
 from __future__ import annotations
@@ -18,6 +18,13 @@ from . import _pycav
 PROGRAM = [sys.executable, "-m", "pycav"]
 """The command line of `cav` as this installation has it, for the processes of a run."""
 
+OWN = [
+    ("report", "Write one self-contained page on a run; see pycav report --help"),
+    ("paraview", "Write a script that opens a run in ParaView; see pycav paraview --help"),
+    ("netcdf", "Write a run as one NetCDF file; see pycav netcdf --help"),
+]
+"""What helps and completions say of the commands that Python does itself."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Does what a command line says; returns the exit code."""
@@ -28,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _paraview(given[1:])
     if given[:1] == ["netcdf"]:
         return _netcdf(given[1:])
-    return _pycav.main(["pycav", *given], PROGRAM)
+    return _pycav.main(["pycav", *given], PROGRAM, OWN)
 
 
 def _report(given: list[str]) -> int:

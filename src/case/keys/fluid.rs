@@ -1,0 +1,121 @@
+//! `[fluid]`: the domain, the model, and what the liquid and the gas are.
+
+use super::declared::{Key, Preset, Section, Values};
+use super::grid::{CELLS, LEVELS, LIMITER, R, Z};
+
+/// The gas where a case does not say: γ, and π in Pa.
+pub(in crate::case) const GAS: [f64; 2] = [1.4, 0.0];
+
+pub(super) static FLUID: [Section; 3] = [
+    Section {
+        path: "fluid",
+        repeated: false,
+        title: "The fluid",
+        about: "",
+        keys: &[
+            Z,
+            R,
+            CELLS,
+            LEVELS,
+            Key {
+                name: "model",
+                unit: "",
+                values: Values::Names(&[
+                    ("five-equation", "partial densities, and a gas fraction that feels compression"),
+                    ("allaire", "without the K term, for study"),
+                    ("saurel-abgrall", "the paper's mixture"),
+                ]),
+                default: Preset::Name("five-equation"),
+                about: "The [two-phase model][models].",
+            },
+            Key {
+                name: "interface",
+                unit: "",
+                values: Values::Names(&[
+                    ("thinc", "a step within mixed cells; refused with `\"saurel-abgrall\"`"),
+                    ("none", "the limited linear reconstruction"),
+                ]),
+                default: Preset::Words("`\"thinc\"`; with `model = \"saurel-abgrall\"` `\"none\"`"),
+                about: "What keeps the interface between gas and liquid sharp.",
+            },
+            Key {
+                name: "riemann",
+                unit: "",
+                values: Values::Names(&[
+                    ("hllc", "Harten, Lax and van Leer's with a contact"),
+                    ("exact", "the exact solver for two stiffened gases"),
+                ]),
+                default: Preset::Name("hllc"),
+                about: "The Riemann solver at cell faces.",
+            },
+            LIMITER,
+            Key {
+                name: "initial_pressure",
+                unit: "",
+                values: Values::Names(&[
+                    ("uniform", "the ambient pressure up to the bubble's wall: a water hammer"),
+                    (
+                        "rayleigh",
+                        "what an incompressible liquid at rest would have: no wave leaves the bubble",
+                    ),
+                ]),
+                default: Preset::Name("uniform"),
+                about: "The [pressure of the start][start] in the liquid.",
+            },
+            Key {
+                name: "gravity",
+                unit: "m/s2",
+                values: Values::Number,
+                default: Preset::Number(0.0),
+                about: "Acceleration along z, negative towards the wall; for ambient liquid and sides without a far \
+                        field. The ambient pressure is then that on `z_min`, and the liquid [begins at rest][gravity] \
+                        with p + ρg(z − z_min). Gas begins with its own pressure everywhere. Open sides are \
+                        `\"non-reflecting\"` by default.",
+            },
+        ],
+    },
+    Section {
+        path: "fluid.liquid",
+        repeated: false,
+        title: "The liquid",
+        about: "Required. A stiffened gas, p = (γ − 1) ρe − γπ. Everywhere density > 0 and p + π > 0.",
+        keys: &[
+            Key {
+                name: "gamma",
+                unit: "1",
+                values: Values::Words("> 1"),
+                default: Preset::Required,
+                about: "The adiabatic exponent γ; 7.15 for water.",
+            },
+            Key {
+                name: "pi",
+                unit: "Pa",
+                values: Values::Words("≥ 0"),
+                default: Preset::Required,
+                about: "The stiffness π; 3e8 for water.",
+            },
+        ],
+    },
+    Section {
+        path: "fluid.gas",
+        repeated: false,
+        title: "The gas",
+        about: "The same law as the liquid's.",
+        keys: &[
+            Key {
+                name: "gamma",
+                unit: "1",
+                values: Values::Words("> 1"),
+                default: Preset::Number(GAS[0]),
+                about: "The adiabatic exponent γ; 1.4 for air.",
+            },
+            Key {
+                name: "pi",
+                unit: "Pa",
+                values: Values::Words("≥ 0"),
+                default: Preset::Number(GAS[1]),
+                about: "The stiffness π; 0 for a gas.",
+            },
+        ],
+    },
+];
