@@ -42,6 +42,7 @@ impl<M: Medium> Parts<M> {
 
 /// What the faces of a surface had in a step, and where they were.
 struct Surface {
+    generation: u64,
     begin: f64,
     edges: Vec<f64>,
     states: Vec<FaceState>,
@@ -51,15 +52,21 @@ impl Surface {
     fn of<M: Medium>(solver: &M) -> Self {
         let there = solver.interface().faces() > 0;
         let edges = if there { solver.interface_edges() } else { Vec::new() };
-        Self { begin: solver.mesh().domain().r[0], edges, states: solver.interface().states().to_vec() }
+        Self {
+            generation: solver.mesh().generation(),
+            begin: solver.mesh().domain().r[0],
+            edges,
+            states: solver.interface().states().to_vec(),
+        }
     }
 
     /// Gives the faces of a grid that has adapted what they had in the step: means over what each has of the old ones.
     fn carry_over<M: Medium>(&self, solver: &mut M, axisymmetric: bool) {
-        let now = Self::of(solver);
-        if now.edges == self.edges {
+        // A tree that has changed anywhere numbers all faces anew.
+        if solver.mesh().generation() == self.generation {
             return;
         }
+        let now = Self::of(solver);
         let mut common = CommonRefinement::default();
         common.update(self.begin, &self.edges, &now.edges, axisymmetric);
         let interface = solver.interface_mut();
