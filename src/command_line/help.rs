@@ -80,8 +80,7 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 27] = [
 
 /// The command line of a program of this name, with examples, and with the commands that somebody else does for it.
 pub(super) fn command(name: &str, others: &[(String, String)]) -> Command {
-    let mut command = Cli::command().bin_name(name);
-    // A built command knows the full names of those within it.
+    let mut command = Cli::command().name(name.to_owned()).bin_name(name);
     let mut codes = vec!["Exit codes:".to_owned()];
     codes.extend(EXIT_CODES.iter().map(|(code, meaning, _)| format!("  {code:<4} {meaning}")));
     let own = examples(name, "").unwrap_or_default();
@@ -172,6 +171,8 @@ mod tests {
         {
             assert!(help.contains(part), "no `{part}` in {help}");
         }
+        // Pages of the manual are called by it.
+        assert_eq!(command.get_name(), "pycav");
         let run = command.find_subcommand_mut("run").expect("run").render_help().to_string();
         assert!(run.contains("pycav run --resume") && !run.contains("Exit codes"), "{run}");
     }

@@ -247,3 +247,16 @@ def test_the_command_line_is_that_of_cav(cav, capfd):
     assert main(["run", "nowhere.toml"]) == 2
     assert "cannot read the case file" in capfd.readouterr().err
     assert main(["nonsense"]) == 2
+
+
+def test_helps_and_completions_know_the_program_and_its_own_commands(capfd, tmp_path):
+    assert main(["--help"]) == 0
+    said = capfd.readouterr().out
+    assert "Usage: pycav" in said and "\n  report " in said and "pycav run cases/collapse.toml" in said
+    assert main(["keys", "fluid.epsilon"]) == 0
+    assert capfd.readouterr().out.startswith("fluid.epsilon\n")
+    assert main(["completions", "bash"]) == 0
+    script = capfd.readouterr().out
+    assert "complete -F _pycav" in script and "report" in script
+    assert main(["man", str(tmp_path)]) == 0
+    assert (tmp_path / "pycav-run.1").is_file()
