@@ -1,6 +1,7 @@
 //! The command line: `cav`, and `python -m pycav` likewise.
 
 mod log;
+mod watch;
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
@@ -44,6 +45,8 @@ enum Commands {
     Fluid(SideArgs),
     /// Run the solid's side alone; the fluid's runs elsewhere under the same --run.
     Solid(SideArgs),
+    /// Watch a run as it goes on: curves, step, time left.
+    Watch(watch::WatchArgs),
     /// List the library of materials.
     Materials,
 }
@@ -186,6 +189,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, program: &[OsString])
     };
     let result = match cli.command {
         None => print(NEXT),
+        Some(Commands::Watch(args)) => return watch::watch(&args),
         Some(Commands::Materials) => print(&materials_table()),
         Some(Commands::Check { case, sets }) => {
             let checked = |case: &Case| wall::check(case).and_then(|()| print(&report(case)));

@@ -7,3 +7,4 @@ pub mod command_line;
 pub mod convergence;
 pub mod output;
 pub mod run;
+pub mod watch;

@@ -274,7 +274,11 @@ impl Simulation {
     /// Makes all steps that are left. `callback` is called without arguments after every step.
     #[pyo3(signature = (callback=None, progress=false))]
     fn run_to_end(&self, py: Python<'_>, callback: Option<Py<PyAny>>, progress: bool) -> PyResult<()> {
-        let mut bar = Progress::new(self.run()?.case.time.end, !progress, 0);
+        let mut bar = {
+            let run = self.run()?;
+            let bar = Progress::new(run.case.time.end, !progress, 0);
+            run.directory.as_ref().map_or(bar, |directory| bar.told_in(directory))
+        };
         let after = |py: Python<'_>| {
             bar.update(&self.run()?.session.line());
             callback.as_ref().map_or(Ok(()), |callback| callback.call0(py).map(|_| ()))

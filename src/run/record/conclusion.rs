@@ -51,6 +51,7 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     summary::write(directory, SUMMARY, &whole)?;
     if completed {
         directory.remove_checkpoints()?;
+        directory.remove_progress()?;
     }
     Ok(whole)
 }
