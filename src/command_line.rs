@@ -1,5 +1,6 @@
 //! The command line: `cav`, and `python -m pycav` likewise.
 
+mod list;
 mod log;
 mod watch;
 
@@ -45,6 +46,8 @@ enum Commands {
     Fluid(SideArgs),
     /// Run the solid's side alone; the fluid's runs elsewhere under the same --run.
     Solid(SideArgs),
+    /// List the runs in a folder: what was varied, key numbers, states.
+    List(list::ListArgs),
     /// Watch a run as it goes on: curves, step, time left.
     Watch(watch::WatchArgs),
     /// List the library of materials.
@@ -189,6 +192,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, program: &[OsString])
     };
     let result = match cli.command {
         None => print(NEXT),
+        Some(Commands::List(args)) => return list::list(&args),
         Some(Commands::Watch(args)) => return watch::watch(&args),
         Some(Commands::Materials) => print(&materials_table()),
         Some(Commands::Check { case, sets }) => {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use rustix::io::{FdFlags, fcntl_setfd};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::safe_file::remove_if_there;
 use super::{OutputError, safe_file, summary};
@@ -95,7 +95,9 @@ impl RunDirectory {
         let held = lock(&path)?;
         let directory = Self { path, kept_aside, _lock: held };
         // Shows at once whether the directory can be written to, and marks it as a run's that is not finished.
-        summary::write(&directory, SUMMARY, &Map::from_iter([("completed".to_owned(), Value::Bool(false))]))?;
+        let mut begun = summary::origin();
+        begun.insert("completed".to_owned(), Value::Bool(false));
+        summary::write(&directory, SUMMARY, &begun)?;
         Ok(directory)
     }
 

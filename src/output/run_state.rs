@@ -41,7 +41,8 @@ impl RunState {
     /// Whether it is running its lock says, whatever the files say and however old they are.
     #[must_use]
     pub fn of(directory: &Path, summary: &Map<String, Value>) -> Self {
-        let is_completed = |summary: &Map<String, Value>| summary.get("completed") == Some(&Value::Bool(true));
+        let is_completed =
+            |summary: &Map<String, Value>| summary.get("completed") == Some(&Value::Bool(true));
         let ended = |summary: &Map<String, Value>| match summary.get("error") {
             _ if is_completed(summary) => Self::Finished,
             Some(_) => Self::Failed,

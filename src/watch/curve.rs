@@ -109,7 +109,10 @@ mod tests {
         for (time, value) in [(0.0, f64::NAN), (1.0, 2.0), (2.0, f64::INFINITY), (f64::NAN, 1.0)] {
             curve.push(time, value);
         }
-        assert_eq!((curve.least(), curve.largest(), curve.last()), (Some([1.0, 2.0]), Some([1.0, 2.0]), Some([1.0, 2.0])));
+        assert_eq!(
+            (curve.least(), curve.largest(), curve.last()),
+            (Some([1.0, 2.0]), Some([1.0, 2.0]), Some([1.0, 2.0]))
+        );
         assert_eq!(Curve::default().in_columns(10, 0.0), Vec::<[f64; 2]>::new());
     }
 }

@@ -62,7 +62,9 @@ impl Seen {
     pub fn name(&self) -> String {
         let directory = self.directory.display();
         match self.grid {
-            Some([number, count]) => format!("{directory} (grid {number} of 0 to {})", count.saturating_sub(1)),
+            Some([number, count]) => {
+                format!("{directory} (grid {number} of 0 to {})", count.saturating_sub(1))
+            }
             None => directory.to_string(),
         }
     }
@@ -71,7 +73,8 @@ impl Seen {
     #[must_use]
     pub fn remedy(&self) -> Option<String> {
         let is_over = matches!(self.state, RunState::Failed | RunState::Interrupted);
-        (is_over && self.can_go_on).then(|| format!("go on with: cav run --resume {}", self.directory.display()))
+        (is_over && self.can_go_on)
+            .then(|| format!("go on with: cav run --resume {}", self.directory.display()))
     }
 
     /// Where it stands, as parts of a line.
@@ -84,15 +87,21 @@ impl Seen {
         let time = engineering(line.time, "s");
         let time = match self.end {
             Some(end) if end > 0.0 => {
-                format!("t = {time} of {} ({:.0} %)", engineering(end, "s"), 100.0 * (line.time / end).min(1.0))
+                format!(
+                    "t = {time} of {} ({:.0} %)",
+                    engineering(end, "s"),
+                    100.0 * (line.time / end).min(1.0)
+                )
             }
             _ => format!("t = {time}"),
         };
         let by = if line.limited_by.is_empty() { String::new() } else { format!(" ({})", line.limited_by) };
-        let mut facts = vec![time, format!("step {}", line.step), format!("Δt = {}{by}", engineering(line.dt, "s"))];
+        let mut facts =
+            vec![time, format!("step {}", line.step), format!("Δt = {}{by}", engineering(line.dt, "s"))];
         if line.cells > 0 {
             let fluid = line.cells.saturating_sub(line.solid_cells);
-            let cells = [("fluid", fluid), ("solid", line.solid_cells)].into_iter().filter(|(_, cells)| *cells > 0);
+            let cells =
+                [("fluid", fluid), ("solid", line.solid_cells)].into_iter().filter(|(_, cells)| *cells > 0);
             let cells: Vec<String> = cells.map(|(side, cells)| format!("{side} {cells}")).collect();
             facts.push(format!("cells: {}", cells.join(", ")));
         }

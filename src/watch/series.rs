@@ -89,7 +89,8 @@ impl Series {
             }
         }
         for time in &new {
-            (self.last_step, self.last_time) = (if self.rows == 0 { 0.0 } else { time - self.last_time }, *time);
+            (self.last_step, self.last_time) =
+                (if self.rows == 0 { 0.0 } else { time - self.last_time }, *time);
             self.rows += 1;
         }
         Ok(())

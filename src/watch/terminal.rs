@@ -12,7 +12,7 @@ use signal_hook::consts::{SIGHUP, SIGTERM};
 
 use crate::output::OutputError;
 use crate::watch::draw::colours::Colours;
-use crate::watch::draw::draw;
+use crate::watch::draw::{View, draw};
 use crate::watch::plain;
 use crate::watch::reader::Reader;
 use crate::watch::seen::Seen;
@@ -64,9 +64,9 @@ fn show(
     asked: &AtomicBool,
 ) -> io::Result<()> {
     let colours = Colours::of_environment();
-    let (mut answer_alone, mut looked) = (false, Instant::now());
+    let (mut view, mut looked) = (View::default(), Instant::now());
     loop {
-        terminal.draw(|frame| draw(frame, &seen, &colours, answer_alone))?;
+        terminal.draw(|frame| draw(frame, &seen, &colours, &mut view))?;
         while looked.elapsed() < every {
             if asked.load(Ordering::Relaxed) {
                 return Ok(());
@@ -76,11 +76,11 @@ fn show(
             }
             match event::read()? {
                 Event::Key(key) if leaves(key) => return Ok(()),
-                Event::Key(key) if key.code == KeyCode::Char('a') => answer_alone = !answer_alone,
+                Event::Key(key) => turn(&mut view, key.code),
                 _ => {}
             }
             // At once in the new size.
-            terminal.draw(|frame| draw(frame, &seen, &colours, answer_alone))?;
+            terminal.draw(|frame| draw(frame, &seen, &colours, &mut view))?;
         }
         looked = Instant::now();
         match reader.look() {
@@ -88,6 +88,16 @@ fn show(
             // It may have been moved; what was seen last stays.
             Err(error) => seen.trouble = Some(error.to_string()),
         }
+    }
+}
+
+/// What else a key asks for.
+fn turn(view: &mut View, key: KeyCode) {
+    match key {
+        KeyCode::Char('a') => view.answer_alone = !view.answer_alone,
+        KeyCode::Down => view.passed = view.passed.saturating_add(1),
+        KeyCode::Up => view.passed = view.passed.saturating_sub(1),
+        _ => {}
     }
 }
 

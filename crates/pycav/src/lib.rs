@@ -9,6 +9,7 @@
 //! | `fields` | cells and samples of a solver as arrays |
 //! | `initial` | initial states that Python functions give |
 //! | `launch` | runs in two processes, on finer and finer grids, and the command line |
+//! | `runs` | the runs in a folder |
 //! | `log` | the log of a run directory |
 //! | `error` | errors and panics as exceptions |
 //!
@@ -23,6 +24,7 @@ mod initial;
 mod launch;
 mod log;
 mod medium;
+mod runs;
 mod simulation;
 
 use pyo3::pymodule;
@@ -38,6 +40,8 @@ mod _pycav {
     use super::error::{CaseError, CouplingError, InternalError, NumericalError, OutputError, RunError};
     #[pymodule_export]
     use super::launch::{convergence, main, run_in_processes};
+    #[pymodule_export]
+    use super::runs::runs;
     #[pymodule_export]
     use super::simulation::Simulation;
 }

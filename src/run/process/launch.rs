@@ -55,8 +55,7 @@ pub(super) fn carry_out(
 ) -> Result<PathBuf, RunError> {
     log_case(case);
     let coupled = case.fluid.is_some() && case.solid.is_some();
-    let mut progress =
-        Progress::new(case.time.end, options.quiet, options.verbosity).told_in(directory);
+    let mut progress = Progress::new(case.time.end, options.quiet, options.verbosity).told_in(directory);
     for warning in case.warnings() {
         tracing::warn!("{warning}");
         progress.message(&format!("warning: {warning}"));

@@ -19,7 +19,8 @@ const MARGIN: f64 = 0.05;
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, seen: &Seen, colours: &Colours) {
     let count = seen.curves.len() as u16;
     if count == 0 {
-        let words = "The curves appear with the first batch of histories, about a second after the first step.";
+        let words =
+            "The curves appear with the first batch of histories, about a second after the first step.";
         frame.render_widget(Paragraph::new(words).style(colours.faint), area);
         return;
     }
@@ -57,11 +58,15 @@ fn draw_one(
         .data(&points);
     let mut times = Axis::default().bounds([0.0, end]).style(colours.frame);
     if has_times && area.height > LOWEST {
-        times = times.labels([0.0, end / 2.0, end].map(|time| Line::styled(engineering(time, "s"), colours.faint)));
+        times = times
+            .labels([0.0, end / 2.0, end].map(|time| Line::styled(engineering(time, "s"), colours.faint)));
     }
     let y = Axis::default().bounds([low, high]).labels([label(low), label(high)]).style(colours.frame);
     let block = Block::bordered().title(title).border_style(colours.frame);
-    frame.render_widget(Chart::new(vec![data]).x_axis(times).y_axis(y).legend_position(None).block(block), area);
+    frame.render_widget(
+        Chart::new(vec![data]).x_axis(times).y_axis(y).legend_position(None).block(block),
+        area,
+    );
 }
 
 /// What the axis of values goes from and to.

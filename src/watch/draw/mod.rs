@@ -17,29 +17,41 @@ const HEAD: u16 = 4;
 /// Fewer rows than this are none to draw a curve in, its frame included.
 const LOWEST: u16 = 5;
 
+/// What of a run is shown where there is no room for all.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct View {
+    /// The curves give way to the answer.
+    pub answer_alone: bool,
+    /// So many lines of the answer have been passed.
+    pub passed: u16,
+}
+
 /// Draws a run.
-///
-/// - `answer_alone`: the curves give way to the answer, for where both have no room.
-pub fn draw(frame: &mut Frame<'_>, seen: &Seen, colours: &Colours, answer_alone: bool) {
+pub fn draw(frame: &mut Frame<'_>, seen: &Seen, colours: &Colours, view: &mut View) {
     let [head, body, foot] =
-        Layout::vertical([Constraint::Length(HEAD), Constraint::Min(0), Constraint::Length(1)]).areas(frame.area());
+        Layout::vertical([Constraint::Length(HEAD), Constraint::Min(0), Constraint::Length(1)])
+            .areas(frame.area());
     draw_head(frame, head, seen, colours);
     let words = words(seen, colours);
     let needed = height(&words, body.width);
-    let most = if answer_alone { body.height } else { body.height.saturating_sub(LOWEST) };
+    let most = if view.answer_alone { body.height } else { body.height.saturating_sub(LOWEST) };
     let [curves, below] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(needed.min(most))]).areas(body);
-    if !answer_alone {
+    if !view.answer_alone {
         curves::draw(frame, curves, seen, colours);
     }
     if needed > 0 && below.height > 0 {
-        let block = Block::bordered().title(" what it found ").border_style(colours.frame);
-        frame.render_widget(Paragraph::new(words).wrap(Wrap { trim: true }).block(block), below);
+        view.passed = view.passed.min(needed.saturating_sub(below.height));
+        let has_more = needed > below.height + view.passed;
+        let title = if has_more { " what it found (more below) " } else { " what it found " };
+        let block = Block::bordered().title(title).border_style(colours.frame);
+        let words = Paragraph::new(words).wrap(Wrap { trim: true }).scroll((view.passed, 0));
+        frame.render_widget(words.block(block), below);
     }
     let keys = if seen.answer.is_empty() {
         "q: leave, the run goes on"
     } else {
-        "q: leave   a: the answer alone, or with the curves"
+        "q: leave   a: the answer alone, or with the curves   up, down: more of it"
     };
     frame.render_widget(Line::styled(keys, colours.faint), foot);
 }
@@ -49,7 +61,10 @@ fn draw_head(frame: &mut Frame<'_>, area: Rect, seen: &Seen, colours: &Colours) 
     let [first, facts, bar] =
         Layout::vertical([Constraint::Length(1), Constraint::Length(2), Constraint::Length(1)]).areas(area);
     let state = Span::styled(seen.state.name(), colours.of(seen.state));
-    frame.render_widget(Line::from(vec![Span::styled(seen.name(), colours.strong), Span::raw("  "), state]), first);
+    frame.render_widget(
+        Line::from(vec![Span::styled(seen.name(), colours.strong), Span::raw("  "), state]),
+        first,
+    );
     frame.render_widget(Paragraph::new(packed(&seen.facts(), area.width)), facts);
     let time = seen.standing.as_ref().map_or(0.0, |standing| standing.line.time);
     let share = match seen.end {
@@ -84,8 +99,10 @@ fn packed(facts: &[String], width: u16) -> Vec<Line<'static>> {
 
 /// What is to be said besides: why it failed, what helps, what was found.
 fn words<'a>(seen: &'a Seen, colours: &Colours) -> Vec<Line<'a>> {
-    let error = seen.error.iter().map(|error| Line::styled(format!("error: {error}"), colours.of(RunState::Failed)));
-    let trouble = seen.trouble.iter().map(|trouble| Line::styled(trouble.as_str(), colours.of(RunState::Failed)));
+    let error =
+        seen.error.iter().map(|error| Line::styled(format!("error: {error}"), colours.of(RunState::Failed)));
+    let trouble =
+        seen.trouble.iter().map(|trouble| Line::styled(trouble.as_str(), colours.of(RunState::Failed)));
     let remedy = seen.remedy().map(|remedy| Line::styled(remedy, colours.strong));
     let answer = seen.answer.iter().map(|sentence| Line::raw(sentence.as_str()));
     error.chain(trouble).chain(remedy).chain(answer).collect()

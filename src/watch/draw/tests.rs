@@ -10,13 +10,18 @@ use crate::output::progress_file::Standing;
 use crate::watch::curve::Curve;
 use crate::watch::seen::Titled;
 
+const BOTH: View = View { answer_alone: false, passed: 0 };
+const ALONE: View = View { answer_alone: true, passed: 0 };
+
 const END: f64 = 6.57e-5;
 
 /// A run of which so much of the time has passed: a bubble that shrinks, a peak on the wall that lasts for one step in 20,000.
 fn seen(state: RunState, share: f64) -> Seen {
     let curve = |value: &dyn Fn(f64) -> f64| {
         let mut curve = Curve::default();
-        (0..=20_000).map(|step| share * f64::from(step) / 20_000.0).for_each(|x| curve.push(x * END, value(x)));
+        (0..=20_000)
+            .map(|step| share * f64::from(step) / 20_000.0)
+            .for_each(|x| curve.push(x * END, value(x)));
         curve
     };
     let titled = |title, unit, is_least_wanted, curve| Titled { title, unit, is_least_wanted, curve };
@@ -37,9 +42,14 @@ fn seen(state: RunState, share: f64) -> Seen {
         standing: Some(Standing { line, end: END, left: Some(185.0) }),
         curves: vec![
             titled("equivalent radius R(t)", "m", true, curve(&|x| 0.01 * (1.0 - 0.6 * x))),
-            titled("wall pressure on the axis", "Pa", false, curve(&|x| {
-                if (x - peak).abs() < 0.4e-4 * share { 2.48e8 } else { 5e7 }
-            })),
+            titled(
+                "wall pressure on the axis",
+                "Pa",
+                false,
+                curve(&|x| {
+                    if (x - peak).abs() < 0.4e-4 * share { 2.48e8 } else { 5e7 }
+                }),
+            ),
             titled("largest von Mises stress", "Pa", false, curve(&|x| 1e8 * x)),
         ],
         end: Some(END),
@@ -51,15 +61,21 @@ fn seen(state: RunState, share: f64) -> Seen {
 }
 
 /// The picture on a terminal of this size, line by line.
-fn lines(seen: &Seen, [width, height]: [u16; 2], answer_alone: bool) -> Vec<String> {
-    let buffer = buffer(seen, [width, height], &Colours::some(), answer_alone);
-    let row = |y| (0..width).map(|x| buffer[(x, y)].symbol().to_owned()).collect::<String>().trim_end().to_owned();
+fn lines(seen: &Seen, [width, height]: [u16; 2], view: View) -> Vec<String> {
+    let buffer = buffer(seen, [width, height], &Colours::some(), view);
+    let row =
+        |y| (0..width).map(|x| buffer[(x, y)].symbol().to_owned()).collect::<String>().trim_end().to_owned();
     (0..height).map(row).collect()
 }
 
-fn buffer(seen: &Seen, [width, height]: [u16; 2], colours: &Colours, answer_alone: bool) -> ratatui::buffer::Buffer {
+fn buffer(
+    seen: &Seen,
+    [width, height]: [u16; 2],
+    colours: &Colours,
+    mut view: View,
+) -> ratatui::buffer::Buffer {
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("memory");
-    terminal.draw(|frame| draw(frame, seen, colours, answer_alone)).expect("memory takes it");
+    terminal.draw(|frame| draw(frame, seen, colours, &mut view)).expect("memory takes it");
     terminal.backend().buffer().clone()
 }
 
@@ -71,7 +87,7 @@ fn dotted(lines: &[String]) -> Vec<usize> {
 
 #[test]
 fn a_small_terminal_has_room_for_state_numbers_and_all_three_curves() {
-    let lines = lines(&seen(RunState::Running, 0.5), [80, 24], false);
+    let lines = lines(&seen(RunState::Running, 0.5), [80, 24], BOTH);
     let text = lines.join("\n");
     for fragment in [
         "runs/steel  running",
@@ -98,7 +114,7 @@ fn a_small_terminal_has_room_for_state_numbers_and_all_three_curves() {
 fn the_peak_of_a_single_step_is_drawn_where_it_was() {
     let mut only = seen(RunState::Running, 1.0);
     only.curves = vec![only.curves.swap_remove(1)];
-    let lines = lines(&only, [100, 20], false);
+    let lines = lines(&only, [100, 20], BOTH);
     let highest = dotted(&lines)[0];
     // The frame's and what is above it.
     assert!(highest <= 6, "{}", lines.join("\n"));
@@ -112,8 +128,8 @@ fn no_terminal_is_too_small_or_too_large() {
     finished.answer = vec!["The wall pressure reaches 248 MPa at 50.7 µs. ".repeat(5); 6];
     for seen in [&finished, &seen(RunState::Running, 0.0)] {
         for size in [[1, 1], [2, 3], [10, 4], [20, 60], [40, 12], [79, 5], [300, 100]] {
-            for answer_alone in [false, true] {
-                lines(seen, size, answer_alone);
+            for view in [BOTH, ALONE, View { passed: 1000, ..ALONE }] {
+                lines(seen, size, view);
             }
         }
     }
@@ -123,15 +139,23 @@ fn no_terminal_is_too_small_or_too_large() {
 fn a_finished_run_says_what_it_found_and_the_curves_stay() {
     let mut finished = seen(RunState::Finished, 1.0);
     finished.answer = vec!["The wall pressure reaches 248 MPa.".to_owned(), "Nothing yields.".to_owned()];
-    let both = lines(&finished, [80, 24], false);
+    let both = lines(&finished, [80, 24], BOTH);
     let text = both.join("\n");
-    for fragment in ["finished", "what it found", "The wall pressure reaches 248 MPa.", "Nothing yields.", "100 %"] {
+    for fragment in
+        ["finished", "what it found", "The wall pressure reaches 248 MPa.", "Nothing yields.", "100 %"]
+    {
         assert!(text.contains(fragment), "no `{fragment}` in\n{text}");
     }
     assert!(!dotted(&both).is_empty(), "{text}");
-    let long = "A sentence of some length that needs more than one line of a small terminal to be told. ".repeat(3);
+    let long =
+        "A sentence of some length that needs more than one line of a small terminal to be told. ".repeat(3);
     finished.answer = (0..6).map(|number| format!("{number} {long}")).collect();
-    let alone = lines(&finished, [80, 24], true);
+    let first = lines(&finished, [80, 24], ALONE).join("\n");
+    assert!(
+        first.contains("0 A sentence") && first.contains("more below") && !first.contains("5 A sentence"),
+        "{first}"
+    );
+    let alone = lines(&finished, [80, 24], View { passed: 1000, ..ALONE });
     assert!(alone.iter().any(|line| line.contains("5 A sentence")), "{}", alone.join("\n"));
     assert!(dotted(&alone).is_empty());
 }
@@ -141,18 +165,22 @@ fn a_run_that_failed_or_was_interrupted_says_why_and_what_helps() {
     let mut failed = seen(RunState::Failed, 0.4);
     failed.error = Some("the time step collapsed".to_owned());
     failed.can_go_on = true;
-    let text = lines(&failed, [80, 24], false).join("\n");
+    let text = lines(&failed, [80, 24], BOTH).join("\n");
     for fragment in ["failed", "error: the time step collapsed", "cav run --resume runs/steel"] {
         assert!(text.contains(fragment), "no `{fragment}` in\n{text}");
     }
-    let text = lines(&seen(RunState::Interrupted, 0.4), [80, 24], false).join("\n");
-    assert!(text.contains("interrupted") && !text.contains("--resume") && !text.contains(" left\n"), "{text}");
+    let text = lines(&seen(RunState::Interrupted, 0.4), [80, 24], BOTH).join("\n");
+    assert!(
+        text.contains("interrupted") && !text.contains("--resume") && !text.contains(" left\n"),
+        "{text}"
+    );
 }
 
 #[test]
 fn without_colours_there_are_none_and_the_words_are_the_same() {
     let seen = seen(RunState::Running, 0.5);
-    let [some, none] = [Colours::some(), Colours::none()].map(|colours| buffer(&seen, [80, 24], &colours, false));
+    let [some, none] =
+        [Colours::some(), Colours::none()].map(|colours| buffer(&seen, [80, 24], &colours, BOTH));
     let coloured = |buffer: &ratatui::buffer::Buffer| {
         buffer.content().iter().filter(|cell| cell.fg != Color::Reset || cell.bg != Color::Reset).count()
     };

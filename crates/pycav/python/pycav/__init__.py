@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from .result import Result, Snapshot
     from .result import open_run as open
     from ._run import run
+    from ._runs import runs
     from .simulation import Simulation
     from .solvers import FluidSolver, SolidSolver
     from ._sweep import consistent_runs, stand_off_map, sweep
@@ -34,14 +35,14 @@ if TYPE_CHECKING:
 __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
     "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "consistent_runs",
-    "convergence", "hits", "materials", "open", "plot", "report", "run", "stand_off_map", "sweep", "theory",
+    "convergence", "hits", "materials", "open", "plot", "report", "run", "runs", "stand_off_map", "sweep", "theory",
 ]
 
 # Where names live. They are fetched when they are first used: the processes of a run need none of them.
 _PLACES = {
     "Case": "case", "Cells": "cells", "Convergence": "_convergence", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
-    "consistent_runs": "_sweep", "convergence": "_convergence", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run", "stand_off_map": "_sweep", "sweep": "_sweep",
+    "consistent_runs": "_sweep", "convergence": "_convergence", "hits": "_hits", "materials": "case", "open": "result", "report": "_report", "run": "_run", "runs": "_runs", "stand_off_map": "_sweep", "sweep": "_sweep",
 }
 
 

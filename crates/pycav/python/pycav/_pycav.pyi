@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Case", "CaseError", "CouplingError", "FluidSolver", "InternalError", "NumericalError", "OutputError", "RunError",
-    "Simulation", "SolidSolver", "convergence", "main", "materials", "run_in_processes",
+    "Simulation", "SolidSolver", "convergence", "main", "materials", "run_in_processes", "runs",
 ]
 
 _Array = NDArray[np.float64]
@@ -152,3 +152,6 @@ def convergence(
     progress: bool = False,
 ) -> tuple[str, str]: ...
 def main(arguments: list[str], program: list[str]) -> int: ...
+def runs(
+    folder: _Path, conditions: list[str], states: list[str], sort: str | None = None, columns: list[str] | None = None
+) -> tuple[str, list[str], list[tuple[str, str]], list[str]]: ...
