@@ -81,7 +81,7 @@ fn runs_are_listed_with_what_was_varied_their_numbers_and_states() {
     let table = listed(place, &[]);
     for fragment in [
         "path ",
-        "material.name",
+        "material.",
         "radius",
         "250.0 MPa",
         "5 runs: 3 finished, 1 failed, 1 interrupted.",

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::progress::ProgressLine;
+use super::progress_line::ProgressLine;
 use super::run_directory::PROGRESS;
 use super::throttle::Throttle;
 use super::{RunDirectory, safe_file};

@@ -5,16 +5,15 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use serde::de::{DeserializeSeed, Error as _, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::de::{DeserializeSeed, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 
 /// Longer lists of plain values are one value: a list of times is no set of parameters.
 const LONGEST_LIST: usize = 3;
 
 /// A value that has no parts.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Scalar {
     /// There is none.
     Null,
@@ -26,6 +25,47 @@ pub enum Scalar {
     Float(f64),
     /// A text, or what is written as one.
     Text(String),
+}
+
+/// Ten thousand runs have millions of them, so that nothing is tried that does not fit.
+impl<'de> Deserialize<'de> for Scalar {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ScalarOf)
+    }
+}
+
+struct ScalarOf;
+
+impl Visitor<'_> for ScalarOf {
+    type Value = Scalar;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value without parts")
+    }
+
+    fn visit_unit<E>(self) -> Result<Scalar, E> {
+        Ok(Scalar::Null)
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Scalar, E> {
+        Ok(Scalar::Bool(value))
+    }
+
+    fn visit_i64<E>(self, whole: i64) -> Result<Scalar, E> {
+        Ok(Scalar::Integer(whole))
+    }
+
+    fn visit_u64<E>(self, whole: u64) -> Result<Scalar, E> {
+        Ok(i64::try_from(whole).map_or(Scalar::Float(whole as f64), Scalar::Integer))
+    }
+
+    fn visit_f64<E>(self, number: f64) -> Result<Scalar, E> {
+        Ok(Scalar::Float(number))
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Scalar, E> {
+        Ok(Scalar::Text(text.to_owned()))
+    }
 }
 
 impl Scalar {
@@ -166,7 +206,7 @@ impl<'de> Visitor<'de> for FlatOf<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Flat, A::Error> {
         let mut flat = Flat::new();
         while let Some(number) = map.next_key_seed(KeyOf(&mut *self.0))? {
-            flat.push((number, map.next_value().map_err(A::Error::custom)?));
+            flat.push((number, map.next_value()?));
         }
         Ok(flat)
     }

@@ -29,15 +29,14 @@ impl Listing {
         };
         let headings = headings(columns);
         let (mut shown, mut left_out, mut common, mut taken) = (Vec::new(), Vec::new(), Vec::new(), 0);
-        for (key, heading) in columns.iter().zip(headings) {
+        for (key, heading) in columns.iter().zip(headings.iter().map(|heading| in_two(heading))) {
             let cells = cells(key);
             let is_always = are_chosen || ALWAYS.contains(&&**key);
             if !is_always && cells.len() > 1 && cells.iter().all(|cell| *cell == cells[0]) {
                 common.push(format!("{key} {}", if cells[0].is_empty() { "unknown" } else { &cells[0] }));
                 continue;
             }
-            let own =
-                cells.iter().chain([&heading]).map(|cell| cell.chars().count()).max().unwrap_or(0) + GAP;
+            let own = cells.iter().chain(&heading).map(|cell| cell.chars().count()).max().unwrap_or(0) + GAP;
             // Once one has no room, narrower ones behind it do not jump the queue.
             let has_room = width.is_none_or(|width| taken + own <= width + GAP) && left_out.is_empty();
             if is_always || has_room {
@@ -47,8 +46,9 @@ impl Listing {
                 left_out.push(key.as_str());
             }
         }
+        let shown_in_two = shown.iter().any(|(heading, _, _)| !heading[0].is_empty());
         let mut text = String::new();
-        let mut line = |of: &dyn Fn(&(String, Vec<String>, usize)) -> String| {
+        let mut line = |of: &dyn Fn(&([String; 2], Vec<String>, usize)) -> String| {
             let parts: Vec<String> = shown
                 .iter()
                 .map(|column| {
@@ -60,7 +60,12 @@ impl Listing {
             text += parts.concat().trim_end();
             text.push('\n');
         };
-        line(&|(heading, _, _)| heading.clone());
+        for row in 0..2 {
+            // Where no heading needs two lines one is enough.
+            if row == 1 || shown_in_two {
+                line(&|(heading, _, _)| heading[row].clone());
+            }
+        }
         (0..self.entries.len()).for_each(|row| line(&|(_, cells, _)| cells[row].clone()));
         if !common.is_empty() {
             text += &format!("In all of them: {}.\n", common.join(", "));
@@ -156,6 +161,18 @@ fn headings(columns: &[String]) -> Vec<String> {
         .collect()
 }
 
+/// Longer headings take two lines.
+const LONGEST_HEADING: usize = 10;
+
+/// A heading in two lines of about one length, broken behind what joins its words; the first is empty of a short one.
+fn in_two(heading: &str) -> [String; 2] {
+    let breaks = heading.match_indices(['_', '.', ' ']).map(|(at, _)| at + 1);
+    let wider = |at: &usize| heading[..*at].chars().count().max(heading[*at..].chars().count());
+    let best = if heading.len() > LONGEST_HEADING { breaks.min_by_key(wider) } else { None };
+    let (first, second) = heading.split_at(best.unwrap_or(0));
+    [first, second].map(|line| line.trim().to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -172,6 +189,20 @@ mod tests {
         ];
         let expected = ["path", "fluid.levels", "solid.levels", "radius", "centre.0", "material.name"];
         assert_eq!(headings(&keys.map(str::to_owned)), expected);
+    }
+
+    #[test]
+    fn long_headings_take_two_lines() {
+        for (heading, lines) in [
+            ("wall_pressure_peak", ["wall_", "pressure_peak"]),
+            ("min_equivalent_radius", ["min_equivalent_", "radius"]),
+            ("fluid.levels", ["fluid.", "levels"]),
+            ("started (UTC)", ["started", "(UTC)"]),
+            ("radius", ["", "radius"]),
+            ("verylongwithoutend", ["", "verylongwithoutend"]),
+        ] {
+            assert_eq!(in_two(heading), lines);
+        }
     }
 
     #[test]

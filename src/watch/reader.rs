@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
-use crate::output::progress::ProgressLine;
 use crate::output::progress_file::Standing;
+use crate::output::progress_line::ProgressLine;
 use crate::output::run_directory::{CASE, FLUID_HISTORY, SOLID_HISTORY};
 use crate::output::run_state::{has_checkpoints, summary_of};
 use crate::output::{OutputError, RunState};

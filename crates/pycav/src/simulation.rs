@@ -277,7 +277,10 @@ impl Simulation {
         let mut bar = {
             let run = self.run()?;
             let bar = Progress::new(run.case.time.end, !progress, 0);
-            run.directory.as_ref().map_or(bar, |directory| bar.told_in(directory))
+            match run.directory.as_ref() {
+                Some(directory) => bar.told_in(directory),
+                None => bar,
+            }
         };
         let after = |py: Python<'_>| {
             bar.update(&self.run()?.session.line());

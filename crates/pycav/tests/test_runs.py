@@ -13,7 +13,7 @@ import pycav
 def folder(small, tmp_path_factory):
     """Three runs: two radii, and one that was stopped."""
     place = tmp_path_factory.mktemp("listed")
-    short = small.with_({"time.end": 1e-6})
+    short = small.with_({"time.end": 1e-6, "time.snapshots": [0.0, 1e-6]})
     for name, radius in (("one", 0.01), ("deep/two", 0.008)):
         pycav.run(short.with_({"fluid.region.0.radius": radius}), place / name)
     with pycav.Simulation(short, out=place / "stopped") as simulation:

@@ -5,8 +5,8 @@ use ratatui::backend::TestBackend;
 use ratatui::style::Color;
 
 use super::*;
-use crate::output::progress::ProgressLine;
 use crate::output::progress_file::Standing;
+use crate::output::progress_line::ProgressLine;
 use crate::watch::curve::Curve;
 use crate::watch::seen::Titled;
 
