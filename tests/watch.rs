@@ -5,9 +5,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use cav::output::RunState;
+use cav::output::run_directory::is_held;
+use cav::output::{RunDirectory, RunState};
 use cav::watch::draw::colours::Colours;
 use cav::watch::draw::{View, draw};
 use cav::watch::reader::Reader;
@@ -213,4 +215,25 @@ fn of_a_study_the_grid_under_way_is_seen_and_a_failed_run_says_why() {
     fs::write(place.join("study/grid-0/fluid.h5"), "no HDF5").expect("a file");
     let said = stdout(&cav(place, &["watch", "study/grid-0"]));
     assert!(said.contains("cannot read") && said.contains("fluid.h5"), "{said}");
+}
+
+/// Whoever asks holds the directory for some microseconds, and must not look like another run.
+#[test]
+fn asking_whether_a_directory_is_held_keeps_no_run_from_beginning_there() {
+    let place = tempfile::tempdir().expect("a directory");
+    let path = place.path().join("run");
+    let is_over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while !is_over.load(Ordering::Relaxed) {
+                    is_held(&path);
+                }
+            });
+        }
+        let begun: Vec<_> = (0..200).map(|_| RunDirectory::prepare(&path, false).map(drop)).collect();
+        is_over.store(true, Ordering::Relaxed);
+        let refused: Vec<_> = begun.into_iter().filter_map(Result::err).collect();
+        assert!(refused.is_empty(), "{} of 200: {}", refused.len(), refused[0]);
+    });
 }

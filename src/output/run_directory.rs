@@ -122,6 +122,11 @@ impl RunDirectory {
             .map_err(|error| OutputError::io(&self.path, "pass on the lock of")(error.into()))
     }
 
+    /// Holds the directory no longer: the run has ended.
+    pub fn release(&mut self) {
+        self._lock = None;
+    }
+
     /// Removes what a killed run has left in the making.
     pub fn tidy(&self) -> Result<(), OutputError> {
         for name in FILES {

@@ -131,10 +131,9 @@ impl Listing {
         }
         let numbers = IN_TABLE.iter().filter(|name| self.is_there(name)).map(|name| (*name).to_owned());
         let first = ["path", "state"].map(str::to_owned).into_iter().chain(self.varied());
-        let last = [RESOLUTION, "started", "version"]
-            .into_iter()
-            .filter(|name| self.is_there(name) || OWN.contains(name));
-        Ok(first.chain(numbers).chain(last.map(str::to_owned)).collect())
+        let resolution = Some(RESOLUTION).filter(|name| self.is_there(name)).map(str::to_owned);
+        let last = ["started", "version"].map(str::to_owned);
+        Ok(first.chain(resolution).chain(numbers).chain(last).collect())
     }
 
     /// Whether a run of those listed has a value of a key.

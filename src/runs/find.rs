@@ -94,15 +94,18 @@ fn found(directory: &Path, path: &str) -> Found {
     }
 }
 
-/// A text in parts that compare as people sort names: `grid-2` before `grid-10`.
+/// A text in parts that compare as people sort names: `grid-2` before `grid-10`, `0.12` before `0.5`.
 fn natural(text: &str) -> Vec<(u128, String)> {
     let parts = text.as_bytes().chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit());
     let mut at = 0;
     parts
         .map(|part| {
-            let piece = &text[at..at + part.len()];
+            let (before, piece) = (&text[..at], &text[at..at + part.len()]);
             at += part.len();
-            (piece.parse().unwrap_or(u128::MAX), piece.to_owned())
+            // Behind a point, and with zeros in front, digits sort like letters.
+            let is_fraction = part[0].is_ascii_digit() && (before.ends_with('.') || part[0] == b'0');
+            let number = if is_fraction { 0 } else { piece.parse().unwrap_or(u128::MAX) };
+            (number, piece.to_owned())
         })
         .collect()
 }
@@ -145,6 +148,19 @@ mod tests {
         assert_eq!(paths(&at("b"))[0], ".");
         assert!(matches!(find(&at("none")), Err(ListError::Folder { .. })));
         assert!(matches!(find(&at("b/case.toml")), Err(ListError::Folder { .. })));
+    }
+
+    #[test]
+    fn names_sort_by_their_numbers_and_fractions_as_fractions() {
+        for (first, second) in [
+            ("grid-2", "grid-10"),
+            ("r0.008", "r0.01"),
+            ("r0.12", "r0.5"),
+            ("run-009", "run-010"),
+            ("a", "b1"),
+        ] {
+            assert!(natural(first) < natural(second), "{first} {second}");
+        }
     }
 
     #[test]

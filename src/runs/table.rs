@@ -14,6 +14,9 @@ const GAP: usize = 2;
 /// Columns that no width takes away, and that are shown even if all runs have the same there.
 const ALWAYS: [&str; 2] = ["path", "state"];
 
+/// Heading in two lines, cells, width with the gap behind it.
+type Column = ([String; 2], Vec<String>, usize);
+
 impl Listing {
     /// A line for each run, with what all have in common told once, and how many there are.
     ///
@@ -48,7 +51,7 @@ impl Listing {
         }
         let shown_in_two = shown.iter().any(|(heading, _, _)| !heading[0].is_empty());
         let mut text = String::new();
-        let mut line = |of: &dyn Fn(&([String; 2], Vec<String>, usize)) -> String| {
+        let mut line = |of: &dyn Fn(&Column) -> String| {
             let parts: Vec<String> = shown
                 .iter()
                 .map(|column| {

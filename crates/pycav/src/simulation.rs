@@ -85,7 +85,7 @@ impl Run {
     fn end(&mut self, result: Result<Turn, cav::run::RunError>, over: Over) -> Result<(), Failure> {
         self.over = Some(over);
         let Self { session, pool, directory, log, .. } = self;
-        guarded(|| {
+        let ended = guarded(|| {
             let ended = pool.install(|| log.during(|| session.end(directory.as_ref(), result)));
             if let Some(directory) = directory.as_ref() {
                 let whole = log.during(|| conclude(directory))?;
@@ -95,7 +95,12 @@ impl Run {
                 }
             }
             ended.map_err(Failure::Run)
-        })
+        });
+        // However long Python keeps the object: the run is over.
+        if let Some(directory) = directory {
+            directory.release();
+        }
+        ended
     }
 
     fn close(&mut self) -> Result<(), Failure> {
@@ -283,7 +288,11 @@ impl Simulation {
             }
         };
         let after = |py: Python<'_>| {
-            bar.update(&self.run()?.session.line());
+            let run = self.run()?;
+            if run.over.is_none() {
+                bar.update(&run.session.line());
+            }
+            drop(run);
             callback.as_ref().map_or(Ok(()), |callback| callback.call0(py).map(|_| ()))
         };
         let has_callback = callback.is_some();
