@@ -4,6 +4,7 @@ mod arguments;
 mod check;
 mod help;
 mod keys;
+mod list;
 mod log;
 mod new;
 mod print;
@@ -11,6 +12,7 @@ mod reference;
 mod report;
 mod run;
 mod scripts;
+mod watch;
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -63,6 +65,10 @@ enum Commands {
     ///
     /// See `fluid`: both sides need the same case, --set, --run and directory.
     Solid(SideArgs),
+    /// List the runs in a folder: what was varied, key numbers, states.
+    List(list::ListArgs),
+    /// Watch a run as it goes on: curves, step, time left.
+    Watch(watch::WatchArgs),
     /// List the library of materials.
     ///
     /// Densities, wave speeds, yield strengths and sources; and below, for those that have some, the constants of the Johnson-Cook
@@ -114,6 +120,8 @@ pub fn main(
     };
     let result = match cli.command {
         None => print(NEXT),
+        Some(Commands::List(args)) => return list::list(&args),
+        Some(Commands::Watch(args)) => return watch::watch(&args),
         Some(Commands::Materials) => print(&materials_table()),
         Some(Commands::New(args)) => new::text(args).map_err(RunError::from).and_then(|text| print(&text)),
         Some(Commands::Check(args)) => check::check(&args),

@@ -7,3 +7,5 @@ pub mod command_line;
 pub mod convergence;
 pub mod output;
 pub mod run;
+pub mod runs;
+pub mod watch;

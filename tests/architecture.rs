@@ -24,11 +24,13 @@ const EDGES: [(&str, &[&str]); 6] = [
 ];
 
 /// External packages that only one of ours may name.
-const RESERVED: [(&str, &str); 6] = [
+const RESERVED: [(&str, &str); 8] = [
     ("iceoryx2", "coupler"),
     ("hdf5-metno", "cav"),
     ("hdf5", "cav"),
     ("clap", "cav"),
+    ("ratatui", "cav"),
+    ("rusqlite", "cav"),
     ("pyo3", "pycav"),
     ("numpy", "pycav"),
 ];
@@ -105,6 +107,8 @@ fn a_wrong_dependency_would_be_seen() {
         ("cav", "iceoryx2"),
         ("solid", "hdf5-metno"),
         ("coupler", "clap"),
+        ("mesh", "ratatui"),
+        ("pycav", "rusqlite"),
         ("cav", "pyo3"),
         ("fluid", "numpy"),
         ("cav", "pycav"),

@@ -72,6 +72,12 @@ pub enum OutputError {
         /// The directory.
         path: PathBuf,
     },
+    /// There is no run in the directory.
+    #[error("there is no run in {}{}; give the directory of a run: it holds summary.json and case.toml", path.display(), if path.is_dir() { "" } else { ", which is not there" })]
+    NoRun {
+        /// The directory.
+        path: PathBuf,
+    },
     /// The directory holds files that no run has written.
     #[error("{} holds files that are not a run's (such as {example}); choose an empty or new directory with --out", path.display())]
     Foreign {

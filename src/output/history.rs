@@ -354,5 +354,14 @@ impl HistoryFile {
 
 /// The name of the case that a file was written for, if it says so.
 pub fn case_name(path: &Path) -> Option<String> {
-    path.exists().then(|| File::open(path).ok().and_then(|file| text(&file, "case_name")))?
+    attribute(path, "case_name")
+}
+
+/// The program that wrote a file, if it says so.
+pub fn program(path: &Path) -> Option<String> {
+    attribute(path, "program")
+}
+
+fn attribute(path: &Path, name: &str) -> Option<String> {
+    path.exists().then(|| File::open(path).ok().and_then(|file| text(&file, name)))?
 }

@@ -14,6 +14,9 @@
 //! | [`summary`] | `fluid.json`, `solid.json`, `summary.json` |
 //! | [`run_directory`] | the directory itself: made, kept aside, refused or replaced |
 //! | [`progress`] | a bar or plain lines on standard error |
+//! | [`progress_line`] | the state after a step that both show |
+//! | [`progress_file`] | `progress.json`: the same for whoever looks at the directory |
+//! | [`run_state`] | what has become of a run, told from its directory |
 
 pub mod background;
 pub mod checkpoint;
@@ -24,15 +27,21 @@ pub mod history;
 pub mod join;
 pub mod layout;
 pub mod progress;
+pub mod progress_file;
+pub mod progress_line;
 pub mod run_directory;
+pub mod run_state;
 pub mod safe_file;
 pub mod summary;
+pub mod throttle;
 pub mod vtkhdf;
 
 pub use background::{BackgroundWriter, OwnedQuadMesh, Snapshot};
 pub use error::OutputError;
 pub use history::{BufferedColumn, Column, HistoryFile, SeriesId};
 pub use join::{Join, dataset_if_there, join_histories};
-pub use progress::{Progress, ProgressLine};
+pub use progress::Progress;
+pub use progress_line::ProgressLine;
 pub use run_directory::RunDirectory;
+pub use run_state::RunState;
 pub use vtkhdf::{FieldSpec, QuadMesh, SeriesWriter, Storage};

@@ -1,10 +1,14 @@
 //! How far a run is: a bar on a terminal, else a plain line every few seconds, always on standard error.
 
 use std::io::IsTerminal;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use serde::{Deserialize, Serialize};
+
+use super::RunDirectory;
+use super::progress_file::{ProgressFile, Standing};
+use super::progress_line::ProgressLine;
+use super::throttle::Throttle;
 
 /// Time between two updates of the bar.
 const BAR_INTERVAL: Duration = Duration::from_millis(100);
@@ -17,67 +21,6 @@ const SPEED_MEMORY: f64 = 10.0;
 /// Positions of the bar.
 const BAR_STEPS: u64 = 1000;
 
-/// The state of a run after a step.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ProgressLine {
-    /// Simulated time in s.
-    pub time: f64,
-    /// Steps done.
-    pub step: u64,
-    /// Length of the last step in s.
-    pub dt: f64,
-    /// The side that limits the step.
-    pub limited_by: String,
-    /// Cells of both sides.
-    pub cells: u64,
-    /// Wall time since the start in s.
-    pub wall: f64,
-}
-
-#[derive(Serialize, Deserialize)]
-struct Tagged {
-    progress: ProgressLine,
-}
-
-impl ProgressLine {
-    /// As one line of JSON, without line end: what a side's process tells the launcher.
-    pub fn to_json(&self) -> String {
-        serde_json::to_string(&Tagged { progress: self.clone() }).expect("numbers and a text can be written")
-    }
-
-    /// From a line made by [`to_json`](Self::to_json); `None` for any other line.
-    pub fn from_json(line: &str) -> Option<Self> {
-        serde_json::from_str::<Tagged>(line).ok().map(|tagged| tagged.progress)
-    }
-}
-
-/// Lets through one call per interval: a side's process asks it before it tells the launcher of a step.
-#[derive(Debug)]
-pub struct Throttle {
-    interval: Duration,
-    last: Option<Instant>,
-}
-
-impl Throttle {
-    /// One call per `interval`.
-    pub fn new(interval: Duration) -> Self {
-        Self { interval, last: None }
-    }
-
-    /// Whether the interval has passed since this last said yes; the first time it says yes.
-    pub fn is_due(&mut self) -> bool {
-        self.is_due_at(Instant::now())
-    }
-
-    fn is_due_at(&mut self, now: Instant) -> bool {
-        let due = self.last.is_none_or(|last| now.duration_since(last) >= self.interval);
-        if due {
-            self.last = Some(now);
-        }
-        due
-    }
-}
-
 /// Shows how far a run is.
 #[derive(Debug)]
 pub struct Progress {
@@ -85,6 +28,7 @@ pub struct Progress {
     display: Display,
     throttle: Throttle,
     speed: Speed,
+    file: Option<ProgressFile>,
 }
 
 #[derive(Debug)]
@@ -107,12 +51,24 @@ impl Progress {
         } else {
             (Display::Lines, LINE_INTERVAL)
         };
-        Self { end_time, display, throttle: Throttle::new(interval), speed: Speed::default() }
+        Self { end_time, display, throttle: Throttle::new(interval), speed: Speed::default(), file: None }
+    }
+
+    /// The same, which also tells whoever looks at the run's directory, quiet or not.
+    #[must_use]
+    pub fn told_in(self, directory: &RunDirectory) -> Self {
+        Self { file: Some(ProgressFile::new(directory)), ..self }
     }
 
     /// Takes notice of a step; shows it if it is time to.
     pub fn update(&mut self, line: &ProgressLine) {
         self.speed.update(line.wall, line.time);
+        if let Some(file) = &mut self.file
+            && file.is_due()
+        {
+            let left = self.speed.seconds_to(self.end_time - line.time);
+            file.write(&Standing { line: line.clone(), end: self.end_time, left });
+        }
         if matches!(self.display, Display::Nothing) || !self.throttle.is_due() {
             return;
         }
@@ -237,17 +193,9 @@ mod tests {
             dt: 3.1e-8,
             limited_by: "fluid".to_owned(),
             cells: 131_072,
+            solid_cells: 65_536,
             wall: 10.0,
         }
-    }
-
-    #[test]
-    fn a_line_survives_the_way_through_json_and_other_lines_are_no_progress() {
-        let text = line().to_json();
-        assert!(!text.contains('\n'));
-        assert_eq!(ProgressLine::from_json(&text), Some(line()));
-        assert_eq!(ProgressLine::from_json("{\"time\": 1.0}"), None);
-        assert_eq!(ProgressLine::from_json("step 3"), None);
     }
 
     #[test]
@@ -287,14 +235,5 @@ mod tests {
         }
         let left = speed.seconds_to(10.0).unwrap();
         assert!((left - 10.0).abs() < 0.1, "half the speed, twice the time: {left}");
-    }
-
-    #[test]
-    fn a_throttle_lets_one_call_through_per_interval() {
-        let mut throttle = Throttle::new(Duration::from_secs(2));
-        let start = Instant::now();
-        let due: Vec<bool> =
-            (0..6).map(|second| throttle.is_due_at(start + Duration::from_secs(second))).collect();
-        assert_eq!(due, [true, false, true, false, true, false]);
     }
 }

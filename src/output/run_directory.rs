@@ -4,9 +4,10 @@ use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use rustix::io::{FdFlags, fcntl_setfd};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::safe_file::remove_if_there;
 use super::{OutputError, safe_file, summary};
@@ -33,11 +34,13 @@ pub const CASE: &str = "case.toml";
 pub const WALL: &str = "wall.state";
 /// The checkpoints of both sides, while the run is not finished.
 pub const CHECKPOINTS: &str = "checkpoints";
+/// How far the run is, for whoever looks at it; until it is finished.
+pub const PROGRESS: &str = "progress.json";
 /// The log.
 pub const LOG: &str = "log";
 
 /// All files that a run writes, so all that replacing one may delete.
-pub const FILES: [&str; 11] = [
+pub const FILES: [&str; 12] = [
     FLUID_FIELDS,
     SOLID_FIELDS,
     FLUID_HISTORY,
@@ -49,7 +52,12 @@ pub const FILES: [&str; 11] = [
     CASE,
     LOG,
     WALL,
+    PROGRESS,
 ];
+
+/// How often, and after what pause, a lock that somebody has is tried again: a fifth of a second in all.
+const LOCK_TRIES: u32 = 20;
+const LOCK_PAUSE: Duration = Duration::from_millis(10);
 
 /// The directory of a run. The value that [`prepare`](Self::prepare) returns holds it against other runs until dropped.
 #[derive(Debug)]
@@ -87,7 +95,9 @@ impl RunDirectory {
         let held = lock(&path)?;
         let directory = Self { path, kept_aside, _lock: held };
         // Shows at once whether the directory can be written to, and marks it as a run's that is not finished.
-        summary::write(&directory, SUMMARY, &Map::from_iter([("completed".to_owned(), Value::Bool(false))]))?;
+        let mut begun = summary::origin();
+        begun.insert("completed".to_owned(), Value::Bool(false));
+        summary::write(&directory, SUMMARY, &begun)?;
         Ok(directory)
     }
 
@@ -112,6 +122,11 @@ impl RunDirectory {
             .map_err(|error| OutputError::io(&self.path, "pass on the lock of")(error.into()))
     }
 
+    /// Holds the directory no longer: the run has ended.
+    pub fn release(&mut self) {
+        self._lock = None;
+    }
+
     /// Removes what a killed run has left in the making.
     pub fn tidy(&self) -> Result<(), OutputError> {
         for name in FILES {
@@ -123,6 +138,11 @@ impl RunDirectory {
     /// Removes the checkpoints: the run is finished.
     pub fn remove_checkpoints(&self) -> Result<(), OutputError> {
         remove_checkpoints(&self.path)
+    }
+
+    /// Removes what says how far the run is: the run is finished.
+    pub fn remove_progress(&self) -> Result<(), OutputError> {
+        remove_if_there(&self.file(PROGRESS), "remove")
     }
 
     /// Waits until nobody else holds the directory, and holds it until the returned value is dropped.
@@ -161,14 +181,28 @@ enum Content {
     Foreign(String),
 }
 
-/// What a directory holds. `case.toml` and `log` alone do not make it a run's: a user's own files are called so too.
+/// Whether a run that goes on holds a directory; `None` where that cannot be told: the file system knows no locks, or the directory
+/// may not be read.
+///
+/// The directory is held for a moment if nobody else does, shared with others who ask. A run that begins in that moment waits for it
+/// to pass, see [`lock`].
+#[must_use]
+pub fn is_held(path: &Path) -> Option<bool> {
+    match File::open(path).ok()?.try_lock_shared() {
+        Ok(()) => Some(false),
+        Err(TryLockError::WouldBlock) => Some(true),
+        Err(TryLockError::Error(_)) => None,
+    }
+}
+
+/// What a directory holds. Files that a user may have under the same names do not alone make it a run's.
 fn content(path: &Path) -> Result<Content, OutputError> {
     let mut example = None;
     let mut is_run = false;
     for entry in fs::read_dir(path).map_err(OutputError::io(path, "list"))? {
         let name = entry.map_err(OutputError::io(path, "list"))?.file_name();
         let name = name.to_string_lossy();
-        is_run |= FILES.contains(&&*name) && name != CASE && name != LOG && name != SUMMARY;
+        is_run |= FILES.contains(&&*name) && ![CASE, LOG, SUMMARY, PROGRESS].contains(&&*name);
         example.get_or_insert_with(|| name.into_owned());
     }
     let summary = summary::read(&path.join(SUMMARY)).ok();
@@ -231,9 +265,15 @@ fn lock(path: &Path) -> Result<Option<File>, OutputError> {
         return Err(OutputError::io(path, "make the run directory")(io::ErrorKind::NotADirectory.into()));
     }
     let directory = File::open(path).map_err(OutputError::io(path, "open the run directory"))?;
-    match directory.try_lock() {
-        Ok(()) => Ok(Some(directory)),
-        Err(TryLockError::WouldBlock) => Err(OutputError::InUse { path: path.to_path_buf() }),
-        Err(TryLockError::Error(_)) => Ok(None),
+    let mut tries = 0;
+    loop {
+        match directory.try_lock() {
+            Ok(()) => return Ok(Some(directory)),
+            // Whoever only asks whether it is held has it for some microseconds.
+            Err(TryLockError::WouldBlock) if tries < LOCK_TRIES => std::thread::sleep(LOCK_PAUSE),
+            Err(TryLockError::WouldBlock) => return Err(OutputError::InUse { path: path.to_path_buf() }),
+            Err(TryLockError::Error(_)) => return Ok(None),
+        }
+        tries += 1;
     }
 }

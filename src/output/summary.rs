@@ -22,6 +22,13 @@ pub fn read(path: &Path) -> Result<Map<String, Value>, OutputError> {
     serde_json::from_str(&text).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })
 }
 
+/// The program that a run is made by: `program`, `git_revision`.
+pub fn origin() -> Map<String, Value> {
+    let [program, revision] =
+        [format!("cav {}", env!("CARGO_PKG_VERSION")), env!("CAV_GIT_REVISION").to_owned()];
+    Map::from_iter([("program".to_owned(), program.into()), ("git_revision".to_owned(), revision.into())])
+}
+
 /// Puts parts together: the keys of all of them, objects under the same key merged likewise.
 ///
 /// Where several parts give a plain value for one key, the last one's holds; so what differs between the sides has to

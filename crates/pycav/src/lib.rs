@@ -10,6 +10,7 @@
 //! | `fields` | cells and samples of a solver as arrays |
 //! | `initial` | initial states that Python functions give |
 //! | `launch` | runs in two processes, on finer and finer grids, and the command line |
+//! | `runs` | the runs in a folder |
 //! | `log` | the log of a run directory |
 //! | `error` | errors and panics as exceptions |
 //!
@@ -25,6 +26,7 @@ mod launch;
 mod log;
 mod medium;
 mod new;
+mod runs;
 mod simulation;
 
 use pyo3::pymodule;
@@ -42,6 +44,8 @@ mod _pycav {
     use super::launch::{convergence, main, run_in_processes};
     #[pymodule_export]
     use super::new::{new_collapse, new_free_bubble, new_shocked_bubble, new_wall_load};
+    #[pymodule_export]
+    use super::runs::runs;
     #[pymodule_export]
     use super::simulation::Simulation;
 }

@@ -85,7 +85,7 @@ impl Run {
     fn end(&mut self, result: Result<Turn, cav::run::RunError>, over: Over) -> Result<(), Failure> {
         self.over = Some(over);
         let Self { session, pool, directory, log, .. } = self;
-        guarded(|| {
+        let ended = guarded(|| {
             let ended = pool.install(|| log.during(|| session.end(directory.as_ref(), result)));
             if let Some(directory) = directory.as_ref() {
                 let whole = log.during(|| conclude(directory))?;
@@ -95,7 +95,12 @@ impl Run {
                 }
             }
             ended.map_err(Failure::Run)
-        })
+        });
+        // However long Python keeps the object: the run is over.
+        if let Some(directory) = directory {
+            directory.release();
+        }
+        ended
     }
 
     fn close(&mut self) -> Result<(), Failure> {
@@ -274,9 +279,20 @@ impl Simulation {
     /// Makes all steps that are left. `callback` is called without arguments after every step.
     #[pyo3(signature = (callback=None, progress=false))]
     fn run_to_end(&self, py: Python<'_>, callback: Option<Py<PyAny>>, progress: bool) -> PyResult<()> {
-        let mut bar = Progress::new(self.run()?.case.time.end, !progress, 0);
+        let mut bar = {
+            let run = self.run()?;
+            let bar = Progress::new(run.case.time.end, !progress, 0);
+            match run.directory.as_ref() {
+                Some(directory) => bar.told_in(directory),
+                None => bar,
+            }
+        };
         let after = |py: Python<'_>| {
-            bar.update(&self.run()?.session.line());
+            let run = self.run()?;
+            if run.over.is_none() {
+                bar.update(&run.session.line());
+            }
+            drop(run);
             callback.as_ref().map_or(Ok(()), |callback| callback.call0(py).map(|_| ()))
         };
         let has_callback = callback.is_some();

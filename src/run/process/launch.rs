@@ -55,7 +55,7 @@ pub(super) fn carry_out(
 ) -> Result<PathBuf, RunError> {
     log_case(case);
     let coupled = case.fluid.is_some() && case.solid.is_some();
-    let mut progress = Progress::new(case.time.end, options.quiet, options.verbosity);
+    let mut progress = Progress::new(case.time.end, options.quiet, options.verbosity).told_in(directory);
     for warning in case.warnings() {
         tracing::warn!("{warning}");
         progress.message(&format!("warning: {warning}"));
@@ -146,6 +146,10 @@ pub fn run_side(
     let leads = (joining.participant == Participant::Fluid || alone) && !child;
     // By hand the fluid makes the directory before the solid can find it, and both leave the summary.
     let prepared = if leads { Some(prepare(case, options)?) } else { None };
+    let mut progress = Progress::new(case.time.end, options.quiet || child || !leads, options.verbosity);
+    if let Some(directory) = &prepared {
+        progress = progress.told_in(directory);
+    }
     let directory = || {
         let directory = match prepared {
             Some(directory) => directory,
@@ -155,8 +159,7 @@ pub fn run_side(
         log_case(case);
         Ok(directory)
     };
-    let mut progress = Progress::new(case.time.end, options.quiet || child || !leads, options.verbosity);
-    let mut throttle = crate::output::progress::Throttle::new(Duration::from_millis(100));
+    let mut throttle = crate::output::throttle::Throttle::new(Duration::from_millis(100));
     let participant = joining.participant;
     let mut on_step = |line: &ProgressLine| {
         if child && participant == Participant::Fluid && throttle.is_due() {

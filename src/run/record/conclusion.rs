@@ -27,6 +27,7 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     let completed = !parts.is_empty() && parts.iter().all(|part| part["completed"] == json!(true));
     let mut whole = summary::merge(&parts);
     whole.insert("completed".to_owned(), json!(completed));
+    whole.extend(summary::origin());
     if let Some(seconds) = compute_seconds(&whole) {
         whole.insert("compute_seconds".to_owned(), seconds);
     }
@@ -54,6 +55,7 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     summary::write(directory, SUMMARY, &whole)?;
     if completed {
         directory.remove_checkpoints()?;
+        directory.remove_progress()?;
     }
     Ok(whole)
 }

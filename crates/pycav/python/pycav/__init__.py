@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .result import Result, Snapshot
     from .result import open_run as open
     from ._run import run
+    from ._runs import runs
     from .simulation import Simulation
     from .solvers import FluidSolver, SolidSolver
     from .exchange import units
@@ -38,7 +39,7 @@ __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
     "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "bends", "collapse",
     "consistent_runs", "convergence", "failures", "free_bubble", "hits", "materials", "open", "paraview_state",
-    "plot", "refine", "report", "run", "save_map", "shocked_bubble", "stand_off_map", "sweep", "theory", "units",
+    "plot", "refine", "report", "run", "runs", "save_map", "shocked_bubble", "stand_off_map", "sweep", "theory", "units",
     "wall_load", "with_uncertainty",
 ]
 
@@ -48,7 +49,7 @@ _PLACES = {
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
     "bends": "sweeps", "collapse": "new", "consistent_runs": "sweeps", "convergence": "_convergence",
     "failures": "sweeps", "free_bubble": "new", "hits": "_hits", "materials": "case", "open": "result",
-    "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "run": "_run", "save_map": "sweeps",
+    "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "run": "_run", "runs": "_runs", "save_map": "sweeps",
     "shocked_bubble": "new", "stand_off_map": "sweeps", "sweep": "sweeps", "units": "exchange", "wall_load": "new",
     "with_uncertainty": "sweeps",
 }

@@ -77,6 +77,7 @@ impl RunSide for FluidSide {
             dt: self.last_dt,
             limited_by: self.limited_by.to_owned(),
             cells: (self.solver.mesh().cells() as u64).saturating_add(self.answer.cells),
+            solid_cells: self.answer.cells,
             wall: 0.0,
         }
     }

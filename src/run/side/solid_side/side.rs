@@ -130,6 +130,7 @@ impl RunSide for SolidSide {
             dt: self.last_dt,
             limited_by: "solid".to_owned(),
             cells: self.solver.mesh().cells() as u64,
+            solid_cells: self.solver.mesh().cells() as u64,
             wall: 0.0,
         }
     }

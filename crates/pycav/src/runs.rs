@@ -1,0 +1,37 @@
+//! The runs in a folder.
+
+use std::path::PathBuf;
+
+use cav::runs::columns::unit;
+use cav::runs::{Asked, ListError, Listing};
+use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
+use pyo3::prelude::*;
+
+/// Lists the runs in a folder, as `cav list --json` does.
+///
+/// Returns the runs as JSON, the keys of their columns, units by key, and what could not be done.
+#[pyfunction]
+#[pyo3(signature = (folder, conditions, states, sort=None, columns=None))]
+#[expect(clippy::type_complexity, reason = "a tuple of Python's")]
+pub fn runs(
+    py: Python<'_>,
+    folder: PathBuf,
+    conditions: Vec<String>,
+    states: Vec<String>,
+    sort: Option<String>,
+    columns: Option<Vec<String>>,
+) -> PyResult<(String, Vec<String>, Vec<(String, &'static str)>, Vec<String>)> {
+    let asked = Asked { conditions, states, sort, reverse: false };
+    let listed = py.detach(|| {
+        let listing = Listing::of(&folder, &asked)?;
+        let columns = listing.columns(columns.as_deref())?;
+        Ok((listing.json(&columns), columns, listing.notes))
+    });
+    let (text, columns, notes) = listed.map_err(|error: ListError| match error {
+        ListError::Folder { .. } => PyFileNotFoundError::new_err(error.to_string()),
+        _ => PyValueError::new_err(error.to_string()),
+    })?;
+    let units = columns.iter().map(|key| (key.clone(), unit(key))).filter(|(_, unit)| !unit.is_empty());
+    let units = units.collect();
+    Ok((text, columns, units, notes))
+}

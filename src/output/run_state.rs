@@ -1,0 +1,83 @@
+//! What has become of a run, told from its directory.
+
+use std::path::Path;
+
+use serde_json::{Map, Value};
+
+use super::run_directory::{CASE, CHECKPOINTS, FLUID_HISTORY, SOLID_HISTORY, SUMMARY, is_held};
+use super::{OutputError, summary};
+
+/// What has become of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum RunState {
+    /// A process is at it: it holds the directory.
+    Running,
+    /// It has reached its end.
+    Finished,
+    /// It ended with an error.
+    Failed,
+    /// It was stopped or killed before its end, and can be gone on with.
+    Interrupted,
+}
+
+impl RunState {
+    /// All of them with their names.
+    pub const NAMES: [(&'static str, Self); 4] = [
+        ("running", Self::Running),
+        ("finished", Self::Finished),
+        ("failed", Self::Failed),
+        ("interrupted", Self::Interrupted),
+    ];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        let of_self = Self::NAMES.iter().find(|(_, state)| *state == self);
+        of_self.map_or("", |(name, _)| name)
+    }
+
+    /// The state of the run in a directory, of which the summary says so much.
+    ///
+    /// Whether it is running its lock says, whatever the files say and however old they are.
+    #[must_use]
+    pub fn of(directory: &Path, summary: &Map<String, Value>) -> Self {
+        let is_completed =
+            |summary: &Map<String, Value>| summary.get("completed") == Some(&Value::Bool(true));
+        let ended = |summary: &Map<String, Value>| match summary.get("error") {
+            _ if is_completed(summary) => Self::Finished,
+            Some(_) => Self::Failed,
+            None => Self::Interrupted,
+        };
+        if is_completed(summary) {
+            return Self::Finished;
+        }
+        if is_held(directory) == Some(true) {
+            return Self::Running;
+        }
+        // It may have ended since the summary was read.
+        summary::read(&directory.join(SUMMARY)).map_or_else(|_| ended(summary), |latest| ended(&latest))
+    }
+}
+
+/// Whether a directory is a run's.
+#[must_use]
+pub fn is_run(directory: &Path) -> bool {
+    let has = |name: &str| directory.join(name).is_file();
+    has(SUMMARY) && [CASE, FLUID_HISTORY, SOLID_HISTORY].into_iter().any(has)
+}
+
+/// Whether a run that has not ended well can be gone on with from where it was.
+#[must_use]
+pub fn has_checkpoints(directory: &Path) -> bool {
+    std::fs::read_dir(directory.join(CHECKPOINTS)).is_ok_and(|mut entries| entries.next().is_some())
+}
+
+/// The summary of the run in a directory.
+///
+/// - errors: [`OutputError::NoRun`] if it is none's.
+pub fn summary_of(directory: &Path) -> Result<Map<String, Value>, OutputError> {
+    if !is_run(directory) {
+        return Err(OutputError::NoRun { path: directory.to_path_buf() });
+    }
+    summary::read(&directory.join(SUMMARY))
+}

@@ -1,0 +1,120 @@
+//! Looks at the directory of a run, again and again.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value};
+
+use crate::output::progress_file::Standing;
+use crate::output::progress_line::ProgressLine;
+use crate::output::run_directory::{CASE, FLUID_HISTORY, SOLID_HISTORY};
+use crate::output::run_state::{has_checkpoints, summary_of};
+use crate::output::{OutputError, RunState};
+use crate::watch::grids::run_in;
+use crate::watch::seen::{Seen, Titled};
+use crate::watch::series::Series;
+
+const RADIUS: &str = "/bubble/equivalent_radius";
+const PRESSURE: &str = "/wall/pressure_axis";
+const VON_MISES: &str = "/solid/von_mises_max";
+const PLASTIC: &str = "/solid/plastic_strain_max";
+
+/// Looks at a run.
+#[derive(Debug)]
+pub struct Reader {
+    /// What was asked for: a run's directory or a study's.
+    asked: PathBuf,
+    /// The run looked at last, and its histories.
+    run: PathBuf,
+    fluid: Series,
+    solid: Series,
+}
+
+impl Reader {
+    /// For the run in a directory, or the runs of a study.
+    #[must_use]
+    pub fn new(directory: &Path) -> Self {
+        Self {
+            asked: directory.to_path_buf(),
+            run: PathBuf::new(),
+            fluid: Series::new(FLUID_HISTORY, "/time", &[RADIUS, PRESSURE]),
+            solid: Series::new(SOLID_HISTORY, "/solid/time", &[VON_MISES, PLASTIC]),
+        }
+    }
+
+    /// Looks.
+    ///
+    /// - errors: there is no run in the directory, or its summary cannot be read.
+    pub fn look(&mut self) -> Result<Seen, OutputError> {
+        let (run, grid) = run_in(&self.asked)?;
+        if run != self.run {
+            *self = Self { run, ..Self::new(&self.asked) };
+        }
+        let summary = summary_of(&self.run)?;
+        let state = RunState::of(&self.run, &summary);
+        // A summary that was there before it ended says nothing of how.
+        let summary = if state == RunState::Running { summary } else { summary_of(&self.run)? };
+        let read = [self.fluid.read(&self.run), self.solid.read(&self.run)];
+        let told = Standing::read(&self.run);
+        let end = told.as_ref().map(|standing| standing.end).or_else(|| end_of(&self.run));
+        let text = |value: &Value| value.as_str().map(str::to_owned);
+        let is_over = state != RunState::Running;
+        Ok(Seen {
+            directory: self.run.clone(),
+            grid,
+            state,
+            standing: told.or_else(|| self.standing(&summary)),
+            curves: self.curves(),
+            end,
+            error: summary.get("error").filter(|_| is_over).and_then(text),
+            answer: (summary.get("answer").and_then(Value::as_array).into_iter().flatten())
+                .filter(|_| is_over)
+                .filter_map(text)
+                .collect(),
+            can_go_on: is_over && has_checkpoints(&self.run),
+            trouble: read.into_iter().find_map(Result::err),
+        })
+    }
+
+    /// Where the run stands by its histories, and of a run that has ended by its summary.
+    fn standing(&self, summary: &Map<String, Value>) -> Option<Standing> {
+        let series = if self.fluid.rows() > 0 { &self.fluid } else { &self.solid };
+        let cells = |side: &str| summary.get("cells")?.get(side)?.get("final")?.as_u64();
+        let [fluid, solid] = ["fluid", "solid"].map(|side| cells(side).unwrap_or(0));
+        let line = ProgressLine {
+            time: series.last_time(),
+            step: series.rows().checked_sub(1)? as u64,
+            dt: series.last_step(),
+            limited_by: String::new(),
+            cells: fluid + solid,
+            solid_cells: solid,
+            wall: summary.get("wall_seconds").and_then(Value::as_f64).unwrap_or(0.0),
+        };
+        Some(Standing { line, end: 0.0, left: None })
+    }
+
+    /// What there is to draw: the bubble, its pressure on the wall, and what that does to the solid.
+    fn curves(&self) -> Vec<Titled> {
+        let titled = |series: &Series, path: &str, title: &'static str, unit: &'static str| {
+            let curve = series.curve(path)?.clone();
+            curve.last()?;
+            Some(Titled { title, unit, is_least_wanted: path == RADIUS, curve })
+        };
+        // Where the solid can yield, how far it has is what is asked for; until it does, how near it is.
+        let strain = titled(&self.solid, PLASTIC, "largest plastic strain", "")
+            .filter(|strain| strain.curve.largest().is_some_and(|[_, value]| value > 0.0));
+        let solid = strain.or_else(|| titled(&self.solid, VON_MISES, "largest von Mises stress", "Pa"));
+        let bubble = [
+            titled(&self.fluid, RADIUS, "equivalent radius R(t)", "m"),
+            titled(&self.fluid, PRESSURE, "wall pressure on the axis", "Pa"),
+        ];
+        bubble.into_iter().flatten().chain(solid).collect()
+    }
+}
+
+/// When the run in a directory ends by its case, s.
+fn end_of(directory: &Path) -> Option<f64> {
+    let text = std::fs::read_to_string(directory.join(CASE)).ok()?;
+    let case: toml::Table = toml::from_str(&text).ok()?;
+    let time = case.get("time")?;
+    ["end", "longest"].into_iter().find_map(|key| time.get(key)?.as_float())
+}
