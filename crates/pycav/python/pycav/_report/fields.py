@@ -61,7 +61,7 @@ def _of_solid(result: Result) -> Iterable[Quantity]:
         yield Quantity("solid", "mises", "von Mises stress", "MPa", lambda snapshot: 1e-6 * snapshot["von_mises"],
                        lambda ends: scales.power(ends[1], 0.6, "inferno"), dark="keep")
     if STRAIN in fields:
-        # Logarithmic from a hundredth of a per cent on, below which nothing is said to have flowed (docs/output.md).
+        # Logarithmic from a hundredth of a per cent on, below which nothing is said to have flowed (docs/reference/output.md).
         yield Quantity("solid", "strain", "plastic strain", "%", lambda snapshot: 100 * snapshot[STRAIN],
                        lambda ends: scales.logarithmic(max(ends[1], 0.1), float(np.log10(max(ends[1], 0.1) / 0.01)), "magma_r",
                                                        0.0, 0.95, 128))

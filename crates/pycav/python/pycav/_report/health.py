@@ -20,7 +20,7 @@ ROUND_OFF = 1e-9
 RARE = 1e-3
 """Fall-backs in a smaller share of the cell updates touch next to nothing."""
 FLOOR = 1e-2
-"""The share of the collapse's energy from which on the program itself warns (docs/output.md)."""
+"""The share of the collapse's energy from which on the program itself warns (docs/reference/output.md)."""
 JUMP = 0.05
 """Share of the pressure's change by which both sides' own values may differ at the wall."""
 SMALLEST = 10.0

@@ -13,7 +13,7 @@ from ..mesh import Floats
 from .dataset import numeric, opened
 
 KINDS = ("interpolated", "monotone", "oscillatory", "divergent", "oscillatory-divergent", "coincident", "unchanged", "two-grids", "unknown")
-"""What the values of a point on several grids do; the words of docs/convergence.md, and `interpolated` between such points."""
+"""What the values of a point on several grids do; the words of docs/verification/convergence.md, and `interpolated` between such points."""
 
 SAFETY, SAFETY_OF_TWO, ORDERS, ROUND_OFF = 1.25, 3.0, (0.5, 2.0), 1e-12
 
@@ -110,7 +110,7 @@ def _spread_out(result: xarray.Dataset, common: dict[str, list[Any]], axes: Sequ
 
 
 def estimated(values: Sequence[float] | Floats, cells: Sequence[float] | Floats) -> Estimate:
-    """The uncertainty of the first of some values, each with its cells per radius: the rules of docs/convergence.md.
+    """The uncertainty of the first of some values, each with its cells per radius: the rules of docs/verification/convergence.md.
 
     With f₃, f₂, f₁ on grids of ratio r: p = ln((f₃ − f₂)/(f₂ − f₁))/ln r, kept within 0.5 to 2, GCI = F |f₂ − f₁|/(r^p − 1), and on
     a coarser grid r^p times as much (Roache, J. Fluids Eng. 116, 405, 1994).
