@@ -185,7 +185,7 @@ enum Content {
 /// may not be read.
 ///
 /// The directory is held for a moment if nobody else does, shared with others who ask. A run that begins in that moment waits for it
-/// to pass, see [`lock`].
+/// to pass.
 #[must_use]
 pub fn is_held(path: &Path) -> Option<bool> {
     match File::open(path).ok()?.try_lock_shared() {
