@@ -33,7 +33,7 @@ def page(root) -> str:
 def commands(page: str) -> list[str]:
     """What the page's blocks type, with loops gone through."""
     found: list[str] = []
-    for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL):
+    for block in re.findall(r"```text\n(.*?)```", page, re.DOTALL):
         loop = re.fullmatch(r"for (\w+) in (.*); do\n(.*)done\n", block, re.DOTALL)
         bodies = [loop[3].replace(f"${loop[1]}", value) for value in loop[2].split()] if loop else [block]
         for body in bodies:
