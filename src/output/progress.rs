@@ -186,21 +186,9 @@ impl Speed {
 mod tests {
     use super::*;
 
-    fn line() -> ProgressLine {
-        ProgressLine {
-            time: 1.25e-5,
-            step: 340,
-            dt: 3.1e-8,
-            limited_by: "fluid".to_owned(),
-            cells: 131_072,
-            solid_cells: 65_536,
-            wall: 10.0,
-        }
-    }
-
     #[test]
     fn the_line_says_time_step_limit_cells_and_time_left() {
-        let text = describe(&line(), 6.57e-5, Some(185.0));
+        let text = describe(&ProgressLine::example(), 6.57e-5, Some(185.0));
         assert_eq!(
             text,
             "t = 12.50 µs of 65.70 µs  step 340  Δt = 31.00 ns (fluid)  131072 cells  3m 5s left"

@@ -71,15 +71,7 @@ mod tests {
         let place = tempfile::tempdir().expect("a directory");
         let directory = RunDirectory::open(place.path()).expect("it is there");
         assert_eq!(Standing::read(place.path()), None);
-        let line = ProgressLine {
-            time: 1.25e-5,
-            step: 340,
-            dt: 3.1e-8,
-            limited_by: "fluid".to_owned(),
-            cells: 131_072,
-            solid_cells: 65_536,
-            wall: 10.0,
-        };
+        let line = ProgressLine::example();
         for left in [None, Some(12.5)] {
             let standing = Standing { line: line.clone(), end: 6.57e-5, left };
             ProgressFile::new(&directory).write(&standing);

@@ -39,11 +39,10 @@ impl ProgressLine {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn line() -> ProgressLine {
-        ProgressLine {
+impl ProgressLine {
+    /// One for tests.
+    pub(super) fn example() -> Self {
+        Self {
             time: 1.25e-5,
             step: 340,
             dt: 3.1e-8,
@@ -53,12 +52,18 @@ mod tests {
             wall: 10.0,
         }
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
 
     #[test]
     fn a_line_survives_the_way_through_json_and_other_lines_are_no_progress() {
-        let text = line().to_json();
+        let line = ProgressLine::example();
+        let text = line.to_json();
         assert!(!text.contains('\n'));
-        assert_eq!(ProgressLine::from_json(&text), Some(line()));
+        assert_eq!(ProgressLine::from_json(&text), Some(line));
         assert_eq!(ProgressLine::from_json("{\"time\": 1.0}"), None);
         assert_eq!(ProgressLine::from_json("step 3"), None);
     }

@@ -29,6 +29,12 @@ impl Checks {
         self.hold(holds, option, value, "positive", &format!("give a number > 0 in {unit}"))
     }
 
+    /// Refuses distances d/R from a wall that no case is written for.
+    pub fn stand_off(&mut self, value: f64) -> &mut Self {
+        let help = "give d/R, the distance of the bubble's centre from the wall in radii";
+        self.hold((0.0..=1e3).contains(&value), "stand_off", value, "from 0 to 1000", help)
+    }
+
     /// Refuses resolutions that no case is written for.
     pub fn cells(&mut self, value: f64) -> &mut Self {
         let must = format!("from {} to {}", CELLS.start(), CELLS.end());

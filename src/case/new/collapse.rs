@@ -8,7 +8,7 @@ use super::checks::Checks;
 use super::grid::Blocks;
 use super::parts::{Bubble, OF_COLLAPSE, VAPOUR, sound, times};
 use super::quantity::Dimension;
-use super::wall::{Wall, plasticity};
+use super::wall::Wall;
 
 /// Radii from the bubble to open sides, where a far field is as good as one far away (docs/theory/far-field.md).
 const CLEAR: f64 = 4.0;
@@ -67,13 +67,7 @@ impl Collapse {
             .positive("radius", self.radius, "m")
             .positive("gas_pressure", self.gas_pressure, "Pa")
             .above_gas("pressure", self.pressure, self.gas_pressure)
-            .hold(
-                (0.0..=1e3).contains(&self.stand_off),
-                "stand_off",
-                self.stand_off,
-                "from 0 to 1000",
-                "give d/R, the distance of the bubble's centre from the wall in radii",
-            )
+            .stand_off(self.stand_off)
             .cells(self.cells_per_radius)
             .done()?;
         let Self { radius, stand_off, cells_per_radius, .. } = *self;
@@ -93,7 +87,7 @@ impl Collapse {
         text += &blocks.keys(0.0, height + CLEAR * radius, ACROSS * radius, &finest);
         text += "initial_pressure = \"rayleigh\"   # the bubble starts from rest, without a water hammer\n";
         text += &bubble.keys(height);
-        self.wall_keys(&mut text, &blocks.coarser());
+        text += &self.wall.keys(&blocks.coarser(), [ACROSS * radius; 2], "", self.elastic);
         let _ = write!(
             text,
             "
@@ -129,26 +123,5 @@ radius = {}
 
 "
         )
-    }
-
-    fn wall_keys(&self, text: &mut String, blocks: &Blocks) {
-        match &self.wall {
-            Wall::Rigid => {
-                *text += "\n[coupling]\nscheme = \"rigid\"                # a wall that does not move\n"
-            }
-            Wall::Solid(material) => {
-                *text += "\n[solid]                         # below it\n";
-                let deep = ACROSS * self.radius;
-                *text += &blocks.keys(deep, 0.0, deep, "cells twice as wide as the fluid's");
-                let _ = write!(
-                    text,
-                    "material = \"{}\"\ninitial_stress = \"hydrostatic\"  # in balance with the liquid at the start\n",
-                    material.name()
-                );
-                if !self.elastic {
-                    *text += &plasticity(material);
-                }
-            }
-        }
     }
 }

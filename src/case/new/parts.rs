@@ -1,9 +1,11 @@
 //! Pieces that several kinds of cases have in common.
 
-/// Water: γ of its stiffened gas.
-const GAMMA: f64 = 7.15;
-/// Water: π of its stiffened gas, Pa.
-const PI: f64 = 3e8;
+use fluid::StiffenedGas;
+
+use super::super::scales::sound_speed;
+
+/// Water, with π in Pa.
+const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 /// Water: kg/m³.
 pub(super) const DENSITY: f64 = 1000.0;
 /// Rayleigh's collapse time over R √(ρ/Δp) (Rayleigh 1917).
@@ -59,13 +61,13 @@ impl Bubble {
 
     /// `[fluid.liquid]` to `[[fluid.region]]`, the bubble's centre at `height` over z = 0.
     pub fn keys(&self, height: f64) -> String {
-        let at_rest = DENSITY;
+        let (at_rest, StiffenedGas { gamma, pi, .. }) = (DENSITY, WATER);
         let density = self.gas_pressure / (AIR[0] * AIR[1]);
         format!(
             "
 [fluid.liquid]                  # water, p = (gamma - 1) rho e - gamma pi
-gamma = {GAMMA:?}
-pi = {PI:e}
+gamma = {gamma:?}
+pi = {pi:e}
 
 [fluid.gas]
 gamma = 1.4
@@ -93,7 +95,7 @@ pressure = {gas}
 
 /// The sound speed of water at a pressure, m/s.
 pub(super) fn sound(pressure: f64) -> f64 {
-    (GAMMA * (pressure + PI) / DENSITY).sqrt()
+    sound_speed(WATER, DENSITY, pressure)
 }
 
 /// `[time]`: the end, and snapshots between 0 and it.

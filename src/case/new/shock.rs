@@ -9,7 +9,7 @@ use super::checks::Checks;
 use super::grid::Blocks;
 use super::parts::{Bubble, number, sound, times};
 use super::quantity::Dimension;
-use super::wall::{Wall, plasticity};
+use super::wall::Wall;
 
 /// Radii between the bubble and the side where the pulse comes in.
 const ABOVE: f64 = 4.0;
@@ -56,13 +56,7 @@ impl ShockedBubble {
             .positive("radius", radius, "m")
             .positive("pressure", pressure, "Pa")
             .positive("amplitude", amplitude, "Pa")
-            .hold(
-                (0.0..=1e3).contains(&stand_off),
-                "stand_off",
-                stand_off,
-                "from 0 to 1000",
-                "give d/R, the distance of the bubble's centre from the wall in radii",
-            )
+            .stand_off(stand_off)
             .cells(cells_per_radius)
             .done()?;
         let blocks = Blocks::of(radius, cells_per_radius);
@@ -91,7 +85,8 @@ impl ShockedBubble {
         text += &bubble.keys(stand_off * radius);
         text += "\n[fluid.boundary]\nz_max = \"inflow\"                # where the pulse comes in\nr_max = \"wall\"                  # it runs along it\n";
         text += &self.pulse(end);
-        self.wall_keys(&mut text, &blocks.coarser());
+        let beside = "\n[solid.boundary]\nr_max = \"symmetry\"              # as the wall of the fluid\n";
+        text += &self.wall.keys(&blocks.coarser(), [DEEP * radius, ACROSS * radius], beside, false);
         let _ = write!(
             text,
             "\n[[probe]]                       # the pulse before it meets the bubble\nname = \"incident\"\nposition = [{}, 0.0]\nmedium = \"fluid\"\n",
@@ -133,18 +128,5 @@ impl ShockedBubble {
         }));
         let lines: Vec<String> = rows.chunks(4).map(|chunk| format!("    {},", chunk.join(", "))).collect();
         format!("\n[fluid.inflow]\npressure = [\n{}\n]\n", lines.join("\n"))
-    }
-
-    fn wall_keys(&self, text: &mut String, blocks: &Blocks) {
-        let Wall::Solid(material) = &self.wall else {
-            *text += "\n[coupling]\nscheme = \"rigid\"                # a wall that does not move\n";
-            return;
-        };
-        *text += "\n[solid]                         # below it\n";
-        *text +=
-            &blocks.keys(DEEP * self.radius, 0.0, ACROSS * self.radius, "cells twice as wide as the fluid's");
-        let _ = write!(text, "material = \"{}\"\ninitial_stress = \"hydrostatic\"\n", material.name());
-        *text += "\n[solid.boundary]\nr_max = \"symmetry\"              # as the wall of the fluid\n";
-        *text += &plasticity(material);
     }
 }

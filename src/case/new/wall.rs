@@ -4,6 +4,7 @@ use solid::Material;
 use solid::plasticity::MaterialHardening;
 
 use super::super::error::suggest;
+use super::grid::Blocks;
 
 /// Short names for materials of the library.
 const SHORT: [(&str, &str); 6] = [
@@ -49,6 +50,29 @@ impl Wall {
             Self::Rigid => RIGID,
             Self::Solid(material) => material.name(),
         }
+    }
+
+    /// What a case says of the wall below z = 0: that it is rigid, or `[solid]` and how it yields.
+    ///
+    /// - `deep`, `across`: how far the solid reaches, m; `more`: keys between `[solid]` and its plasticity; `elastic`: whether it has none.
+    pub(super) fn keys(
+        &self,
+        blocks: &Blocks,
+        [deep, across]: [f64; 2],
+        more: &str,
+        elastic: bool,
+    ) -> String {
+        let Self::Solid(material) = self else {
+            return "\n[coupling]\nscheme = \"rigid\"                # a wall that does not move\n"
+                .to_owned();
+        };
+        format!(
+            "\n[solid]                         # below it\n{grid}material = \"{name}\"\n\
+             initial_stress = \"hydrostatic\"  # in balance with the liquid at the start\n{more}{law}",
+            grid = blocks.keys(deep, 0.0, across, "cells twice as wide as the fluid's"),
+            name = material.name(),
+            law = if elastic { String::new() } else { plasticity(material) },
+        )
     }
 }
 
