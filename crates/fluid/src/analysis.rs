@@ -43,10 +43,8 @@ const HARMLESS: f64 = 1e-2;
 impl Multiresolution for Analysis {
     fn parity(&self, side: Side, component: usize) -> Option<f64> {
         let normal_momentum = if matches!(side, Side::ZMin | Side::ZMax) { MOMENTUM_Z } else { MOMENTUM_R };
-        match self.boundaries[side as usize] {
-            Boundary::Axis | Boundary::Wall => Some(if component == normal_momentum { -1.0 } else { 1.0 }),
-            _ => None,
-        }
+        let sign = if component == normal_momentum { -1.0 } else { 1.0 };
+        self.boundaries[side as usize].is_mirror().then_some(sign)
     }
 
     fn counts_beside(&self, side: Side) -> bool {

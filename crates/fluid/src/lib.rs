@@ -44,5 +44,6 @@ pub use solver::{FluidSolver, FluidState};
 pub use state::Primitive;
 pub use step::clips::Clips;
 pub use terms::gravity::Gravity;
+pub use terms::viscosity::{PhaseViscosity, ThinGas, Viscosity};
 pub use thermodynamics::eos::StiffenedGas;
 pub use thermodynamics::mixture::Mixture;

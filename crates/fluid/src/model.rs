@@ -11,6 +11,7 @@ use crate::boundary::far_field::FarFieldMemory;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
 use crate::state::finished::{FinishedCell, measure_cell};
+use crate::state::conserved::{PHI, RHO};
 use crate::step::clips::{CountedAnalysis, SharedCount};
 use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::BlockReport;
@@ -35,6 +36,11 @@ impl Fluid {
     /// The cells of a block that are not physical.
     fn failed_cells<const N: usize>(&self, block: &[f64]) -> impl Iterator<Item = usize> {
         (0..N * N).filter(|cell| !self.measured::<N>(block, *cell).is_admissible())
+    }
+
+    /// The largest diffusivity of the terms in a block, m²/s.
+    pub(crate) fn diffusivity<const N: usize>(&self, block: &[f64]) -> f64 {
+        self.terms.diffusivity(&block[RHO * N * N..][..N * N], &block[PHI * N * N..][..N * N])
     }
 
     /// Whether z_min is a wall, rigid or not.
@@ -102,6 +108,7 @@ impl<const N: usize> Model<N> for Fluid {
         let mut extremes = Extremes::default();
         (0..N * N).for_each(|cell| extremes.add(&self.measured::<N>(block, cell)));
         report.extremes = extremes;
+        report.diffusivity = self.diffusivity::<N>(block);
         report.has_gas = self.scheme.phases.has_gas::<N>(block);
     }
 
@@ -109,8 +116,8 @@ impl<const N: usize> Model<N> for Fluid {
         [report.extremes.speed_z, report.extremes.speed_r]
     }
 
-    fn step_limit(&self, _: &BlockReport<N>, widths: [f64; 2]) -> f64 {
-        self.terms.step_limit(widths)
+    fn step_limit(&self, report: &BlockReport<N>, widths: [f64; 2]) -> f64 {
+        self.terms.step_limit(widths, report.diffusivity)
     }
 
     fn inadmissible_cell(&self, report: &BlockReport<N>, block: &[f64]) -> Option<usize> {

@@ -80,8 +80,10 @@ impl RiemannSolver {
 pub enum Boundary {
     /// The axis r = 0 of an axisymmetric domain.
     Axis,
-    /// A rigid, frictionless wall.
+    /// A rigid wall, frictionless in fluids without viscosity; those with it stick to it.
     Wall,
+    /// A plane of symmetry, which is a wall that fluids slip along.
+    Symmetry,
     /// Waves leave: the incoming characteristic is held at the initial state there.
     NonReflecting,
     /// Waves leave, and liquid flows to the bubbles and back as in unbounded liquid, see [`crate::FarField`].
@@ -96,8 +98,9 @@ pub enum Boundary {
 
 impl Boundary {
     /// Those a case file may name.
-    pub const NAMES: [(&'static str, Self); 5] = [
+    pub const NAMES: [(&'static str, Self); 6] = [
         ("wall", Self::Wall),
+        ("symmetry", Self::Symmetry),
         ("non-reflecting", Self::NonReflecting),
         ("far-field", Self::FarField),
         ("inflow", Self::Inflow),
@@ -107,6 +110,11 @@ impl Boundary {
     /// Whether fluid passes: the side holds a state outside.
     pub fn is_open(self) -> bool {
         matches!(self, Self::NonReflecting | Self::FarField | Self::Inflow)
+    }
+
+    /// Whether what is beyond it is the mirror image of what is within.
+    pub fn is_mirror(self) -> bool {
+        matches!(self, Self::Axis | Self::Wall | Self::Symmetry)
     }
 
     /// Whether it stops the fluid: a rigid wall, or the solid.

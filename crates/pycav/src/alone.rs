@@ -71,7 +71,7 @@ impl Surface {
         common.update(self.begin, &self.edges, &now.edges, axisymmetric);
         let interface = solver.interface_mut();
         let of = |k: usize| {
-            let FaceState { pressure, velocity, power } = self.states[common.sub_faces()[k].first];
+            let FaceState { pressure, velocity, power, ..FaceState::default() } = self.states[common.sub_faces()[k].first];
             [pressure, velocity, power]
         };
         common.means_of(true, of, |face, row| interface.set(face, row.into()));
@@ -152,7 +152,7 @@ impl<M: Medium> Alone<M> {
                         |pressure| M::under(trace, pressure),
                         |velocity| M::moved(trace, velocity),
                     );
-                    FaceState { pressure, velocity, power }
+                    FaceState { pressure, velocity, power, ..FaceState::default() }
                 });
                 let Parts { solver, pool, axisymmetric, .. } = parts;
                 let before = Surface::of(solver);

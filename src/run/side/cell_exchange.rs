@@ -156,7 +156,7 @@ impl CellExchange {
                 Kappa::Printed => self.kappa_now * given[face],
                 Kappa::Jump => own + self.kappa_now * (given[face] - own),
             };
-            FaceState { pressure, velocity, power: pressure * velocity }
+            FaceState { pressure, velocity, power: pressure * velocity, ..FaceState::default() }
         });
     }
 

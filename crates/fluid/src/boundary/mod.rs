@@ -123,7 +123,7 @@ impl Boundaries {
                 match self.kind(side) {
                     // What comes in through an open side has the mass fractions that are inside.
                     _ if component >= own_components => Padded::<N>::reflect(row, side, 1.0),
-                    Boundary::Axis | Boundary::Wall => {
+                    Boundary::Axis | Boundary::Wall | Boundary::Symmetry => {
                         Padded::<N>::reflect(row, side, if component == normal(side) { -1.0 } else { 1.0 });
                     }
                     Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow | Boundary::Interface => {
@@ -178,12 +178,17 @@ fn wall_face(trace: PrimitiveCell, wall: FaceState, mixture: &Mixture) -> Face {
     let star = coupler::star_density(&fluid, wall.pressure);
     let mass = star * wall.velocity;
     let kinetic = 0.5 * mass * (wall.velocity * wall.velocity + v_t * v_t);
-    let energy = (1.0 + mixture.beta1(phi)) * wall.power + mixture.beta2(phi) * wall.velocity + kinetic;
+    // The enthalpy that passes is the pressure's work's; friction does its own besides.
+    let sliding = if wall.shear == 0.0 { 0.0 } else { wall.shear * wall.tangential_velocity };
+    let work = if sliding == 0.0 { wall.power } else { wall.power + sliding };
+    let carried = (1.0 + mixture.beta1(phi)) * work + mixture.beta2(phi) * wall.velocity + kinetic;
+    let energy = if sliding == 0.0 { carried } else { carried - sliding };
+    let shear = if wall.shear == 0.0 { mass * v_t } else { mass * v_t - wall.shear };
     Face {
         mass,
         velocity: wall.velocity,
         pressure: wall.pressure,
-        shear: mass * v_t,
+        shear,
         energy,
         phi,
         compression: star / density,
@@ -237,11 +242,11 @@ mod tests {
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let trace = [1000.0, 0.0, 3.0, 5e7, 0.0];
-        let rest = wall_face(trace, FaceState { pressure: 5e7, velocity: 0.0, power: 0.0 }, &mixture);
+        let rest = wall_face(trace, FaceState::from([5e7, 0.0, 0.0]), &mixture);
         assert_eq!((rest.mass, rest.pressure, rest.energy, rest.shear), (0.0, 5e7, 0.0, 0.0));
         // A wall that moves with the fluid at its pressure passes the fluid's own flux.
         let trace = [1000.0, 2.0, 3.0, 5e7, 0.0];
-        let moving = wall_face(trace, FaceState { pressure: 5e7, velocity: 2.0, power: 1e8 }, &mixture);
+        let moving = wall_face(trace, FaceState::from([5e7, 2.0, 1e8]), &mixture);
         let own = crate::riemann::hllc::flux_hllc(trace, trace, &mixture);
         approx::assert_relative_eq!(moving.mass, own.mass, max_relative = 1e-14);
         approx::assert_relative_eq!(moving.energy, own.energy, max_relative = 1e-14);

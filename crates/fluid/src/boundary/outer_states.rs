@@ -27,7 +27,7 @@ impl Boundaries {
         let id = mesh.tree().leaves()[slot];
         for side in Side::ALL {
             let inflow = match self.kind(side) {
-                Boundary::Wall | Boundary::Axis if mesh.touches(slot, side) => {
+                Boundary::Wall | Boundary::Symmetry | Boundary::Axis if mesh.touches(slot, side) => {
                     mirror::<N>(side, half, keep);
                     if ctx.model.terms.acceleration()[axis(side)] != 0.0 {
                         meet_on_face::<N>(side, slopes[axis(side)], half, keep);

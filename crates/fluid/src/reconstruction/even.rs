@@ -2,7 +2,6 @@
 
 use mesh::{Padded, Side};
 
-use crate::Boundary;
 use crate::boundary::{axis, beside, tangential};
 use crate::physics::FluidStep;
 use crate::reconstruction::at;
@@ -88,7 +87,7 @@ fn along_mirror<const N: usize>(side: Side) -> impl Iterator<Item = [usize; 2]> 
 fn mirrors<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> impl Iterator<Item = Side> {
     let is_mirror = move |side: &Side| {
         ctx.mesh.touches(slot, *side)
-            && matches!(ctx.model.boundaries.kind(*side), Boundary::Wall | Boundary::Axis)
+            && ctx.model.boundaries.kind(*side).is_mirror()
     };
     Side::ALL.into_iter().filter(is_mirror)
 }

@@ -62,6 +62,8 @@ Clips {
     lifted_phases,
     /// Mixed cells that the step left in tension, and of which the gas has expanded.
     expanded_cells,
+    /// Cells that had no more than the viscosity that the step is stable with.
+    bounded_viscosities,
 }
 }
 

@@ -49,6 +49,7 @@ struct BlockStep<'a, const N: usize> {
     gas: BlockGas<'a, N>,
     limited_predictions: u64,
     clipped_roots: u64,
+    bounded_viscosities: u64,
 }
 
 /// Advances one block by one step from `ctx.old` into `new`; `fluxes` is its part of the flux register.

@@ -39,6 +39,11 @@ pub struct BlockReport<const N: usize> {
     /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
     #[serde(with = "mesh::array")]
     pub(crate) wall_pressure: [f64; N],
+    /// Shear stress σ_zr on the faces of z_min, Pa; 0 in blocks that do not touch it.
+    #[serde(with = "mesh::array")]
+    pub(crate) wall_shear: [f64; N],
+    /// The largest diffusivity of the terms in any cell, m²/s.
+    pub(crate) diffusivity: f64,
     /// What the far field's impulse on the faces of each side has gained, Pa s.
     pub(crate) impulse: [FaceRow<N>; 4],
 }
@@ -91,6 +96,8 @@ impl<const N: usize> Default for BlockReport<N> {
             floor_energy: 0.0,
             inflow: [[0.0; 4]; 4],
             wall_pressure: [0.0; N],
+            wall_shear: [0.0; N],
+            diffusivity: 0.0,
             impulse: [FaceRow([0.0; N]); 4],
         }
     }

@@ -26,6 +26,8 @@ pub struct BlockScratch<const N: usize> {
     pub(super) inverse_weight: Vec<f64>,
     /// The block at the beginning of the step with what comes into its cells besides; used where there are terms.
     pub(super) with_sources: Vec<f64>,
+    /// What terms work in, a part for each.
+    pub(crate) works: Vec<Vec<f64>>,
     /// A part for each component that the mass carries.
     pub(super) carried: Vec<CarriedScratch>,
     pub(crate) gas: GasScratch,
@@ -52,6 +54,7 @@ impl<const N: usize> BlockScratch<N> {
             face_weight: vec![0.0; N + 1],
             inverse_weight: vec![0.0; N],
             with_sources: Vec::new(),
+            works: Vec::new(),
             carried: (0..carried).map(|_| CarriedScratch::new::<N>()).collect(),
             gas: GasScratch::new::<N>(),
             has_gas: false,

@@ -4,6 +4,7 @@ use mesh::{Padded, Side, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
+use crate::Boundary;
 use crate::components::carried::CarriedCells;
 use crate::physics::FluidStep;
 use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
@@ -16,6 +17,7 @@ use crate::step::report::{BlockReport, boundary_inflow, count_kept, far_field_ga
 use crate::step::rows;
 use crate::step::update::{Extremes, Metric, NewCells, update};
 use crate::terms::TermBlock;
+use crate::reconstruction::Rows;
 use crate::two_phase::{Before, BlockGas, may_have_gas};
 
 /// Assembles a block with its ghosts: primitive variables in `cells`.
@@ -88,7 +90,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if !gas.is_present() {
             scratch.without_gas();
         }
-        Self { ctx, slot, id, inverse_h, gas, limited_predictions, clipped_roots: 0 }
+        Self { ctx, slot, id, inverse_h, gas, limited_predictions, clipped_roots: 0, bounded_viscosities: 0 }
     }
 
     /// - `face_weight`, `inverse_weight`: as [`BlockStep::assemble`] has left them.
@@ -100,6 +102,26 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             inverse_h: self.inverse_h,
             face_weight,
             inverse_weight,
+        }
+    }
+
+    /// The block as terms see it; `rows`: the padded cells as they are to see them, and at the beginning of the step.
+    fn term_block<'b>(
+        &'b self,
+        metric: &'b Metric<'b>,
+        inverse_r: &'b [f64],
+        [state, before]: [Rows<'b>; 2],
+        keep: &'b [f64],
+    ) -> TermBlock<'b> {
+        TermBlock {
+            cells: N,
+            metric,
+            inverse_r,
+            state,
+            before,
+            keep,
+            sides: block_sides(self.ctx, self.slot),
+            wall: self.ctx.interface.states_of::<N>(self.slot),
         }
     }
 
@@ -132,6 +154,13 @@ impl<'a, const N: usize> BlockStep<'a, N> {
                 scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);
             }
         }
+        if self.ctx.model.terms.is_viscous {
+            let BlockScratch { cells, half, keep, inverse_r, face_weight, inverse_weight, works, .. } = scratch;
+            let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
+            let block = self.term_block(&metric, inverse_r, [rows; 2], keep);
+            let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
+            self.ctx.model.terms.predict(&block, [v_z, v_r], works);
+        }
     }
 
     /// States beyond the sides of the domain, and cells that make this step at first order.
@@ -151,15 +180,17 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     }
 
     /// What terms add to fluxes and cells, and what the mass carries with it: the fluxes are final then.
-    pub(super) fn add_terms(&self, scratch: &mut BlockScratch<N>) {
+    pub(super) fn add_terms(&mut self, scratch: &mut BlockScratch<N>) {
         let ctx = self.ctx;
-        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } = scratch;
         if !ctx.model.terms.is_empty() {
+            let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } = scratch;
+            let BlockScratch { cells, keep, inverse_r, works, .. } = scratch;
             let metric = &self.metric(face_weight, inverse_weight);
-            let block = TermBlock { cells: N, metric, half: half.split() };
+            let block = self.term_block(metric, inverse_r, [half.split(), cells.split()], keep);
             with_sources.clear();
             with_sources.extend_from_slice(ctx.old.block(self.slot));
-            ctx.model.terms.add(&block, [z_faces, r_faces], with_sources);
+            let bounded = ctx.model.terms.add(&block, [z_faces, r_faces], works, with_sources);
+            self.bounded_viscosities = bounded;
         }
         let BlockScratch { cells, carried, z_faces, r_faces, .. } = scratch;
         for (component, carried) in ctx.model.carried_components().zip(carried) {
@@ -224,6 +255,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             halved_slopes: u64::from(halved),
             limited_predictions: self.limited_predictions,
             clipped_roots: self.clipped_roots,
+            bounded_viscosities: self.bounded_viscosities,
             ..Clips::default()
         };
         let speeds = scratch.speeds.split::<3>().map(|row| &row[..N * N]);
@@ -241,9 +273,27 @@ impl<'a, const N: usize> BlockStep<'a, N> {
                 *pressure = z_faces.pressure[Padded::<N>::index(-1, j as isize)];
             }
         }
+        if ctx.model.terms.is_viscous {
+            report.diffusivity = ctx.model.diffusivity::<N>(new);
+            if ctx.mesh.touches(self.slot, Side::ZMin) {
+                let wall = ctx.interface.states_of::<N>(self.slot);
+                // Through a wall at rest no mass carries any momentum along.
+                let of_rest = |j: usize| -z_faces.shear[Padded::<N>::index(-1, j as isize)];
+                report.wall_shear =
+                    std::array::from_fn(|j| wall.map_or_else(|| of_rest(j), |wall| wall[j].shear));
+            }
+        }
         report.inflow = boundary_inflow(ctx, self.slot, z_faces, r_faces, face_weight);
         report.impulse = far_field_gains(ctx, self.slot, half, z_faces, r_faces);
     }
+}
+
+/// What bounds the domain on the sides of a block; `None` where other blocks are.
+pub(crate) fn block_sides<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> [Option<Boundary>; 4] {
+    Side::ALL.map(|side| {
+        let kind = ctx.model.boundaries.kind(side);
+        (kind != Boundary::Periodic && ctx.mesh.touches(slot, side)).then_some(kind)
+    })
 }
 
 /// Takes the marked cells' means for the states on their faces.

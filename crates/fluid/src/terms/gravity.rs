@@ -32,9 +32,15 @@ impl Term for Gravity {
         [self.acceleration, 0.0]
     }
 
-    fn add_sources(&self, block: &TermBlock<'_>, [z_faces, r_faces]: [&FaceRows; 2], block_rows: &mut [f64]) {
-        let TermBlock { cells: n, metric, half } = *block;
-        let (z_mass, r_mass, v_z) = (&z_faces.mass, &r_faces.mass, half[V_Z]);
+    fn add_sources(
+        &self,
+        block: &TermBlock<'_>,
+        [z_faces, r_faces]: [&FaceRows; 2],
+        _: &[f64],
+        block_rows: &mut [f64],
+    ) {
+        let TermBlock { cells: n, metric, state, .. } = *block;
+        let (z_mass, r_mass, v_z) = (&z_faces.mass, &r_faces.mass, state[V_Z]);
         for j in 0..n {
             let row = metric.row(j);
             for i in 0..n {
@@ -49,7 +55,7 @@ impl Term for Gravity {
     }
 
     /// Nothing falls through a cell in a step: ½|g|Δt² ≤ h_z.
-    fn step_limit(&self, [h_z, _]: [f64; 2]) -> f64 {
+    fn step_limit(&self, [h_z, _]: [f64; 2], _: f64) -> f64 {
         (2.0 * h_z / self.acceleration.abs()).sqrt()
     }
 }

@@ -5,8 +5,11 @@
 //! case has not are not in the list, and a block's step with an empty list is bitwise that without terms.
 
 pub(crate) mod gravity;
+pub(crate) mod viscosity;
 
-use crate::FluidSetup;
+use mesh::FaceState;
+
+use crate::{Boundary, FluidSetup};
 use crate::reconstruction::Rows;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
@@ -16,8 +19,33 @@ pub(crate) struct TermBlock<'a> {
     /// Cells along a side.
     pub cells: usize,
     pub metric: &'a Metric<'a>,
-    /// The padded cells at mid-step: ρ, v_z, v_r, p, φ.
-    pub half: Rows<'a>,
+    /// 1/r of the padded cells, or 0 in planar geometry.
+    pub inverse_r: &'a [f64],
+    /// The padded cells at mid-step: ρ, v_z, v_r, p, φ; for [`Term::predict`] those at the beginning of the step.
+    pub state: Rows<'a>,
+    /// The padded cells at the beginning of the step.
+    pub before: Rows<'a>,
+    /// The share of its slopes that each cell keeps, −0 where it has states on its faces only.
+    pub keep: &'a [f64],
+    /// What bounds the domain on the sides of the block; `None` where other blocks are.
+    pub sides: [Option<Boundary>; 4],
+    /// The faces of the wall to another medium, in the order of r, where the block has any.
+    pub wall: Option<&'a [FaceState]>,
+}
+
+/// A cell on the wall to another medium, as terms see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WallCell {
+    /// kg/m³.
+    pub density: f64,
+    /// Gas fraction.
+    pub phi: f64,
+    /// Its velocity along the wall relative to the wall's own, at mid-step, m/s.
+    pub slip: f64,
+    /// The step, s.
+    pub dt: f64,
+    /// 1/h_z, 1/h_r.
+    pub inverse_h: [f64; 2],
 }
 
 /// What a term adds.
@@ -28,18 +56,46 @@ pub(crate) trait Term: Send + Sync {
         [0.0; 2]
     }
 
-    /// Adds to the fluxes through the faces of a block along z and r, before they are registered.
-    fn add_fluxes(&self, _block: &TermBlock<'_>, _faces: [&mut FaceRows; 2]) {}
+    /// Adds what the velocities v_z and v_r of a block and its first ghosts gain until mid-step.
+    ///
+    /// - `work`: rows to work in, whatever they hold; likewise below.
+    fn predict(&self, _block: &TermBlock<'_>, _half: [&mut [f64]; 2], _work: &mut Vec<f64>) {}
+
+    /// Adds to the fluxes through the faces of a block along z and r, before they are registered; they hold those of waves.
+    ///
+    /// - returns: in how many cells of the block it was bounded.
+    fn add_fluxes(&self, _block: &TermBlock<'_>, _faces: [&mut FaceRows; 2], _work: &mut Vec<f64>) -> u64 {
+        0
+    }
 
     /// Adds what comes into the cells of a block in the step, per volume.
     ///
-    /// - `faces`: with the fluxes of all terms; `block_rows`: conserved components `[component][j][i]` without ghosts, of the field's
-    ///   number of components.
-    fn add_sources(&self, _block: &TermBlock<'_>, _faces: [&FaceRows; 2], _block_rows: &mut [f64]) {}
+    /// - `faces`: with the fluxes of all terms; `work`: as its own [`Term::add_fluxes`] has left it; `block_rows`: conserved components
+    ///   `[component][j][i]` without ghosts, of the field's number of components.
+    fn add_sources(
+        &self,
+        _block: &TermBlock<'_>,
+        _faces: [&FaceRows; 2],
+        _work: &[f64],
+        _block_rows: &mut [f64],
+    ) {
+    }
+
+    /// The largest diffusivity in cells of these densities and gas fractions, m²/s.
+    fn diffusivity(&self, _density: &[f64], _phi: &[f64]) -> f64 {
+        0.0
+    }
 
     /// The longest step that it is stable with in cells of these widths, s.
-    fn step_limit(&self, _widths: [f64; 2]) -> f64 {
+    ///
+    /// - `diffusivity`: the largest of all terms in them, see [`Term::diffusivity`].
+    fn step_limit(&self, _widths: [f64; 2], _diffusivity: f64) -> f64 {
         f64::INFINITY
+    }
+
+    /// The shear stress σ_zr with which it acts on the wall below a cell, Pa.
+    fn wall_shear(&self, _cell: WallCell) -> f64 {
+        0.0
     }
 }
 
@@ -47,18 +103,23 @@ pub(crate) trait Term: Send + Sync {
 pub(crate) struct Terms {
     list: Vec<Box<dyn Term>>,
     acceleration: [f64; 2],
+    /// Whether there is friction.
+    pub is_viscous: bool,
 }
 
 impl Terms {
     /// Those that a setup asks for.
     pub fn of(setup: &FluidSetup) -> Self {
-        let all: [Option<Box<dyn Term>>; 1] = [setup.gravity.map(|gravity| Box::new(gravity) as _)];
+        let all: [Option<Box<dyn Term>>; 2] = [
+            setup.gravity.map(|gravity| Box::new(gravity) as _),
+            setup.viscosity.map(|viscosity| Box::new(viscosity) as _),
+        ];
         let list: Vec<Box<dyn Term>> = all.into_iter().flatten().collect();
         let acceleration = list.iter().fold([0.0; 2], |[z, r], term| {
             let more = term.acceleration();
             [z + more[0], r + more[1]]
         });
-        Self { list, acceleration }
+        Self { list, acceleration, is_viscous: setup.viscosity.is_some() }
     }
 
     /// Whether there is none.
@@ -76,18 +137,48 @@ impl Terms {
         (self.acceleration != [0.0; 2]).then(|| self.acceleration.map(|a| a * time))
     }
 
-    /// Adds all terms to the fluxes and to the cells of a block.
-    pub fn add(&self, block: &TermBlock<'_>, [z_faces, r_faces]: [&mut FaceRows; 2], block_rows: &mut [f64]) {
-        for term in &self.list {
-            term.add_fluxes(block, [&mut *z_faces, &mut *r_faces]);
-        }
-        for term in &self.list {
-            term.add_sources(block, [z_faces, r_faces], block_rows);
+    /// Adds what the velocities gain until mid-step, see [`Term::predict`].
+    pub fn predict(&self, block: &TermBlock<'_>, [v_z, v_r]: [&mut [f64]; 2], works: &mut Vec<Vec<f64>>) {
+        works.resize_with(self.list.len(), Vec::new);
+        for (term, work) in self.list.iter().zip(works) {
+            term.predict(block, [&mut *v_z, &mut *v_r], work);
         }
     }
 
+    /// Adds all terms to the fluxes and to the cells of a block.
+    ///
+    /// - `works`: rows to work in, of each term.
+    /// - returns: in how many cells terms were bounded.
+    pub fn add(
+        &self,
+        block: &TermBlock<'_>,
+        [z_faces, r_faces]: [&mut FaceRows; 2],
+        works: &mut Vec<Vec<f64>>,
+        block_rows: &mut [f64],
+    ) -> u64 {
+        works.resize_with(self.list.len(), Vec::new);
+        let mut bounded = 0;
+        for (term, work) in self.list.iter().zip(&mut *works) {
+            bounded += term.add_fluxes(block, [&mut *z_faces, &mut *r_faces], work);
+        }
+        for (term, work) in self.list.iter().zip(works) {
+            term.add_sources(block, [z_faces, r_faces], work, block_rows);
+        }
+        bounded
+    }
+
+    /// The largest diffusivity in cells of these densities and gas fractions, m²/s.
+    pub fn diffusivity(&self, density: &[f64], phi: &[f64]) -> f64 {
+        self.list.iter().fold(0.0, |largest, term| largest.max(term.diffusivity(density, phi)))
+    }
+
     /// See [`Term::step_limit`].
-    pub fn step_limit(&self, widths: [f64; 2]) -> f64 {
-        self.list.iter().fold(f64::INFINITY, |limit, term| limit.min(term.step_limit(widths)))
+    pub fn step_limit(&self, widths: [f64; 2], diffusivity: f64) -> f64 {
+        self.list.iter().fold(f64::INFINITY, |limit, term| limit.min(term.step_limit(widths, diffusivity)))
+    }
+
+    /// See [`Term::wall_shear`].
+    pub fn wall_shear(&self, cell: WallCell) -> f64 {
+        self.list.iter().map(|term| term.wall_shear(cell)).sum()
     }
 }

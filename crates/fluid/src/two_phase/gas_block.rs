@@ -136,7 +136,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             return Outer::Block;
         }
         match self.ctx.model.boundaries.kind(side) {
-            Boundary::Axis | Boundary::Wall => Outer::Mirror,
+            Boundary::Axis | Boundary::Wall | Boundary::Symmetry => Outer::Mirror,
             Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow | Boundary::Interface => {
                 Outer::Given
             }

@@ -4,21 +4,25 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Mesh, Misfit, Side};
 
-/// The state of a face between the media during a step: means over it of p*, v* and p*v*.
+/// The state of a face between the media during a step: means over it of p*, v*, the power, and where there is friction σ_zr*, v_r*.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FaceState {
     /// Mean pressure, Pa.
     pub pressure: f64,
     /// Mean velocity along +z, m/s.
     pub velocity: f64,
-    /// Mean of their product, W/m².
+    /// Mean of what the upper medium does to the lower one, W/m²: p*v* − σ_zr* v_r*.
     pub power: f64,
+    /// Mean shear stress σ_zr*, Pa; 0 without friction.
+    pub shear: f64,
+    /// Mean velocity of the wall along +r, m/s; 0 without friction.
+    pub tangential_velocity: f64,
 }
 
 impl From<[f64; 3]> for FaceState {
     /// From p*, v*, p*v*.
     fn from([pressure, velocity, power]: [f64; 3]) -> Self {
-        Self { pressure, velocity, power }
+        Self { pressure, velocity, power, ..Self::default() }
     }
 }
 
@@ -105,6 +109,13 @@ impl Interface {
     /// Sets the states of all faces from rows of p*, v*, p*v*.
     pub fn set_rows(&mut self, [pressure, velocity, power]: [&[f64]; 3]) {
         self.set_all(|face| [pressure[face], velocity[face], power[face]].into());
+    }
+
+    /// Sets what friction makes of all faces, from rows of σ_zr* and v_r*.
+    pub fn set_friction(&mut self, [shear, tangential_velocity]: [&[f64]; 2]) {
+        for (face, state) in self.states.iter_mut().enumerate() {
+            (state.shear, state.tangential_velocity) = (shear[face], tangential_velocity[face]);
+        }
     }
 
     /// The states of all faces, to be changed one number at a time.

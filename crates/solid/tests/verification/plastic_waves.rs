@@ -52,7 +52,7 @@ pub fn press<const N: usize>(
             let before = if face == 0 { low } else { edges[face - 1] };
             let load = pressure(0.5 * (before + edges[face]), middle);
             let velocity = traces[face].velocity + (traces[face].pressure - load) / traces[face].impedance;
-            FaceState { pressure: load, velocity, power: load * velocity }
+            FaceState { pressure: load, velocity, power: load * velocity, ..FaceState::default() }
         });
         solid.step(dt).unwrap();
         after(solid, dt);

@@ -41,7 +41,7 @@ fn load<const N: usize>(
         let (trace, given) = (traces[face], pressure(r, time));
         let velocity = (trace.velocity + (trace.pressure - given) / z1) / (1.0 + resistance / z1);
         let pressure = given + resistance * velocity;
-        FaceState { pressure, velocity, power: pressure * velocity }
+        FaceState { pressure, velocity, power: pressure * velocity, ..FaceState::default() }
     });
     let follows = solid.adaptation_follows(dt, 1);
     solid.step(dt).unwrap();

@@ -82,7 +82,7 @@ fn error_on_surface(
             let load = pressure((face as f64 + 0.5) / n as f64);
             let velocity =
                 traces[face].velocity + (traces[face].pressure - load) / (STEEL.density * STEEL.c1);
-            FaceState { pressure: load, velocity, power: load * velocity }
+            FaceState { pressure: load, velocity, power: load * velocity, ..FaceState::default() }
         });
         solid.step(dt).unwrap();
     }

@@ -220,7 +220,7 @@ fn wall(domain: &Domain, boundaries: [Boundary; 4]) -> Result<Option<f64>, FarFi
     if !matches!(kind(Side::RMax), Boundary::FarField | Boundary::NonReflecting) {
         return Err(FarFieldError::Tube);
     }
-    let is_closed = |side: Side| kind(side).is_wall();
+    let is_closed = |side: Side| kind(side).is_wall() || kind(side) == Boundary::Symmetry;
     match (is_closed(Side::ZMin), is_closed(Side::ZMax)) {
         (true, true) => Err(FarFieldError::Layer),
         _ if kind(Side::ZMin) == Boundary::Periodic => Err(FarFieldError::Layer),

@@ -1,0 +1,236 @@
+//! Viscosity of both phases.
+
+mod stress;
+mod velocities;
+
+use mesh::Padded;
+
+use super::{Term, TermBlock, WallCell};
+use crate::reconstruction::Rows;
+use crate::state::conserved::{ENERGY, MOMENTUM_R};
+use crate::state::primitive::{PHI, RHO, V_R, V_Z};
+use crate::step::face_rows::FaceRows;
+use stress::{FaceStress, Motion, stresses};
+use velocities::Velocities;
+
+/// The most that Δt (η/ρ)(1/h_z² + 1/h_r²) may be in a cell, η = 4μ/3 + κ.
+///
+/// In the plane both stages of the midpoint rule together are stable up to ½; next to the axis, where the hoop stress adds to what
+/// damps the radial velocity, up to 0.43. Half and twice of it: `docs/theory/viscosity.md`.
+const MOST_DIFFUSION: f64 = 0.375;
+
+/// What gas does that is so thin that its momentum spreads over more than a cell in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ThinGas {
+    /// It is taken to be as viscous as the step is stable with, which is counted. The liquid alone limits the step.
+    #[default]
+    Bounded,
+    /// It limits the step.
+    Resolved,
+}
+
+impl ThinGas {
+    /// Names as they stand in case files.
+    pub const NAMES: [(&'static str, Self); 2] = [("bounded", Self::Bounded), ("resolved", Self::Resolved)];
+}
+
+/// Viscosity of a phase, Pa s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PhaseViscosity {
+    /// μ.
+    pub shear: f64,
+    /// κ, the bulk viscosity.
+    pub bulk: f64,
+}
+
+/// Newtonian stress τ = μ(∇v + ∇vᵀ − ⅔ ∇·v I) + κ ∇·v I, with walls that the fluid sticks to.
+///
+/// Momentum and energy pass through faces, −τ and −τ·v; what the hoop stress leaves is a source of radial momentum. Gradients are
+/// central differences of the states at mid-step, which have gained half a step of the stresses' divergence: second order in space and
+/// time. Cells mixed of both phases have μ = φμ_g + (1 − φ)μ_l: what flow about a bubble prescribes is how fast it is deformed, and then
+/// the work of mixed liquid is its share of the volume.
+///
+/// - valid for: μ, κ ≥ 0. errors: none.
+/// - tested by: `tests/verification/viscosity.rs`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viscosity {
+    pub liquid: PhaseViscosity,
+    pub gas: PhaseViscosity,
+    pub thin_gas: ThinGas,
+}
+
+impl Viscosity {
+    /// μ and κ of a mixture, Pa s.
+    #[inline(always)]
+    fn at(&self, phi: f64) -> [f64; 2] {
+        let gas = phi.clamp(0.0, 1.0);
+        let mean = |liquid: f64, of_gas: f64| gas * of_gas + (1.0 - gas) * liquid;
+        [mean(self.liquid.shear, self.gas.shear), mean(self.liquid.bulk, self.gas.bulk)]
+    }
+
+    /// The stresses on all faces of a block and of its first ghosts.
+    ///
+    /// - `work`: gets velocities, viscosities and stresses, in rows of padded cells.
+    fn stresses<'w>(&self, block: &TermBlock<'_>, work: &'w mut Vec<f64>) -> Stresses<'w> {
+        let len = block.state[RHO].len();
+        work.resize(ROWS * len, 0.0);
+        let mut rows = work.chunks_exact_mut(len);
+        let mut next = || rows.next().expect("resized to that many");
+        let [v_z, v_r, shear, bulk] = std::array::from_fn(|_| next());
+        Velocities { v_z: &mut *v_z, v_r: &mut *v_r }.gather(block);
+        for (k, phi) in block.state[PHI].iter().enumerate() {
+            [shear[k], bulk[k]] = self.at(*phi);
+        }
+        let [z, r] = std::array::from_fn(|_| FaceStress { normal: next(), shear: next(), hoop: next() });
+        let metric = block.metric;
+        let motion = Motion {
+            velocity: [&*v_z, &*v_r],
+            shear: &*shear,
+            bulk: &*bulk,
+            density: block.state[RHO],
+            stride: metric.stride,
+            inverse_h: metric.inverse_h,
+            inverse_r: block.inverse_r,
+            most: most_diffusivity(metric.dt, metric.inverse_h),
+        };
+        // From the outer ghosts' inner faces on, so that the first ghosts have all of theirs.
+        let end = metric.origin + block.cells * metric.stride + block.cells;
+        let (z_first, r_first) = (metric.origin - metric.stride - 2, metric.origin - 2 * metric.stride - 1);
+        let mut stresses_of = Stresses { velocity: [v_z, v_r], z, r };
+        stresses(&motion, 0, z_first..end + 1, &mut stresses_of.z);
+        stresses(&motion, 1, r_first..end + 1, &mut stresses_of.r);
+        stresses_of
+    }
+}
+
+/// Rows that the stresses of a block take: two velocities, two viscosities, three numbers on the faces of either direction.
+const ROWS: usize = 10;
+
+/// The stresses on the faces of a block.
+struct Stresses<'a> {
+    velocity: [&'a [f64]; 2],
+    z: FaceStress<'a>,
+    r: FaceStress<'a>,
+}
+
+/// The largest (4μ/3 + κ)/ρ that a step is stable with, m²/s; see [`MOST_DIFFUSION`].
+fn most_diffusivity(dt: f64, [inverse_z, inverse_r]: [f64; 2]) -> f64 {
+    MOST_DIFFUSION / (dt * (inverse_z * inverse_z + inverse_r * inverse_r))
+}
+
+/// 4μ/3 + κ.
+#[inline(always)]
+fn longitudinal([shear, bulk]: [f64; 2]) -> f64 {
+    4.0 / 3.0 * shear + bulk
+}
+
+impl Term for Viscosity {
+    /// Half a step of ∇·τ/ρ, in the cells of the block and the first ghosts.
+    fn predict(&self, block: &TermBlock<'_>, half: [&mut [f64]; 2], work: &mut Vec<f64>) {
+        let Stresses { z, r, .. } = self.stresses(block, work);
+        let metric = block.metric;
+        let ([inverse_z, inverse_h], stride) = (metric.inverse_h, metric.stride);
+        let [half_z, half_r] = half;
+        let side = block.cells + 2;
+        for first in (0..side).map(|j| metric.origin + j * stride - stride - 1) {
+            for k in first..first + side {
+                let inverse_r = block.inverse_r[k];
+                // r_j±1/2 / r_j.
+                let [low, high] = [-0.5, 0.5].map(|half| 1.0 + half * inverse_r / inverse_h);
+                let below = k - stride;
+                let force_z = inverse_z * (z.normal[k] - z.normal[k - 1])
+                    + inverse_h * (high * r.shear[k] - low * r.shear[below]);
+                let force_r = inverse_z * (z.shear[k] - z.shear[k - 1])
+                    + inverse_h * (r.normal[k] - r.normal[below])
+                    + 0.5 * inverse_r * (r.hoop[k] + r.hoop[below]);
+                let gain = 0.5 * metric.dt / block.state[RHO][k];
+                half_z[k] += gain * force_z;
+                half_r[k] += gain * force_r;
+            }
+        }
+    }
+
+    fn add_fluxes(
+        &self,
+        block: &TermBlock<'_>,
+        [z_faces, r_faces]: [&mut FaceRows; 2],
+        work: &mut Vec<f64>,
+    ) -> u64 {
+        let mut stresses = self.stresses(block, work);
+        let TermBlock { cells: n, metric, .. } = *block;
+        if block.wall.is_some() {
+            // What acts on the wall to the solid is in that wall's own fluxes.
+            for k in (0..n).map(|j| metric.origin + j * metric.stride - 1) {
+                (stresses.z.normal[k], stresses.z.shear[k]) = (0.0, 0.0);
+            }
+        }
+        let Stresses { velocity: [v_z, v_r], z, r } = &stresses;
+        let last = metric.origin + (n - 1) * metric.stride + n;
+        let along_z = metric.origin - 1..last;
+        let along_r = metric.origin - metric.stride..last;
+        for (faces, stress, [u, w], step, range) in [
+            (z_faces, z, [*v_z, *v_r], 1, along_z),
+            (r_faces, r, [*v_r, *v_z], metric.stride, along_r),
+        ] {
+            let [_, _, pressure, shear, energy, _] = faces.fluxes_mut();
+            for k in range {
+                let [u, w] = [u, w].map(|v| 0.5 * (v[k] + v[k + step]));
+                pressure[k] -= stress.normal[k];
+                shear[k] -= stress.shear[k];
+                energy[k] -= stress.normal[k] * u + stress.shear[k] * w;
+            }
+        }
+        self.count_bounded(block)
+    }
+
+    /// (τ_rr − τ_φφ)/r. The flux of τ_rr has no weight, as the pressure's: see `update.rs`.
+    fn add_sources(&self, block: &TermBlock<'_>, _: [&FaceRows; 2], work: &[f64], block_rows: &mut [f64]) {
+        let TermBlock { cells: n, metric, inverse_r, .. } = *block;
+        let len = block.state[RHO].len();
+        let hoop = &work[(ROWS - 1) * len..];
+        for j in 0..n {
+            for i in 0..n {
+                let k = metric.origin + j * metric.stride + i;
+                let force = 0.5 * inverse_r[k] * (hoop[k] + hoop[k - metric.stride]);
+                block_rows[MOMENTUM_R * n * n + j * n + i] += metric.dt * force;
+            }
+        }
+    }
+
+    /// The largest (4μ/3 + κ)/ρ that limits the step; of thin gas that does not, the liquid's part in a cell.
+    fn diffusivity(&self, density: &[f64], phi: &[f64]) -> f64 {
+        let gas = match self.thin_gas {
+            ThinGas::Bounded => PhaseViscosity::default(),
+            ThinGas::Resolved => self.gas,
+        };
+        let counted = Self { gas, ..*self };
+        let of = |(density, phi): (&f64, &f64)| longitudinal(counted.at(*phi)) / density;
+        density.iter().zip(phi).map(of).fold(0.0, f64::max)
+    }
+
+    /// Δt (η/ρ)(1/h_z² + 1/h_r²) ≤ 3/8.
+    fn step_limit(&self, [h_z, h_r]: [f64; 2], diffusivity: f64) -> f64 {
+        MOST_DIFFUSION / (diffusivity * (1.0 / (h_z * h_z) + 1.0 / (h_r * h_r)))
+    }
+
+    /// μ(v_r − v_wall)/(h_z/2).
+    fn wall_shear(&self, WallCell { density, phi, slip, dt, inverse_h }: WallCell) -> f64 {
+        let viscosity = self.at(phi);
+        let most = density * most_diffusivity(dt, inverse_h);
+        let share = stress::share(most, longitudinal(viscosity));
+        2.0 * share * viscosity[0] * slip * inverse_h[0]
+    }
+}
+
+impl Viscosity {
+    /// How many cells of a block are more viscous than the step is stable with.
+    fn count_bounded(&self, block: &TermBlock<'_>) -> u64 {
+        let TermBlock { cells: n, metric, .. } = *block;
+        let most = most_diffusivity(metric.dt, metric.inverse_h);
+        let is_bounded = |k: &usize| longitudinal(self.at(block.state[PHI][*k])) > most * block.state[RHO][*k];
+        (0..n)
+            .flat_map(|j| (0..n).map(move |i| metric.origin + j * metric.stride + i))
+            .filter(is_bounded)
+            .count() as u64
+    }
+}
