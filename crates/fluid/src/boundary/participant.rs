@@ -4,11 +4,16 @@ use coupler::{FluidTrace, TraceRow};
 use mesh::{GroupStep, Padded};
 
 use crate::boundary::wall_trace::Trace;
+use crate::physics::FluidStep;
 use crate::reconstruction::at;
+use crate::state::COUNT;
 use crate::state::PrimitiveCell;
 use crate::state::primitive::{PHI, PRESSURE, RHO, V_R, V_Z};
+use crate::step::block_sides;
 use crate::step::rows::{half_step, rates};
+use crate::step::update::Metric;
 use crate::step::{BlockScratch, reconstruct};
+use crate::terms::{TermBlock, WallCell};
 use crate::two_phase::{Cells, FaceStates, Window, face_states};
 use crate::{FluidSolver, Mixture, TRACE_GAS};
 
@@ -44,12 +49,13 @@ impl<const N: usize> FluidSolver<N> {
             let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
             self.with_scratch(|scratch| {
                 reconstruct(&context, slot, scratch);
+                let shear = self.shear_on_wall(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = &*scratch;
                 let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);
                 for j in 0..N {
                     let k = Padded::<N>::index(0, j as isize);
                     if let Some(state) = at_interface(k) {
-                        put_rows(Trace::steady(state), self.mixture(), first + j, &mut put);
+                        put_rows((Trace::steady(state), shear[j]), self.mixture(), first + j, &mut put);
                         continue;
                     }
                     let [w, d_z, d_r] = [cells, s_z, s_r].map(|rows| at(&rows.split(), k));
@@ -89,11 +95,56 @@ impl<const N: usize> FluidSolver<N> {
                     let trace = whole.admissible(w, reach, self.mixture());
                     let is_bounded = (phi - state[PHI]).abs() > TRACE_GAS;
                     scaled += u64::from(is_bounded || trace != whole);
-                    put_rows(trace, self.mixture(), first + j, &mut put);
+                    put_rows((trace, shear[j]), self.mixture(), first + j, &mut put);
                 }
             });
         }
         self.model().tally.scaled_traces.add(scaled);
+    }
+
+    /// The shear stresses σ_zr on the wall's faces of a block in the middle of a step, Pa: what the fluid sticks to moves as it did in
+    /// the last one. 0 without friction.
+    ///
+    /// - `scratch`: the block at the beginning of the step, reconstructed.
+    fn shear_on_wall(&self, ctx: &FluidStep<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) -> [f64; N] {
+        let terms = &self.model().terms;
+        let (true, Some(wall)) = (terms.is_viscous, self.interface().states_of::<N>(slot)) else {
+            return [0.0; N];
+        };
+        let BlockScratch { cells, s_z, s_r, half, keep, inverse_r, works, .. } = scratch;
+        let inverse_h = ctx.mesh.widths(ctx.mesh.tree().leaves()[slot].level).map(|h| 1.0 / h);
+        let metric = Metric {
+            stride: Padded::<N>::STRIDE,
+            origin: Padded::<N>::index(0, 0),
+            dt: ctx.dt,
+            inverse_h,
+            face_weight: &[],
+            inverse_weight: &[],
+        };
+        // The last step's; no cell is mixed here, as all are seen at the beginning of the step.
+        keep.fill(1.0);
+        let rows = cells.split();
+        let sides = block_sides(ctx, slot);
+        let block = TermBlock {
+            cells: N,
+            metric: &metric,
+            inverse_r,
+            state: rows,
+            before: rows,
+            keep,
+            sides,
+            wall: Some(wall),
+        };
+        let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
+        v_r.fill(0.0);
+        terms.predict(&block, [v_z, v_r], works);
+        std::array::from_fn(|j| {
+            let k = Padded::<N>::index(0, j as isize);
+            let [w, d_z, d_r] = [&*cells, s_z, s_r].map(|rows| at(&rows.split(), k));
+            let (state, _) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, self.mixture());
+            let slip = state[V_R] + half.component(V_R)[k] - wall[j].tangential_velocity;
+            terms.wall_shear(WallCell { density: w[RHO], phi: w[PHI], slip, dt: ctx.dt, inverse_h })
+        })
     }
 
     /// The fluid's own states on the wall in the middle of a step of length `dt`, face by face.
@@ -157,7 +208,12 @@ impl<const N: usize> FluidSolver<N> {
 }
 
 /// Writes the rows of a trace.
-fn put_rows(trace: Trace, mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
+fn put_rows(
+    (trace, shear): (Trace, f64),
+    mixture: &Mixture,
+    face: usize,
+    put: &mut impl FnMut(TraceRow, usize, f64),
+) {
     let Trace { state: [rho, v_z, v_r, p, phi], rate, slope } = trace;
     let at = mixture.at(phi);
     let impedance = (rho * mixture.bulk_modulus(p, phi)).max(0.0).sqrt();
@@ -166,7 +222,7 @@ fn put_rows(trace: Trace, mixture: &Mixture, face: usize, put: &mut impl FnMut(T
         (TraceRow::NormalVelocity, v_z),
         (TraceRow::TangentialVelocity, v_r),
         (TraceRow::Pressure, p),
-        (TraceRow::Shear, 0.0),
+        (TraceRow::Shear, shear),
         (TraceRow::DensityRate, rate[RHO]),
         (TraceRow::NormalVelocityRate, rate[V_Z]),
         (TraceRow::TangentialVelocityRate, rate[V_R]),

@@ -85,9 +85,7 @@ fn along_mirror<const N: usize>(side: Side) -> impl Iterator<Item = [usize; 2]> 
 
 /// The sides of a block that are walls at rest or the axis.
 fn mirrors<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> impl Iterator<Item = Side> {
-    let is_mirror = move |side: &Side| {
-        ctx.mesh.touches(slot, *side)
-            && ctx.model.boundaries.kind(*side).is_mirror()
-    };
+    let is_mirror =
+        move |side: &Side| ctx.mesh.touches(slot, *side) && ctx.model.boundaries.kind(*side).is_mirror();
     Side::ALL.into_iter().filter(is_mirror)
 }

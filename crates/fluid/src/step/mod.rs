@@ -15,7 +15,7 @@ use mesh::{BlockId, StageTimer};
 
 pub use scratch::BlockScratch;
 pub(crate) use scratch::split_block;
-pub(crate) use stages::reconstruct;
+pub(crate) use stages::{block_sides, reconstruct};
 
 use crate::physics::FluidStep;
 use crate::step::report::BlockReport;

@@ -7,6 +7,7 @@ use super::scratch::{BlockScratch, split_block};
 use crate::Boundary;
 use crate::components::carried::CarriedCells;
 use crate::physics::FluidStep;
+use crate::reconstruction::Rows;
 use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
 use crate::reconstruction::predictor::{Predicted, Predictor, predict};
 use crate::state::COUNT;
@@ -17,7 +18,6 @@ use crate::step::report::{BlockReport, boundary_inflow, count_kept, far_field_ga
 use crate::step::rows;
 use crate::step::update::{Extremes, Metric, NewCells, update};
 use crate::terms::TermBlock;
-use crate::reconstruction::Rows;
 use crate::two_phase::{Before, BlockGas, may_have_gas};
 
 /// Assembles a block with its ghosts: primitive variables in `cells`.
@@ -155,7 +155,8 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             }
         }
         if self.ctx.model.terms.is_viscous {
-            let BlockScratch { cells, half, keep, inverse_r, face_weight, inverse_weight, works, .. } = scratch;
+            let BlockScratch { cells, half, keep, inverse_r, face_weight, inverse_weight, works, .. } =
+                scratch;
             let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
             let block = self.term_block(&metric, inverse_r, [rows; 2], keep);
             let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
@@ -183,7 +184,8 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     pub(super) fn add_terms(&mut self, scratch: &mut BlockScratch<N>) {
         let ctx = self.ctx;
         if !ctx.model.terms.is_empty() {
-            let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } = scratch;
+            let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } =
+                scratch;
             let BlockScratch { cells, keep, inverse_r, works, .. } = scratch;
             let metric = &self.metric(face_weight, inverse_weight);
             let block = self.term_block(metric, inverse_r, [half.split(), cells.split()], keep);

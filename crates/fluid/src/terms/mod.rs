@@ -9,10 +9,10 @@ pub(crate) mod viscosity;
 
 use mesh::FaceState;
 
-use crate::{Boundary, FluidSetup};
 use crate::reconstruction::Rows;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
+use crate::{Boundary, FluidSetup};
 
 /// A block in a step, as terms see it.
 pub(crate) struct TermBlock<'a> {

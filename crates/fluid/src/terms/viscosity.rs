@@ -3,12 +3,9 @@
 mod stress;
 mod velocities;
 
-use mesh::Padded;
-
 use super::{Term, TermBlock, WallCell};
-use crate::reconstruction::Rows;
-use crate::state::conserved::{ENERGY, MOMENTUM_R};
-use crate::state::primitive::{PHI, RHO, V_R, V_Z};
+use crate::state::conserved::MOMENTUM_R;
+use crate::state::primitive::{PHI, RHO};
 use crate::step::face_rows::FaceRows;
 use stress::{FaceStress, Motion, stresses};
 use velocities::Velocities;
@@ -54,8 +51,11 @@ pub struct PhaseViscosity {
 /// - tested by: `tests/verification/viscosity.rs`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscosity {
+    /// Of the liquid.
     pub liquid: PhaseViscosity,
+    /// Of the gas.
     pub gas: PhaseViscosity,
+    /// What gas does that is too thin for a step.
     pub thin_gas: ThinGas,
 }
 
@@ -156,7 +156,7 @@ impl Term for Viscosity {
         [z_faces, r_faces]: [&mut FaceRows; 2],
         work: &mut Vec<f64>,
     ) -> u64 {
-        let mut stresses = self.stresses(block, work);
+        let stresses = self.stresses(block, work);
         let TermBlock { cells: n, metric, .. } = *block;
         if block.wall.is_some() {
             // What acts on the wall to the solid is in that wall's own fluxes.
@@ -168,10 +168,9 @@ impl Term for Viscosity {
         let last = metric.origin + (n - 1) * metric.stride + n;
         let along_z = metric.origin - 1..last;
         let along_r = metric.origin - metric.stride..last;
-        for (faces, stress, [u, w], step, range) in [
-            (z_faces, z, [*v_z, *v_r], 1, along_z),
-            (r_faces, r, [*v_r, *v_z], metric.stride, along_r),
-        ] {
+        for (faces, stress, [u, w], step, range) in
+            [(z_faces, z, [*v_z, *v_r], 1, along_z), (r_faces, r, [*v_r, *v_z], metric.stride, along_r)]
+        {
             let [_, _, pressure, shear, energy, _] = faces.fluxes_mut();
             for k in range {
                 let [u, w] = [u, w].map(|v| 0.5 * (v[k] + v[k + step]));
@@ -227,7 +226,8 @@ impl Viscosity {
     fn count_bounded(&self, block: &TermBlock<'_>) -> u64 {
         let TermBlock { cells: n, metric, .. } = *block;
         let most = most_diffusivity(metric.dt, metric.inverse_h);
-        let is_bounded = |k: &usize| longitudinal(self.at(block.state[PHI][*k])) > most * block.state[RHO][*k];
+        let is_bounded =
+            |k: &usize| longitudinal(self.at(block.state[PHI][*k])) > most * block.state[RHO][*k];
         (0..n)
             .flat_map(|j| (0..n).map(move |i| metric.origin + j * metric.stride + i))
             .filter(is_bounded)

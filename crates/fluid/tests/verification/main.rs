@@ -21,3 +21,4 @@ mod rescue;
 mod shock_tubes;
 mod symmetry;
 mod tracer;
+mod viscosity;

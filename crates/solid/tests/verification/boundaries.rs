@@ -103,7 +103,12 @@ fn pre_stress_stays_at_rest_bitwise() {
             let mut solid = SolidSolver::<8>::new(setup, |_| state).unwrap();
             let start = solid.state().clone();
             for _ in 0..if boundaries[0] == Absorbing { 3000 } else { 20 } {
-                solid.interface_mut().set_all(|_| FaceState { pressure: p, velocity: 0.0, power: 0.0, ..FaceState::default() });
+                solid.interface_mut().set_all(|_| FaceState {
+                    pressure: p,
+                    velocity: 0.0,
+                    power: 0.0,
+                    ..FaceState::default()
+                });
                 solid.step_at(CFL).unwrap();
             }
             assert!(*solid.state() == start, "{geometry:?} {state:?} {boundaries:?} {limiter:?}");

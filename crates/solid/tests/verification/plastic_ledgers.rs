@@ -44,7 +44,12 @@ fn press(solid: &mut SolidSolver<8>, amplitude: f64, steps: usize, mut after: im
                     if solid.group_of_face(face) == step.group {
                         let load = amplitude * factor * (-(edges[face] / 0.15).powi(2)).exp();
                         let velocity = trace.velocity + (trace.pressure - load) / trace.impedance;
-                        let state = FaceState { pressure: load, velocity, power: load * velocity, ..FaceState::default() };
+                        let state = FaceState {
+                            pressure: load,
+                            velocity,
+                            power: load * velocity,
+                            ..FaceState::default()
+                        };
                         solid.interface_mut().set(face, state);
                     }
                 }

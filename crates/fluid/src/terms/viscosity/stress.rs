@@ -57,8 +57,7 @@ pub(super) fn stresses(m: &Motion<'_>, axis: usize, range: Range<usize>, out: &m
     for k in range {
         let n = k + step;
         let slope = |v: &[f64]| across * (v[n] - v[k]);
-        let slide =
-            |v: &[f64]| sideways * ((v[k + along] - v[k - along]) + (v[n + along] - v[n - along]));
+        let slide = |v: &[f64]| sideways * ((v[k + along] - v[k - along]) + (v[n + along] - v[n - along]));
         let stretch = slope(u);
         let around = 0.5 * (v_r[k] * m.inverse_r[k] + v_r[n] * m.inverse_r[n]);
         let divergence = stretch + slide(w) + around;

@@ -59,7 +59,13 @@ impl Velocities<'_> {
                 for depth in 0..ghosts {
                     let inner = row[at(depth, along)];
                     row[at(-1 - depth, along)] = match kind {
-                        Boundary::Axis | Boundary::Symmetry => if is_normal { -inner } else { inner },
+                        Boundary::Axis | Boundary::Symmetry => {
+                            if is_normal {
+                                -inner
+                            } else {
+                                inner
+                            }
+                        }
                         Boundary::Wall => -inner,
                         Boundary::Interface => wall - inner,
                         Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow => row[at(0, along)],
