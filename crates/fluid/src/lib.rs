@@ -46,4 +46,6 @@ pub use step::clips::Clips;
 pub use terms::gravity::Gravity;
 pub use terms::viscosity::{PhaseViscosity, ThinGas, Viscosity};
 pub use thermodynamics::eos::StiffenedGas;
+pub use thermodynamics::library::NamedFluid;
 pub use thermodynamics::mixture::Mixture;
+pub use thermodynamics::noble_abel::{Heat, NobleAbelStiffenedGas};

@@ -71,7 +71,7 @@ impl Surface {
         common.update(self.begin, &self.edges, &now.edges, axisymmetric);
         let interface = solver.interface_mut();
         let of = |k: usize| {
-            let FaceState { pressure, velocity, power, ..FaceState::default() } = self.states[common.sub_faces()[k].first];
+            let FaceState { pressure, velocity, power, .. } = self.states[common.sub_faces()[k].first];
             [pressure, velocity, power]
         };
         common.means_of(true, of, |face, row| interface.set(face, row.into()));
