@@ -65,6 +65,18 @@ pub(super) fn media(scheme: &Given<Scheme>, has_fluid: bool, has_solid: bool, fa
     }
 }
 
+/// The paper's schemes exchange pressures and velocities of cells: they know of no friction.
+pub(super) fn friction(scheme: &Given<Scheme>, is_viscous: bool, faults: &mut Faults) {
+    if is_viscous && scheme.value.exchanges_cells() {
+        let message = format!(
+            "scheme = \"{}\" passes no shear stress, but the fluid has viscosity",
+            scheme.value.name()
+        );
+        let help = "take scheme = \"riemann\", or remove `viscosity` from [fluid.terms]";
+        faults.of(scheme, message, help);
+    }
+}
+
 /// A run that ends when the surface is still needs a last load, which only a given one has; what a bubble does ends with its fluid.
 pub(super) fn settles(scheme: Option<&Given<Scheme>>, faults: &mut Faults) {
     if let Some(scheme) = scheme.filter(|given| given.value != Scheme::Load) {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use coupler::Scheme;
-use fluid::{PhaseState, PulseShape, Shape};
+use fluid::{PhaseState, PulseShape, Shape, ThinGas, Viscosity};
 use mesh::{LevelBound, Side, Zone};
 use sha2::{Digest, Sha256};
 use solid::plasticity::Hardening;
@@ -119,10 +119,13 @@ fn write_terms(text: &mut Lines, terms: &TermsCase) {
     if let Some(sigma) = terms.surface_tension {
         text.number("surface_tension", sigma);
     }
-    if let Some([liquid, gas]) = terms.viscosity {
+    if let Some(Viscosity { liquid, gas, thin_gas }) = terms.viscosity {
         text.head("[fluid.terms.viscosity]");
-        text.number("liquid", liquid);
-        text.number("gas", gas);
+        text.number("liquid", liquid.shear);
+        text.number("gas", gas.shear);
+        text.number("bulk_liquid", liquid.bulk);
+        text.number("bulk_gas", gas.bulk);
+        text.name("thin_gas", &ThinGas::NAMES, thin_gas);
     }
 }
 

@@ -57,6 +57,11 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     let mut notes = Vec::new();
     if let Some(scheme) = &scheme {
         cross::media(scheme, has_fluid, has_solid, &mut faults);
+        cross::friction(
+            scheme,
+            fluid.as_ref().is_some_and(|(fluid, _)| fluid.terms.viscosity.is_some()),
+            &mut faults,
+        );
     }
     let ignores_solid = context.scheme == Some(Scheme::Rigid) && has_solid;
     let solid = if ignores_solid {

@@ -1,26 +1,28 @@
 //! `[fluid.terms]`: what acts on the fluid besides the waves of two-phase flow.
 
+use fluid::{PhaseViscosity, ThinGas, Viscosity};
+
 use super::reader::{Faults, Given, Table};
 
 /// The terms of a case; each is off where it is absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TermsCase {
-    /// Dynamic viscosities of liquid and gas, Pa s.
-    pub viscosity: Option<[f64; 2]>,
+    /// Viscosity of both phases.
+    pub viscosity: Option<Viscosity>,
     /// Surface tension σ between liquid and gas, N/m.
     pub surface_tension: Option<f64>,
 }
 
 pub(super) fn terms(table: &mut Table<'_>, faults: &mut Faults) -> TermsCase {
     let Some(mut table) = table.table("terms", faults) else { return TermsCase::default() };
-    let viscosity = table.table("viscosity", faults).and_then(|table| of_phases(table, faults));
+    let viscosity = table.table("viscosity", faults).and_then(|table| viscosity(table, faults));
     let surface_tension = not_negative(&mut table, "surface_tension", faults);
     table.finish(faults);
     TermsCase { viscosity, surface_tension: surface_tension.filter(|sigma| *sigma > 0.0) }
 }
 
-/// A coefficient of each phase, `{ liquid = ..., gas = ... }`.
-fn of_phases(mut table: Table<'_>, faults: &mut Faults) -> Option<[f64; 2]> {
+/// `{ liquid = ..., gas = ... }`, and what there is besides; none where neither has any.
+fn viscosity(mut table: Table<'_>, faults: &mut Faults) -> Option<Viscosity> {
     let both = ["liquid", "gas"].map(|phase| {
         if !table.has(phase) {
             let help = format!("give `{phase} = ...` in {}", table.unit(phase));
@@ -28,9 +30,18 @@ fn of_phases(mut table: Table<'_>, faults: &mut Faults) -> Option<[f64; 2]> {
         }
         not_negative(&mut table, phase, faults)
     });
+    let [bulk_liquid, bulk_gas] =
+        ["bulk_liquid", "bulk_gas"].map(|key| not_negative(&mut table, key, faults).unwrap_or(0.0));
+    let thin_gas = table.name("thin_gas", &ThinGas::NAMES, faults);
     table.finish(faults);
     let [liquid, gas] = both;
-    Some([liquid?, gas?])
+    let viscosity = Viscosity {
+        liquid: PhaseViscosity { shear: liquid?, bulk: bulk_liquid },
+        gas: PhaseViscosity { shear: gas?, bulk: bulk_gas },
+        thin_gas,
+    };
+    let is_none = |phase| phase == PhaseViscosity::default();
+    (!(is_none(viscosity.liquid) && is_none(viscosity.gas))).then_some(viscosity)
 }
 
 fn not_negative(table: &mut Table<'_>, key: &'static str, faults: &mut Faults) -> Option<f64> {

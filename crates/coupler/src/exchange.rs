@@ -17,7 +17,7 @@ pub enum TraceRow {
     NormalVelocity,
     /// Velocity along the interface, m/s.
     TangentialVelocity,
-    /// Shear traction, Pa.
+    /// Shear stress σ_zr on the interface, Pa: of a solid its own, of a viscous fluid that with which it drags the wall, at mid-step.
     Shear,
     /// Density, kg/m³.
     Density,
@@ -80,11 +80,11 @@ pub enum RegisterRow {
     Pressure,
     /// Mean of v*, m/s.
     NormalVelocity,
-    /// Mean of p*v*, W/m².
+    /// Mean of p*v*, W/m²; with friction less σ_zr* v_r*.
     Power,
     /// Mean of the tangential velocity of the other side, m/s.
     TangentialVelocity,
-    /// Mean of the shear traction, Pa.
+    /// Mean of the shear stress σ_zr*, Pa: what the fluid's trace has shown; 0 without friction.
     Shear,
 }
 
@@ -102,21 +102,30 @@ impl RegisterRow {
     }
 }
 
-/// The rows that an inviscid fluid takes from a register frame.
+/// What a register frame says of the wall.
 #[derive(Clone, Copy, Debug)]
 pub struct WallRegister<'a> {
     /// Mean of p* on each face, Pa.
     pub pressure: &'a [f64],
     /// Mean of v* along +z, m/s.
     pub velocity: &'a [f64],
-    /// Mean of p*v*, W/m².
+    /// Mean of p*v* − σ_zr* v_r*, W/m².
     pub power: &'a [f64],
+    /// Mean of the shear stress σ_zr*, Pa; 0 without friction.
+    pub shear: &'a [f64],
+    /// Mean velocity along the wall of the side that sends it, m/s.
+    pub tangential_velocity: &'a [f64],
 }
 
 impl<'a> WallRegister<'a> {
-    /// Its rows: p*, v*, p*v*.
+    /// Its rows of the normal direction: p*, v*, the power.
     pub fn rows(&self) -> [&'a [f64]; 3] {
         [self.pressure, self.velocity, self.power]
+    }
+
+    /// Its rows of friction: σ_zr*, v_r.
+    pub fn friction(&self) -> [&'a [f64]; 2] {
+        [self.shear, self.tangential_velocity]
     }
 
     /// From the payload of a register frame.
@@ -125,6 +134,8 @@ impl<'a> WallRegister<'a> {
             pressure: RegisterRow::Pressure.of(payload, count),
             velocity: RegisterRow::NormalVelocity.of(payload, count),
             power: RegisterRow::Power.of(payload, count),
+            shear: RegisterRow::Shear.of(payload, count),
+            tangential_velocity: RegisterRow::TangentialVelocity.of(payload, count),
         }
     }
 }

@@ -27,6 +27,24 @@ struct Means {
     velocity: f64,
     power: f64,
     tangential: f64,
+    shear: f64,
+}
+
+/// What friction does on a sub-face.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Friction {
+    /// σ_zr*, Pa.
+    shear: f64,
+    /// v_r of the wall, m/s.
+    velocity: f64,
+}
+
+impl Friction {
+    /// What the fluid does to the solid per area, W/m²: p*v* − σ_zr* v_r*; p*v* to the last bit without friction.
+    fn power(&self, star: &InterfaceStar) -> f64 {
+        let normal = star.pressure * star.velocity;
+        if self.shear == 0.0 { normal } else { normal - self.shear * self.velocity }
+    }
 }
 
 /// Both sides' faces, the other side's trace, and what has come of them so far.
@@ -43,6 +61,7 @@ pub struct Meeting {
     begin: f64,
     low: f64,
     stars: Vec<InterfaceStar>,
+    frictions: Vec<Friction>,
     means: Vec<Means>,
     floored: u64,
 }
@@ -74,6 +93,7 @@ impl Meeting {
         let sub_faces = self.refinement.sub_faces().len();
         let nothing = InterfaceStar { pressure: 0.0, velocity: 0.0, iterations: 0, floored: false };
         self.stars.resize(sub_faces, nothing);
+        self.frictions.resize(sub_faces, Friction::default());
         self.means.resize(sub_faces, Means::default());
     }
 
@@ -98,7 +118,8 @@ impl Meeting {
         let (half, age) = (0.5 * step.dt, step.begin - self.begin + 0.5 * step.dt);
         let weight =
             if step.begin == self.begin { 1.0 } else { step.dt / (step.begin + step.dt - self.begin) };
-        let Self { refinement, trace, others, own: own_trace, edges, stars, means, low, .. } = self;
+        let Self { refinement, trace, others, own: own_trace, edges, stars, frictions, means, low, .. } =
+            self;
         for (number, sub) in refinement.sub_faces().iter().enumerate().filter(|(_, sub)| is_due(sub.second)) {
             let SubFace { first, second, offset_in_first, offset_in_second, .. } = *sub;
             // Traces are linear along a face: a face that meets several of the other side shows each its own part.
@@ -111,10 +132,11 @@ impl Meeting {
                 after: half,
                 offset: offset_in_second,
             };
-            let (fluid, solid) = match own {
-                Participant::Fluid => (ours.fluid(), theirs.solid()),
-                Participant::Solid => (theirs.fluid(), ours.solid()),
+            let (fluid_seen, solid_seen) = match own {
+                Participant::Fluid => (&ours, &theirs),
+                Participant::Solid => (&theirs, &ours),
             };
+            let (fluid, solid) = (fluid_seen.fluid(), solid_seen.solid());
             let no_state = |side: Participant, values: String| {
                 let radius = if side == own { ours.radius(*low) } else { theirs.radius(*low) };
                 Err(CouplerError::NoState { side, radius, time: step.begin + half, values })
@@ -136,6 +158,10 @@ impl Meeting {
             }
             self.floored += u64::from(star.floored);
             stars[number] = star;
+            // The fluid says how it drags the wall, the solid how that moves.
+            let shear = fluid_seen.value(TraceRow::Shear);
+            let friction = Friction { shear, velocity: solid_seen.tangential_velocity() };
+            frictions[number] = friction;
             // By differences, so that the mean of what stays the same is the same to the last bit.
             let mean = &mut means[number];
             let add = |mean: &mut f64, value: f64| {
@@ -143,7 +169,8 @@ impl Meeting {
             };
             add(&mut mean.pressure, star.pressure);
             add(&mut mean.velocity, star.velocity);
-            add(&mut mean.power, star.pressure * star.velocity);
+            add(&mut mean.power, friction.power(&star));
+            add(&mut mean.shear, friction.shear);
             let tangential = [TraceRow::TangentialVelocity, TraceRow::TangentialVelocityRate]
                 .map(|row| row.of(own_trace, edges.len())[second]);
             add(&mut mean.tangential, tangential[0] + half * tangential[1]);
@@ -151,11 +178,11 @@ impl Meeting {
         Ok(())
     }
 
-    /// The present step's means over the own faces: `put(face, [p*, v*, p*v*])`.
-    pub fn own_means(&self, put: impl FnMut(usize, [f64; 3])) {
+    /// The present step's means over the own faces: `put(face, [p*, v*, power, σ_zr*, v_r*])`, the last two 0 without friction.
+    pub fn own_means(&self, put: impl FnMut(usize, [f64; 5])) {
         let state = |k: usize| {
-            let InterfaceStar { pressure, velocity, .. } = self.stars[k];
-            [pressure, velocity, pressure * velocity]
+            let (star, friction) = (&self.stars[k], &self.frictions[k]);
+            [star.pressure, star.velocity, friction.power(star), friction.shear, friction.velocity]
         };
         self.refinement.means_of(true, state, put);
     }
@@ -168,10 +195,11 @@ impl Meeting {
             RegisterRow::NormalVelocity,
             RegisterRow::Power,
             RegisterRow::TangentialVelocity,
+            RegisterRow::Shear,
         ];
         let state = |k: usize| {
-            let Means { pressure, velocity, power, tangential } = self.means[k];
-            [pressure, velocity, power, tangential]
+            let Means { pressure, velocity, power, tangential, shear } = self.means[k];
+            [pressure, velocity, power, tangential, shear]
         };
         self.refinement.means_of(false, state, |face, means| {
             for (row, mean) in rows.into_iter().zip(means) {
@@ -193,6 +221,7 @@ impl Meeting {
             begin: _,
             low: _,
             stars: _,
+            frictions: _,
             means: _,
             floored,
         } = self;
@@ -241,6 +270,10 @@ impl Seen<'_> {
 
     fn velocity(&self) -> f64 {
         self.moved(TraceRow::NormalVelocity, TraceRow::NormalVelocityRate, TraceRow::NormalVelocitySlope)
+    }
+
+    fn tangential_velocity(&self) -> f64 {
+        self.value(TraceRow::TangentialVelocity) + self.after * self.value(TraceRow::TangentialVelocityRate)
     }
 
     fn fluid(&self) -> FluidTrace {

@@ -3,7 +3,8 @@
 use super::declared::{Key, Preset, Section, Values};
 
 const OF_FLUID: Values = Values::Names(&[
-    ("wall", "rigid and frictionless, also a plane of symmetry"),
+    ("wall", "rigid; a fluid with viscosity sticks to it, others slip along it"),
+    ("symmetry", "a plane of symmetry, which all fluids slip along"),
     (
         "non-reflecting",
         "the incoming characteristic is held at the initial state: right for waves, and it holds the flow to a bubble up",

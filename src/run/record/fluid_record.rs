@@ -37,6 +37,8 @@ pub struct FluidRecord {
     probes: Vec<ProbeSeries>,
     faces: WallFaces,
     wall_pressures: Vec<f64>,
+    /// Of a viscous fluid; else none.
+    wall_shears: Vec<f64>,
     cells: CellCount,
     collapse: CollapseFinder,
     peaks: Peaks,
@@ -118,6 +120,7 @@ impl FluidRecord {
             probes,
             faces,
             wall_pressures,
+            wall_shears: Vec::new(),
             cells: CellCount::default(),
             collapse: CollapseFinder::default(),
             peaks: Peaks::default(),
@@ -158,6 +161,7 @@ impl FluidRecord {
             self.wall_pressures.clear();
             self.wall_pressures.extend(solver.interface().states().iter().map(|wall| wall.pressure));
         }
+        solver.wall_face_shears(&mut self.wall_shears);
         self.write(solver, plan.dt)?;
         if plan.snapshot {
             self.snapshot(solver)?;
@@ -231,7 +235,8 @@ impl FluidRecord {
         // Between the ends of whole steps levels are at different times, and nothing adds up.
         let due = solver.clock().is_over() && self.ticker.is_due(time);
         if let Some(interface) = &mut self.interface {
-            interface.after_step(&self.faces, &self.wall_pressures, (time, dt), history)?;
+            let stresses = [&self.wall_pressures[..], &self.wall_shears];
+            interface.after_step(&self.faces, stresses, (time, dt), history)?;
             if due {
                 let velocity =
                     |face: usize| solver.interface().states().get(face).map_or(0.0, |wall| wall.velocity);

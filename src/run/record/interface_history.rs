@@ -10,6 +10,7 @@ use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
 use crate::run::record::sensors::{SensorState, Sensors};
 use crate::run::record::wall_axis::WallAxis;
+use crate::run::record::wall_shear::WallShear;
 use crate::run::side::wall_faces::WallFaces;
 
 /// Pressure, velocity and impulse on the interface, as means over the cells of a fixed grid.
@@ -27,6 +28,8 @@ pub struct InterfaceHistory {
     impulse: Vec<f64>,
     sensors: Sensors,
     axis: WallAxis,
+    /// Under a viscous fluid.
+    shear: Option<WallShear>,
 }
 
 /// What of it changes in time, and what hangs on the faces that there were at t = 0.
@@ -38,13 +41,24 @@ pub struct InterfaceState {
     impulse: Vec<f64>,
     sensors: Vec<SensorState>,
     axis: WallAxis,
+    shear: Option<WallShear>,
 }
 
 impl InterfaceHistory {
     /// What has to be kept of it.
     pub fn saved(&self) -> InterfaceState {
-        let Self { series: _, map: _, axisymmetric: _, grid, initial, pressure, impulse, sensors, axis } =
-            self;
+        let Self {
+            series: _,
+            map: _,
+            axisymmetric: _,
+            grid,
+            initial,
+            pressure,
+            impulse,
+            sensors,
+            axis,
+            shear,
+        } = self;
         InterfaceState {
             grid: grid.clone(),
             initial: initial.clone(),
@@ -52,6 +66,7 @@ impl InterfaceHistory {
             impulse: impulse.clone(),
             sensors: sensors.saved(),
             axis: axis.clone(),
+            shear: shear.clone(),
         }
     }
 
@@ -62,7 +77,7 @@ impl InterfaceHistory {
         faces: &WallFaces,
         history: &mut HistoryFile,
     ) -> Result<(), Misfit> {
-        let InterfaceState { grid, initial, pressure, impulse, sensors, axis } = saved;
+        let InterfaceState { grid, initial, pressure, impulse, sensors, axis, shear } = saved;
         if [grid.len(), initial.len(), pressure.len(), impulse.len()] != [self.grid.len(); 4] {
             return Err(Misfit(format!("the interface's history has {} cells", grid.len())));
         }
@@ -70,7 +85,7 @@ impl InterfaceHistory {
             return Err(Misfit("the sensors on the wall are others".to_owned()));
         }
         (self.grid, self.initial, self.pressure, self.impulse) = (grid, initial, pressure, impulse);
-        self.axis = axis;
+        (self.axis, self.shear) = (axis, shear);
         put_centres(faces.begin(), &self.grid, history);
         self.follow(faces);
         Ok(())
@@ -91,15 +106,18 @@ impl InterfaceHistory {
             .collect();
         put_centres(begin, &grid, history);
         let wide = |name, unit, description| Column { name, unit, description, width: cells };
-        let series = history.add_series(
-            "/interface",
-            &[
-                column("time", "s", "end of the step"),
-                wide("pressure", "Pa", "pressure of the star state, mean over the step"),
-                wide("normal_velocity", "m/s", "velocity of the star state along +z, mean over the step"),
-                wide("impulse", "Pa s", "time integral of the pressure minus that at t = 0"),
-            ],
-        )?;
+        let is_viscous = case.fluid.as_ref().is_some_and(|fluid| fluid.terms.viscosity.is_some());
+        let mut columns = vec![
+            column("time", "s", "end of the step"),
+            wide("pressure", "Pa", "pressure of the star state, mean over the step"),
+            wide("normal_velocity", "m/s", "velocity of the star state along +z, mean over the step"),
+            wide("impulse", "Pa s", "time integral of the pressure minus that at t = 0"),
+        ];
+        if is_viscous {
+            let about = "shear stress with which the fluid drags the wall along +r, mean over the step";
+            columns.push(wide("shear", "Pa", about));
+        }
+        let series = history.add_series("/interface", &columns)?;
         let zero = vec![0.0; cells];
         let mut interface = Self {
             series,
@@ -111,6 +129,7 @@ impl InterfaceHistory {
             impulse: zero,
             sensors: Sensors::create(case, faces, pressures, history)?,
             axis: WallAxis::new(case.mean_time(), pressures),
+            shear: is_viscous.then(|| WallShear::new(cells)),
         };
         interface.follow(faces);
         interface.add(pressures, 0.0);
@@ -123,15 +142,18 @@ impl InterfaceHistory {
         self.map.update(faces.begin(), faces.edges(), &self.grid, self.axisymmetric);
     }
 
-    /// Takes notice of a step with these mean pressures on the faces that it follows; sensors get their rows.
+    /// Takes notice of a step with these mean pressures and shear stresses on the faces that it follows; sensors get their rows.
     pub fn after_step(
         &mut self,
         faces: &WallFaces,
-        pressures: &[f64],
+        [pressures, stresses]: [&[f64]; 2],
         (time, dt): (f64, f64),
         history: &mut HistoryFile,
     ) -> Result<(), OutputError> {
         self.add(pressures, dt);
+        if let Some(shear) = self.shear.as_mut().filter(|_| !stresses.is_empty()) {
+            shear.after_step(faces, &self.map, stresses, time);
+        }
         self.axis.after_step(pressures, (time, dt));
         self.sensors.after_step(faces, pressures, (time, dt), history)
     }
@@ -140,6 +162,7 @@ impl InterfaceHistory {
     pub fn summary(&self) -> Map<String, Value> {
         let mut part = self.axis.summary();
         part.extend(self.sensors.summary());
+        part.extend(self.shear.iter().flat_map(WallShear::summary));
         part
     }
 
@@ -164,11 +187,12 @@ impl InterfaceHistory {
         history: &mut HistoryFile,
     ) -> Result<(), OutputError> {
         let cells = self.grid.len();
-        let mut row = Vec::with_capacity(1 + 3 * cells);
+        let mut row = Vec::with_capacity(1 + 4 * cells);
         row.push(time);
         row.extend_from_slice(&self.pressure);
         self.map.means(true, |k| velocity(self.map.sub_faces()[k].first), |_, mean| row.push(mean));
         row.extend_from_slice(&self.impulse);
+        row.extend(self.shear.iter().flat_map(WallShear::means));
         history.push(self.series, &row)
     }
 }

@@ -327,6 +327,7 @@ impl FluidSide {
                 cells.received.copy_from_slice(register.velocity);
             } else {
                 solver.interface_mut().set_rows(register.rows());
+                solver.interface_mut().set_friction(register.friction());
             }
             Ok::<_, coupler::CouplerError>(*frame.header)
         })??;

@@ -175,6 +175,7 @@ impl SolidSide {
             frame.require_step(solver.time(), StepLength::Is(plan.dt))?;
             let register = frame.register(solver.interface().faces())?;
             solver.interface_mut().set_rows(register.rows());
+            solver.interface_mut().set_friction(register.friction());
             Ok::<_, CouplerError>(())
         })??;
         let adapts = self.adapts(plan.dt);

@@ -145,6 +145,18 @@ impl<const N: usize> FluidSolver<N> {
         }
     }
 
+    /// Mean shear stress σ_zr of its level's present or last step on each face of z_min, in the order of r, Pa: positive where the fluid
+    /// drags the wall along +r. None without viscosity.
+    pub fn wall_face_shears(&self, shears: &mut Vec<f64>) {
+        shears.clear();
+        if !self.model().terms.is_viscous {
+            return;
+        }
+        for slot in self.interface().blocks() {
+            shears.extend_from_slice(&self.reports().pending[*slot].wall_shear);
+        }
+    }
+
     /// Mass, axial momentum, energy and the gas's mass in the domain, added up row by row and block by block.
     pub fn totals(&self) -> Totals {
         let has_phases = self.model().analysis.has_phases;

@@ -43,9 +43,13 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         self.levels.resize(blocks);
         self.reports.finished = adapted.carried(&self.reports.finished);
         let fresh: Vec<usize> = adapted.fresh().collect();
+        let sliding = self.interface.sliding(&self.mesh);
         self.mesh = adapted.mesh;
         self.measure(fresh);
         self.interface.index(&self.mesh);
+        if let Some(sliding) = sliding {
+            self.interface.slide(&self.mesh, &sliding);
+        }
         self.model.mesh_changed(&self.mesh);
         true
     }

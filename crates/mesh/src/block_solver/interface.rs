@@ -15,7 +15,7 @@ pub struct FaceState {
     pub power: f64,
     /// Mean shear stress σ_zr*, Pa; 0 without friction.
     pub shear: f64,
-    /// Mean velocity of the wall along +r, m/s; 0 without friction.
+    /// Mean velocity of the wall along +r, m/s: what a viscous fluid sticks to.
     pub tangential_velocity: f64,
 }
 
@@ -23,6 +23,13 @@ impl From<[f64; 3]> for FaceState {
     /// From p*, v*, p*v*.
     fn from([pressure, velocity, power]: [f64; 3]) -> Self {
         Self { pressure, velocity, power, ..Self::default() }
+    }
+}
+
+impl From<[f64; 5]> for FaceState {
+    /// From p*, v*, the power, σ_zr*, v_r*.
+    fn from([pressure, velocity, power, shear, tangential_velocity]: [f64; 5]) -> Self {
+        Self { pressure, velocity, power, shear, tangential_velocity }
     }
 }
 
@@ -35,6 +42,12 @@ pub struct Interface {
     /// Of each block of the mesh, if it has faces.
     first: Vec<Option<usize>>,
     states: Vec<FaceState>,
+}
+
+/// How fast a wall slides, face by face.
+pub(super) struct Sliding {
+    edges: Vec<f64>,
+    velocities: Vec<f64>,
 }
 
 impl Interface {
@@ -115,6 +128,24 @@ impl Interface {
     pub fn set_friction(&mut self, [shear, tangential_velocity]: [&[f64]; 2]) {
         for (face, state) in self.states.iter_mut().enumerate() {
             (state.shear, state.tangential_velocity) = (shear[face], tangential_velocity[face]);
+        }
+    }
+
+    /// How fast the wall slides on each face, with the faces' outer radii; `None` where it does not.
+    pub(super) fn sliding<const N: usize>(&self, mesh: &Mesh<N>) -> Option<Sliding> {
+        let velocities: Vec<f64> = self.states.iter().map(|state| state.tangential_velocity).collect();
+        let slides = velocities.iter().any(|velocity| *velocity != 0.0);
+        slides.then(|| Sliding { edges: self.edges(mesh), velocities })
+    }
+
+    /// Gives faces how fast the wall slid on those that were where their middles are: it is what the fluid sticks to in the next step.
+    pub(super) fn slide<const N: usize>(&mut self, mesh: &Mesh<N>, before: &Sliding) {
+        let mut low = mesh.domain().r[0];
+        for (edge, state) in self.edges(mesh).into_iter().zip(&mut self.states) {
+            let middle = 0.5 * (low + edge);
+            let face = before.edges.partition_point(|edge| *edge <= middle).min(before.velocities.len() - 1);
+            state.tangential_velocity = before.velocities[face];
+            low = edge;
         }
     }
 

@@ -65,7 +65,7 @@ impl Boundaries {
     }
 
     /// Replaces the star states on the surface under the fluid (z_max): the wall's velocity, the fluid's
-    /// pressure, no shear traction; the tangential velocity follows from the arriving shear wave.
+    /// pressure, the shear stress of a viscous one; the tangential velocity follows from the arriving shear wave.
     ///
     /// - `surface`: the states of the surface's faces in the block, in the order of r.
     pub fn impose_surface<const N: usize>(
@@ -77,7 +77,8 @@ impl Boundaries {
         for (j, state) in surface.iter().enumerate() {
             let k = Padded::<N>::index(N as isize - 1, j as isize);
             let trace = cells.shear_at_surface(k);
-            let face = star_interface(trace, Outward::High, state.velocity, -state.pressure, elasticity.z2);
+            let stresses = [-state.pressure, state.shear];
+            let face = star_interface(trace, Outward::High, state.velocity, stresses, elasticity.z2);
             faces.v_n[k] = face.v_n;
             faces.s_nn[k] = face.sigma_nn;
             faces.s_nt[k] = face.sigma_nt;

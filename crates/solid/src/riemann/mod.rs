@@ -235,19 +235,25 @@ pub fn star_symmetry(inner: FaceState, outward: Outward, z1: f64, z2: f64) -> Fa
 
 /// The state on the interface to the fluid.
 ///
-/// v_n* and σ_nn* = −p* come from the Riemann problem between the two media; the fluid bears no shear, so
-/// σ_nt* = 0, and v_t* follows along the solid's own outgoing shear characteristic. Paper: conditions (22).
+/// v_n* and σ_nn* = −p* come from the Riemann problem between the two media; σ_nt* is what a viscous fluid drags the wall with, else 0,
+/// and v_t* follows along the solid's own outgoing shear characteristic. Paper: conditions (22).
 ///
 /// - `inner`: state of the solid at the interface. `outward`: at which end of the solid it lies.
-/// - `v_n`, `sigma_nn`: the star state, m/s and Pa. `z2`: impedance ρ̄c₂, Pa s/m.
+/// - `v_n`, `sigma_nn`, `sigma_nt`: the star state, m/s and Pa. `z2`: impedance ρ̄c₂, Pa s/m.
 /// - returns: the four quantities the flux needs.
 /// - valid for: positive impedance.
 /// - errors: none.
 /// - tested by: equality with the traction boundary, return of the inner state.
 #[inline(always)]
 #[must_use]
-pub fn star_interface(inner: FaceState, outward: Outward, v_n: f64, sigma_nn: f64, z2: f64) -> FaceState {
-    FaceState { v_n, sigma_nn, v_t: velocity_at(outward, inner.v_t, inner.sigma_nt, 0.0, z2), sigma_nt: 0.0 }
+pub fn star_interface(
+    inner: FaceState,
+    outward: Outward,
+    v_n: f64,
+    [sigma_nn, sigma_nt]: [f64; 2],
+    z2: f64,
+) -> FaceState {
+    FaceState { v_n, sigma_nn, v_t: velocity_at(outward, inner.v_t, inner.sigma_nt, sigma_nt, z2), sigma_nt }
 }
 
 #[cfg(test)]

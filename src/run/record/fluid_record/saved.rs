@@ -92,6 +92,8 @@ impl FluidRecord {
             probes,
             faces: _,
             wall_pressures,
+            // Made anew after each step.
+            wall_shears: _,
             cells,
             collapse,
             peaks,
