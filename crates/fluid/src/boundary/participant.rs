@@ -111,7 +111,7 @@ impl<const N: usize> FluidSolver<N> {
         let (true, Some(wall)) = (terms.is_viscous, self.interface().states_of::<N>(slot)) else {
             return [0.0; N];
         };
-        let BlockScratch { cells, s_z, s_r, half, keep, inverse_r, works, .. } = scratch;
+        let BlockScratch { cells, s_z, s_r, half, inverse_r, works, .. } = scratch;
         let inverse_h = ctx.mesh.widths(ctx.mesh.tree().leaves()[slot].level).map(|h| 1.0 / h);
         let metric = Metric {
             stride: Padded::<N>::STRIDE,
@@ -121,8 +121,6 @@ impl<const N: usize> FluidSolver<N> {
             face_weight: &[],
             inverse_weight: &[],
         };
-        // The last step's; no cell is mixed here, as all are seen at the beginning of the step.
-        keep.fill(1.0);
         let rows = cells.split();
         let sides = block_sides(ctx, slot);
         let block = TermBlock {
@@ -131,7 +129,6 @@ impl<const N: usize> FluidSolver<N> {
             inverse_r,
             state: rows,
             before: rows,
-            keep,
             sides,
             wall: Some(wall),
         };

@@ -111,7 +111,6 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         metric: &'b Metric<'b>,
         inverse_r: &'b [f64],
         [state, before]: [Rows<'b>; 2],
-        keep: &'b [f64],
     ) -> TermBlock<'b> {
         TermBlock {
             cells: N,
@@ -119,7 +118,6 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             inverse_r,
             state,
             before,
-            keep,
             sides: block_sides(self.ctx, self.slot),
             wall: self.ctx.interface.states_of::<N>(self.slot),
         }
@@ -155,10 +153,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             }
         }
         if self.ctx.model.terms.is_viscous {
-            let BlockScratch { cells, half, keep, inverse_r, face_weight, inverse_weight, works, .. } =
-                scratch;
+            let BlockScratch { cells, half, inverse_r, face_weight, inverse_weight, works, .. } = scratch;
             let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
-            let block = self.term_block(&metric, inverse_r, [rows; 2], keep);
+            let block = self.term_block(&metric, inverse_r, [rows; 2]);
             let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
             self.ctx.model.terms.predict(&block, [v_z, v_r], works);
         }
@@ -186,9 +183,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if !ctx.model.terms.is_empty() {
             let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } =
                 scratch;
-            let BlockScratch { cells, keep, inverse_r, works, .. } = scratch;
+            let BlockScratch { cells, inverse_r, works, .. } = scratch;
             let metric = &self.metric(face_weight, inverse_weight);
-            let block = self.term_block(metric, inverse_r, [half.split(), cells.split()], keep);
+            let block = self.term_block(metric, inverse_r, [half.split(), cells.split()]);
             with_sources.clear();
             with_sources.extend_from_slice(ctx.old.block(self.slot));
             let bounded = ctx.model.terms.add(&block, [z_faces, r_faces], works, with_sources);

@@ -25,8 +25,6 @@ pub(crate) struct TermBlock<'a> {
     pub state: Rows<'a>,
     /// The padded cells at the beginning of the step.
     pub before: Rows<'a>,
-    /// The share of its slopes that each cell keeps, −0 where it has states on its faces only.
-    pub keep: &'a [f64],
     /// What bounds the domain on the sides of the block; `None` where other blocks are.
     pub sides: [Option<Boundary>; 4],
     /// The faces of the wall to another medium, in the order of r, where the block has any.

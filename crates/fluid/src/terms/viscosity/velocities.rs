@@ -4,8 +4,11 @@ use mesh::{GHOSTS, Side};
 
 use crate::Boundary;
 use crate::boundary::axis;
-use crate::state::primitive::{V_R, V_Z};
+use crate::state::primitive::{PHI, V_R, V_Z};
 use crate::terms::TermBlock;
+
+/// Cells of which so much is of one phase are not mixed.
+const ONE_PHASE: f64 = 1e-6;
 
 /// Padded rows of v_z and v_r, m/s.
 pub(super) struct Velocities<'a> {
@@ -20,11 +23,22 @@ impl Velocities<'_> {
     /// - at walls the opposite ones, so that the fluid sticks to them; at the wall to the solid about that one's velocity;
     /// - on open sides those of the cells within: no gradient.
     pub fn gather(mut self, block: &TermBlock<'_>) {
-        let is_own = |k: usize| block.keep[k].to_bits() >> 63 == 0;
-        for (rows, component) in [(&mut *self.v_z, V_Z), (&mut *self.v_r, V_R)] {
-            for (k, v) in rows.iter_mut().enumerate() {
-                // Mixed cells of the five-equation model have no state at mid-step, but on their faces.
-                *v = if is_own(k) { block.state[component][k] } else { block.before[component][k] };
+        let rows = [(&mut *self.v_z, V_Z), (&mut *self.v_r, V_R)];
+        for (row, component) in rows {
+            row.copy_from_slice(block.state[component]);
+        }
+        let stride = block.metric.stride;
+        let phi = block.before[PHI];
+        if phi.iter().any(|phi| *phi != 0.0) {
+            // Mixed cells of the five-equation model have no state at mid-step, but on their faces. Whether a cell is one must not depend
+            // on the block that sees it.
+            let is_beside_another = |k: usize| {
+                [k - 1, k + 1, k - stride, k + stride].iter().any(|n| (phi[*n] - phi[k]).abs() > 0.5)
+            };
+            for k in stride + 1..phi.len() - stride - 1 {
+                if (phi[k] > ONE_PHASE && phi[k] < 1.0 - ONE_PHASE) || is_beside_another(k) {
+                    (self.v_z[k], self.v_r[k]) = (block.before[V_Z][k], block.before[V_R][k]);
+                }
             }
         }
         // r first, as where ghosts are filled: the z sides complete the corners.
