@@ -146,7 +146,7 @@ fn measure(side: &str, sets: &[String]) -> Result<Spent, Failure> {
         let case = Case::from_toml(&text, "adaptation", sets).map_err(|errors| errors.to_string())?;
         let mut solver = solid_solver(&case, case.solid.as_ref().ok_or("no solid")?)?;
         // Its surface bears what it bore before.
-        let load = mesh::FaceState { pressure: 5e7, velocity: 0.0, power: 0.0, ..FaceState::default() };
+        let load = mesh::FaceState { pressure: 5e7, velocity: 0.0, power: 0.0, ..mesh::FaceState::default() };
         run(
             &mut solver,
             move |s| {

@@ -146,7 +146,7 @@ impl SurfaceRecord {
             }
             self.pressures.clear();
             self.pressures.extend(solver.interface().states().iter().map(|state| state.pressure));
-            load.after_step(faces, &self.pressures, (solver.time(), dt), history)?;
+            load.after_step(faces, [&self.pressures, &[]], (solver.time(), dt), history)?;
         }
         Ok(())
     }
