@@ -161,7 +161,10 @@ fn same_numbers_in_one_process_and_in_two() {
     let explicit = ["--set", "coupling.scheme=explicit"];
     let strong = ["--set", "coupling.scheme=strong"];
     let strong_solid = ["--set", "coupling.scheme=strong", "--set", "coupling.first=solid"];
-    let schemes = [&[][..], &weak, &explicit, &strong, &strong_solid, &common, &local, &soft];
+    let thick = ["--set", "fluid.terms.viscosity={ liquid = 1e2, gas = 1.0 }"];
+    let soft_thick = [&soft[..], &thick].concat();
+    let schemes =
+        [&[][..], &weak, &explicit, &strong, &strong_solid, &common, &local, &soft, &thick, &soft_thick];
     for scheme in schemes {
         for (name, flags) in runs {
             let output = workshop.run(name, &[flags, scheme, &["--force", "-q"]].concat());

@@ -148,6 +148,14 @@ fn local_steps_where_the_solids_are_the_longer() {
 }
 
 #[test]
+fn viscous_fluids() {
+    let _turn = without_processes();
+    let thick = "fluid.terms.viscosity={ liquid = 1e2, gas = 1.0 }";
+    check("viscous", &coupled(), &[thick, "time.local_steps=true", "time.end=2e-5"], 7);
+    check("viscous, five-equation", &coupled(), &[thick, "fluid.model=five-equation", "time.end=2e-5"], 13);
+}
+
+#[test]
 fn several_bubbles() {
     let _turn = without_processes();
     check("bubbles", &(coupled() + &second_bubble()), &["time.end=2e-5"], 23);
