@@ -62,6 +62,7 @@ fn momentum_and_work_of_a_load_on_the_surface() {
         pressure: 1e8 * bell(face) * (1e5 * time).sin(),
         velocity: -2.0 * bell(face) * (1e5 * time).sin(),
         power: -2.1e8 * (bell(face) * (1e5 * time).sin()).powi(2),
+        ..FaceState::default()
     };
     assert!(imbalance(&mut solid, 300, load).abs() < ROUND_OFF);
     // Pressure on the surface pushes down, and works where the surface yields; the ledger takes the given
