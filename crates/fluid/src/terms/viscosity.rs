@@ -12,8 +12,8 @@ use velocities::Velocities;
 
 /// The most that Δt (η/ρ)(1/h_z² + 1/h_r²) may be in a cell, η = 4μ/3 + κ.
 ///
-/// In the plane both stages of the midpoint rule together are stable up to ½; next to the axis, where the hoop stress adds to what
-/// damps the radial velocity, up to 0.43. Half and twice of it: `docs/theory/viscosity.md`.
+/// In the plane the midpoint rule is stable up to ½: the largest rate of decay is 4η/ρ(1/h_z² + 1/h_r²), and Δt times it at most 2. Next
+/// to the axis, where the hoop stress damps the radial velocity besides, up to 0.43.
 const MOST_DIFFUSION: f64 = 0.375;
 
 /// What gas does that is so thin that its momentum spreads over more than a cell in a step.
