@@ -87,8 +87,7 @@ fn faces<const N: usize>(
                     && replaced != Some(*k % Padded::<N>::STRIDE)
                     && !(is_own(*k) || is_own(*k + step))
             };
-            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, mixture)).count()
-                as u64
+            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, mixture)).count() as u64
         }
         RiemannSolver::Exact => {
             let stride = Padded::<N>::STRIDE;
