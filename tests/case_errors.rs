@@ -11,6 +11,8 @@ mod bad;
 mod fixture;
 #[path = "case_errors/good.rs"]
 mod good_cases;
+#[path = "case_errors/media.rs"]
+mod media;
 
 use bad::BAD;
 use fixture::SMALL;

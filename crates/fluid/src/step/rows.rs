@@ -135,6 +135,7 @@ struct Prediction<'a, const B: bool> {
 }
 
 impl<'a, const B: bool> Prediction<'a, B> {
+    #[expect(clippy::too_many_arguments, reason = "all that one cell has, in registers")]
     #[inline(always)]
     fn new(
         w: PrimitiveCell,
@@ -190,6 +191,7 @@ impl<'a, const B: bool> Prediction<'a, B> {
 /// are then no steeper than minmod's), or none (0, first order), whichever gives admissible face states.
 ///
 /// - `bound_per_mass`: what covolumes take of β₁ per mass, see [`Mixture::bound_beta1`].
+#[expect(clippy::too_many_arguments, reason = "all that one cell has, in registers")]
 #[inline(always)]
 pub(crate) fn half_step(
     w: PrimitiveCell,
@@ -210,6 +212,7 @@ pub(crate) fn half_step(
 
 /// [`half_step`] where all slopes are kept, and the cell's sound speed; where they are not, 0 tells so and the state counts for
 /// nothing.
+#[expect(clippy::too_many_arguments, reason = "all that one cell has, in registers")]
 #[inline(always)]
 pub(crate) fn whole_half_step<const WITH_GAS: bool, const B: bool>(
     w: PrimitiveCell,

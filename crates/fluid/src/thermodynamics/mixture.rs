@@ -119,7 +119,7 @@ impl Mixture {
     /// The Noble–Abel stiffened gas that the mixture behaves as under compression that keeps mass fractions, volume fractions and one
     /// pressure. Its heat is left out.
     ///
-    /// In the free volume its β₁ and β₂ are those of [`Self::free_betas`] over the free share; of one phase it is that phase's law.
+    /// In the free volume its β₁ and β₂ are those of `free_betas` over the free share; of one phase it is that phase's law.
     #[inline]
     pub fn law_at(&self, rho: f64, phi: f64, share: f64) -> NobleAbelStiffenedGas {
         if !self.has_covolume() {
@@ -135,7 +135,7 @@ impl Mixture {
         }
     }
 
-    /// φ of a mixture with the internal energy ρe (J/m³) at a pressure: ρe of [`Self::free_betas`] is linear in φ.
+    /// φ of a mixture with the internal energy ρe (J/m³) at a pressure: ρe of `free_betas` is linear in φ.
     ///
     /// - `rho`, `gas`: ρ and m_g, kg/m³.
     pub(crate) fn fraction_of(&self, internal: f64, pressure: f64, rho: f64, gas: f64) -> f64 {

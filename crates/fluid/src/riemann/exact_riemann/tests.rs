@@ -107,7 +107,7 @@ impl Random {
         };
         let rho = self.log_uniform(1e-3, 1e4);
         // Up to nine tenths of the volume are bound.
-        let bound = if self.bits() % 2 == 0 { 0.0 } else { self.uniform(0.0, 0.9) };
+        let bound = if self.bits().is_multiple_of(2) { 0.0 } else { self.uniform(0.0, 0.9) };
         Side { covolume: bound / rho, ..side(rho, 0.0, p, gamma, pi) }
     }
 
