@@ -190,7 +190,11 @@ impl Solver {
         };
         match self {
             Self::Fluid(Scheme { model, riemann, limiter: l }, _) => {
-                let riemann = if riemann == RiemannSolver::Hllc { "hllc" } else { "exact" };
+                let riemann = match riemann {
+                    RiemannSolver::Hllc => "hllc",
+                    RiemannSolver::HllcLowMach => "hllc-lm",
+                    RiemannSolver::Exact => "exact",
+                };
                 format!("fluid, {}, {riemann}, {}", name_of(model), limiter(l))
             }
             Self::Solid(l, _) => format!("solid, {}", limiter(l)),

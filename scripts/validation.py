@@ -7,6 +7,7 @@
     python3 scripts/validation.py shock [--cells 32 64]                            a shock, a bubble, a rigid wall
     python3 scripts/validation.py helium                                           a shock in air meets a cylinder of helium
     python3 scripts/validation.py free [--cells 20 40 80]                          collapse and rebound of a free bubble
+    python3 scripts/validation.py one-bar [--cells 10 20 40]                       the same by both Riemann solvers, with a covolume
 
 Runs the cases of cases/validation by `cav` (target/release/cav, or --cav) in a directory of its own (--out), keeps what is complete,
 and prints Markdown. Needs scripts/requirements.txt.
@@ -14,13 +15,13 @@ and prints Markdown. Needs scripts/requirements.txt.
 
 from pathlib import Path
 
-from published import contact, free, helium, laser, near_wall, shock
+from published import contact, free, helium, laser, near_wall, one_bar, shock
 
 import program
 
 TABLES = {
     "near-wall": near_wall.table, "contact": contact.table, "laser": laser.table, "shock": shock.table,
-    "helium": helium.table, "free": free.table,
+    "helium": helium.table, "free": free.table, "one-bar": one_bar.table,
 }
 
 

@@ -38,7 +38,7 @@ pub use near_wall::film::Film;
 pub use options::{Boundary, Model, RiemannSolver, Sharpening};
 pub use physics::Fluid;
 pub use riemann::exact_riemann;
-pub use riemann::hllc::{Face, flux_hllc};
+pub use riemann::hllc::{Face, flux_hllc, flux_hllc_low_mach};
 pub use setup::FluidSetup;
 pub use solver::{FluidSolver, FluidState};
 pub use state::Primitive;

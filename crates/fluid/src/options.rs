@@ -66,13 +66,16 @@ impl TwoPhaseOptions {
 pub enum RiemannSolver {
     /// Harten–Lax–van Leer with contact (Toro, Spruce & Speares 1994).
     Hllc,
+    /// The same with less damping where flow is slow against sound, see [`crate::flux_hllc_low_mach`].
+    HllcLowMach,
     /// The exact solver for two stiffened gases.
     Exact,
 }
 
 impl RiemannSolver {
     /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 2] = [("hllc", Self::Hllc), ("exact", Self::Exact)];
+    pub const NAMES: [(&'static str, Self); 3] =
+        [("hllc", Self::Hllc), ("hllc-lm", Self::HllcLowMach), ("exact", Self::Exact)];
 }
 
 /// What bounds the fluid on one side of its domain.

@@ -84,6 +84,7 @@ pub(super) static FLUID: [Section; 3] = [
                 unit: "",
                 values: Values::Names(&[
                     ("hllc", "Harten, Lax and van Leer's with a contact"),
+                    ("hllc-lm", "the same with less damping of flow that is slow against sound"),
                     ("exact", "the exact solver for two (Noble–Abel) stiffened gases"),
                 ]),
                 default: Preset::Name("hllc"),

@@ -5,3 +5,4 @@ pub mod exact_riemann;
 pub(crate) mod exact_rows;
 pub(crate) mod godunov;
 pub(crate) mod hllc;
+pub(crate) mod low_mach;

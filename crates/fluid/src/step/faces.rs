@@ -77,10 +77,10 @@ fn faces<const N: usize>(
     faces: &mut FaceRows,
 ) -> u64 {
     match ctx.model.scheme.riemann {
-        RiemannSolver::Hllc => {
-            let has_all =
-                rows::hllc_faces(cells, step, Padded::<N>::STRIDE, range.clone(), &ctx.model.mixture, faces);
-            if has_all {
+        riemann @ (RiemannSolver::Hllc | RiemannSolver::HllcLowMach) => {
+            let (stride, mixture) = (Padded::<N>::STRIDE, &ctx.model.mixture);
+            let is_low_mach = riemann == RiemannSolver::HllcLowMach;
+            if rows::hllc_faces(cells, step, stride, range.clone(), mixture, is_low_mach, faces) {
                 return 0;
             }
             // Mixed cells of the five-equation model have states and fluxes of their own: their share is −0.
@@ -90,8 +90,7 @@ fn faces<const N: usize>(
                     && replaced != Some(*k % Padded::<N>::STRIDE)
                     && !(is_own(*k) || is_own(*k + step))
             };
-            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, &ctx.model.mixture)).count()
-                as u64
+            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, mixture)).count() as u64
         }
         RiemannSolver::Exact => {
             let stride = Padded::<N>::STRIDE;

@@ -15,6 +15,7 @@ use crate::boundary::beside;
 use crate::reconstruction::Reconstruction;
 use crate::riemann::exact_rows::{ListedFaces, exact_fluxes};
 use crate::riemann::hllc::Face;
+use crate::riemann::low_mach::brought_together;
 use crate::step::clips::Clips;
 use crate::step::face_rows::{FaceRows, set_face, used_face};
 
@@ -270,7 +271,13 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
 
     #[inline(always)]
     fn states(&self, face: &Problem) -> [FaceState; 2] {
-        [self.side(face.lower, face.face, 1), self.side(face.upper, face.face + self.step, 0)]
+        let [mut lower, mut upper] =
+            [self.side(face.lower, face.face, 1), self.side(face.upper, face.face + self.step, 0)];
+        if self.rule.is_low_mach {
+            let shares = [lower.gas_share, upper.gas_share];
+            [lower.w, upper.w] = brought_together(lower.w, upper.w, shares, self.rule.mixture);
+        }
+        [lower, upper]
     }
 
     #[inline(always)]

@@ -5,13 +5,13 @@ use mesh::Limiter;
 use super::closure::{Compression, is_mixed, phase_densities};
 use super::expansion::{Gas, expanded};
 use super::reconstruction::CellRule;
-use crate::Mixture;
 use crate::options::{Model, Sharpening, TwoPhaseOptions};
 use crate::physics::Fluid;
 use crate::state::conserved::{GAS, PHI, RHO};
 use crate::state::finished::{FinishedCell, finish_corrected};
 use crate::state::{ConservedCell, primitive_of};
 use crate::step::report::BlockReport;
+use crate::{Mixture, RiemannSolver};
 
 /// How cells hold gas and liquid; chosen when a fluid is made.
 #[derive(Clone, Copy, Debug)]
@@ -139,6 +139,7 @@ impl Fluid {
             dt,
             mixture: &self.mixture,
             options,
+            is_low_mach: self.scheme.riemann == RiemannSolver::HllcLowMach,
             velocity_gain: self.terms.velocity_gain(0.5 * dt),
         }
     }

@@ -32,6 +32,8 @@ pub(crate) struct CellRule<'a> {
     pub dt: f64,
     pub mixture: &'a Mixture,
     pub options: TwoPhaseOptions,
+    /// Whether jumps of the velocity on their faces are bounded, see [`crate::riemann::low_mach::kept_of_jump`].
+    pub is_low_mach: bool,
     /// What v_z and v_r gain in half the step by a uniform acceleration, m/s.
     pub velocity_gain: Option<[f64; 2]>,
 }

@@ -14,6 +14,7 @@ mod five_equation;
 mod gravity;
 mod helpers;
 mod ledgers;
+mod low_mach;
 mod near_wall;
 mod orders;
 mod random_trees;

@@ -87,7 +87,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
         };
         let first = Padded::<N>::index(0, 0) - step;
         let last = Padded::<N>::index(N as isize - 1, N as isize - 1);
-        hllc_faces(&reconstruction, step, STRIDE, first..last + 1, &mixture, faces);
+        hllc_faces(&reconstruction, step, STRIDE, first..last + 1, &mixture, false, faces);
     }
     let metric = Metric {
         stride: STRIDE,

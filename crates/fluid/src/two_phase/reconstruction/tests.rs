@@ -23,6 +23,7 @@ fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState
         dt,
         mixture: &mixture,
         options,
+        is_low_mach: false,
         velocity_gain: None,
     };
     let mut states = FaceStates::default();
@@ -71,6 +72,7 @@ fn what_is_bounded_is_told() {
             dt: 1e-12,
             mixture: &mixture,
             options,
+            is_low_mach: false,
             velocity_gain: None,
         };
         let mut states = FaceStates::default();
