@@ -1,5 +1,7 @@
 //! `cav check` and `cav materials`: what a case means in cells, steps, memory and time, before it is run.
 
+mod bubble;
+
 use std::fmt::Write as _;
 
 use coupler::Scheme;
@@ -45,6 +47,7 @@ pub fn report(case: &Case) -> String {
             near_wall(&mut text, &fluid.near_wall);
         }
         regions(&mut text, case, fluid);
+        bubble::bubble(&mut text, fluid);
         sides(&mut text, fluid);
     }
     if let (Some(solid), Some(memory)) = (&case.solid, case.solid_memory()) {

@@ -51,6 +51,7 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         near_wall: fluid.near_wall,
         scales: scales(fluid),
         gravity: fluid.gravity,
+        followed: fluid.followed_bubble(),
         tracer: fluid.tracer,
     }
 }

@@ -1,8 +1,9 @@
 //! The pages that texts on keys lead to.
 
 /// Name, then the page from the repository's root, with the heading.
-pub(super) const LINKS: [(&str, &str); 17] = [
+pub(super) const LINKS: [(&str, &str); 19] = [
     ("absorbing", "docs/theory/absorbing-sides.md"),
+    ("bubble", "docs/theory/bubble-content.md"),
     ("far-field", "docs/theory/far-field.md"),
     ("far-sides", "docs/verification/distant-sides.md"),
     ("film", "docs/theory/near-wall.md"),
@@ -14,6 +15,7 @@ pub(super) const LINKS: [(&str, &str); 17] = [
     ("participants", "docs/guide/own-solver.md"),
     ("plasticity", "docs/theory/plasticity.md"),
     ("refine", "docs/verification/convergence.md#the-grids"),
+    ("reset", "docs/theory/bubble-content.md#the-cut-at-the-largest-radius"),
     ("sensors", "docs/reference/output-histories.md#sensors-every-step-sensorsname"),
     ("start", "docs/reference/cases.md#the-pressure-of-the-start"),
     ("steps", "docs/theory/time-steps.md#steps-of-their-own"),
