@@ -1,6 +1,6 @@
 //! What a case says of a bubble that is followed, and what of it the solver needs.
 
-use fluid::{BubbleContent, BubbleCuts, BubbleReset, FollowedBubble, Shape, StiffenedGas};
+use fluid::{BubbleContent, BubbleCuts, BubbleReset, FollowedBubble, NobleAbelStiffenedGas, Shape};
 
 use super::FluidCase;
 
@@ -32,11 +32,10 @@ pub enum ResetCase {
 
 impl BubbleCase {
     /// What is in the bubble, in a liquid of a pressure far away, Pa.
-    pub fn content(&self, far_pressure: f64, gas: StiffenedGas) -> BubbleContent {
+    pub fn content(&self, far_pressure: f64, gas: NobleAbelStiffenedGas) -> BubbleContent {
         BubbleContent {
             far_pressure,
-            gamma: gas.gamma,
-            covolume: 0.0,
+            gas,
             surface_tension: self.surface_tension,
             vapour_pressure: self.vapour_pressure,
             temperature: self.temperature,

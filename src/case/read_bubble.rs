@@ -1,6 +1,8 @@
 //! `[fluid.bubble]`: a bubble by what is in it.
 
-use fluid::{BubbleContent, GasState, InitialCondition, Phase, PhaseState, Region, Shape, StiffenedGas};
+use fluid::{
+    BubbleContent, GasState, InitialCondition, NobleAbelStiffenedGas, Phase, PhaseState, Region, Shape,
+};
 use mesh::Geometry;
 
 use super::GridCase;
@@ -12,9 +14,11 @@ use super::reader::{Faults, Given, Table};
 /// What a bubble is described against, as far as it could be read.
 pub(super) struct Surroundings<'a> {
     pub ambient: Option<PhaseState>,
-    pub gas: Option<StiffenedGas>,
+    pub gas: Option<NobleAbelStiffenedGas>,
     pub grid: Option<&'a GridCase>,
     pub geometry: Geometry,
+    /// That of the liquid, if it acts, N/m.
+    pub surface_tension: f64,
 }
 
 /// What the table says.
@@ -81,8 +85,8 @@ pub(super) fn bubble(
         let message = format!("{:?} cells along the present radius need a grid that adapts", cells.value);
         faults.of(cells, message, "take fluid.adapt = true and more than one level, or remove it");
     }
-    let [vapour_pressure, surface_tension] =
-        [&vapour, &tension].map(|given| given.as_ref().map_or(0.0, |given| given.value));
+    let vapour_pressure = vapour.as_ref().map_or(0.0, |given| given.value);
+    let surface_tension = tension.map_or(around.surface_tension, |given| given.value);
     let case = BubbleCase {
         region: named.as_ref().map_or(0, |given| given.value),
         surface_tension,

@@ -2,31 +2,33 @@
 
 use coupler::Scheme;
 use fluid::{
-    Boundary, Gravity, InitialCondition, InitialPressure, Model, Phase, PhaseState, Pulse, Region,
-    RiemannSolver, Shape, Sharpening, StiffenedGas,
+    Boundary, Gravity, InitialCondition, InitialPressure, Model, NobleAbelStiffenedGas, Phase, PhaseState,
+    Pulse, Region, RiemannSolver, Shape, Sharpening, StiffenedGas,
 };
 use mesh::{Geometry, Limiter, Side};
 
 use super::keys::fluid::GAS;
 use super::read_bubble::{self, Described, Surroundings};
 use super::read_grid::{GridPlace, grid};
+use super::read_medium::medium;
 use super::read_near_wall::near_wall;
 use super::read_pulse::pulse;
 use super::read_shape::body;
+use super::read_terms::{TermsCase, terms};
 use super::reader::{Faults, Given, Table};
 use super::shared::{Context, boundaries, history};
 use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, scales};
 
 /// Equations of state as far as they could be read, and the grid likewise.
 struct Setting {
-    liquid: Option<StiffenedGas>,
-    gas: Option<StiffenedGas>,
+    liquid: Option<NobleAbelStiffenedGas>,
+    gas: Option<NobleAbelStiffenedGas>,
     grid: Option<GridCase>,
     geometry: Geometry,
 }
 
 impl Setting {
-    fn eos(&self, phase: Phase) -> Option<StiffenedGas> {
+    fn eos(&self, phase: Phase) -> Option<NobleAbelStiffenedGas> {
         match phase {
             Phase::Liquid => self.liquid,
             Phase::Gas => self.gas,
@@ -42,16 +44,20 @@ pub(super) fn fluid(
     let mut placed = grid(&mut table, context, Side::ZMin, faults);
     let near_wall = near_wall(&mut table, placed.as_mut().map(|(grid, _)| grid), context, faults);
     let liquid = if table.has("liquid") {
-        table.table("liquid", faults).and_then(|table| stiffened_gas(table, None, faults))
+        table.table("liquid", faults).and_then(|table| medium(table, None, faults))
     } else {
         table.table("liquid", faults);
-        table.missing("liquid", "write [fluid.liquid] with gamma and pi, for water 7.15 and 3e8", faults);
+        table.missing(
+            "liquid",
+            "write [fluid.liquid] and below it fluid = \"water\", or gamma and pi, for water 7.15 and 3e8",
+            faults,
+        );
         None
     };
     let [gamma, pi] = GAS;
-    let air = StiffenedGas { gamma, pi };
+    let air = StiffenedGas { gamma, pi }.into();
     let gas = match table.table("gas", faults) {
-        Some(table) => stiffened_gas(table, Some(air), faults),
+        Some(table) => medium(table, Some(air), faults),
         None => Some(air),
     };
     let mut setting = Setting {
@@ -60,8 +66,9 @@ pub(super) fn fluid(
         grid: placed.as_ref().map(|(grid, _)| grid.clone()),
         geometry: context.geometry,
     };
+    let terms = terms(&mut table, faults);
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
-    let (mut initial, bubble) = initial(&mut table, pressure.as_ref(), &mut setting, faults);
+    let (mut initial, bubble) = initial(&mut table, pressure.as_ref(), &terms, &mut setting, faults);
     let gravity = initial.as_ref().and_then(|initial| gravity(&mut table, initial, &setting, faults));
     let tracer = table.table("tracer", faults).and_then(|table| tracer(table, &setting, faults));
     let (mut boundary, named) = sides(&mut table, context, faults);
@@ -117,39 +124,10 @@ pub(super) fn fluid(
         wave_epsilon: super::read_adaptation::DEFAULT_ERROR,
         gravity,
         bubble: bubble.map(|bubble| bubble.case),
+        terms,
         tracer,
     };
     Some((case, place))
-}
-
-fn stiffened_gas(
-    mut table: Table<'_>,
-    default: Option<StiffenedGas>,
-    faults: &mut Faults,
-) -> Option<StiffenedGas> {
-    let mut value = |key, default: Option<f64>, faults: &mut Faults| match default {
-        Some(default) if !table.has(key) => {
-            table.raw(key);
-            Some(Given { value: default, path: String::new(), span: 0..0 })
-        }
-        _ => table.required(key, faults),
-    };
-    let gamma = value("gamma", default.map(|eos| eos.gamma), faults);
-    let pi = value("pi", default.map(|eos| eos.pi), faults);
-    table.finish(faults);
-    let (gamma, pi) = (gamma?, pi?);
-    let mut sound = true;
-    if gamma.value <= 1.0 {
-        let message = format!("must be greater than 1, got {:?}", gamma.value);
-        faults.of(&gamma, message, "the adiabatic exponent: 1.4 for air, 7.15 for water");
-        sound = false;
-    }
-    if pi.value < 0.0 {
-        let message = format!("must not be negative, got {:?} Pa", pi.value);
-        faults.of(&pi, message, "the stiffness: 0 for a gas, 3e8 Pa for water");
-        sound = false;
-    }
-    sound.then_some(StiffenedGas { gamma: gamma.value, pi: pi.value })
 }
 
 /// Gravity along z, under which the pressure of the ambient liquid is that of the case on z_min.
@@ -197,6 +175,7 @@ fn tracer(mut table: Table<'_>, setting: &Setting, faults: &mut Faults) -> Optio
 fn initial(
     table: &mut Table<'_>,
     pressure: Option<&Given<InitialPressure>>,
+    terms: &TermsCase,
     setting: &mut Setting,
     faults: &mut Faults,
 ) -> (Option<InitialCondition>, Option<Described>) {
@@ -211,7 +190,7 @@ fn initial(
         table.missing("ambient", "write [fluid.ambient] with density and pressure", faults);
         None
     };
-    let bubble = bubble(table, ambient, setting, faults);
+    let bubble = bubble(table, (ambient, terms), setting, faults);
     let regions: Vec<Option<Region>> =
         table.tables("region", faults).into_iter().map(|table| region(table, setting, faults)).collect();
     let pulses: Vec<Option<Pulse>> = table
@@ -238,13 +217,19 @@ fn initial(
 /// The bubble that is described by what is in it; the gas gets the γ that it has with its vapour.
 fn bubble(
     table: &mut Table<'_>,
-    ambient: Option<PhaseState>,
+    (ambient, terms): (Option<PhaseState>, &TermsCase),
     setting: &mut Setting,
     faults: &mut Faults,
 ) -> Option<Described> {
     let table = table.table("bubble", faults)?;
     let Setting { gas, grid, geometry, .. } = setting;
-    let around = Surroundings { ambient, gas: *gas, grid: grid.as_ref(), geometry: *geometry };
+    let around = Surroundings {
+        ambient,
+        gas: *gas,
+        grid: grid.as_ref(),
+        geometry: *geometry,
+        surface_tension: terms.surface_tension.unwrap_or(0.0),
+    };
     let described = read_bubble::bubble(table, &around, faults)?;
     if let (Some(gas), Some(gamma)) = (gas, described.gamma) {
         gas.gamma = gamma;
@@ -330,7 +315,7 @@ fn sides(
 fn inflow(
     table: &mut Table<'_>,
     boundary: [Boundary; 4],
-    liquid: Option<StiffenedGas>,
+    liquid: Option<NobleAbelStiffenedGas>,
     faults: &mut Faults,
 ) -> Option<Inflow> {
     let wanted = boundary.contains(&Boundary::Inflow);

@@ -1,6 +1,6 @@
 //! `[[fluid.pulse]]`: pressure pulses in the liquid.
 
-use fluid::{PhaseState, Pulse, PulseShape, StiffenedGas};
+use fluid::{NobleAbelStiffenedGas, PhaseState, Pulse, PulseShape};
 use mesh::Geometry;
 
 use super::read_shape::{Kind, on_axis, shape};
@@ -12,7 +12,7 @@ use super::reader::{Faults, Given, Table, number, pair};
 pub(super) fn pulse(
     mut table: Table<'_>,
     geometry: Geometry,
-    liquid: Option<StiffenedGas>,
+    liquid: Option<NobleAbelStiffenedGas>,
     ambient: Option<PhaseState>,
     faults: &mut Faults,
 ) -> Option<Pulse> {

@@ -49,4 +49,6 @@ pub use state::Primitive;
 pub use step::clips::Clips;
 pub use terms::gravity::Gravity;
 pub use thermodynamics::eos::StiffenedGas;
+pub use thermodynamics::library::NamedFluid;
 pub use thermodynamics::mixture::Mixture;
+pub use thermodynamics::noble_abel::{Heat, NobleAbelStiffenedGas};

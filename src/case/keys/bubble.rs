@@ -72,8 +72,8 @@ pub(super) static BUBBLE: [Section; 2] = [
                 name: "gas_density",
                 unit: "kg/m3",
                 values: Values::Positive,
-                default: Preset::Words("that of air in equilibrium at `temperature`, brought to the start"),
-                about: "Density of the gas at the start, without the vapour.",
+                default: Preset::Words("that in equilibrium at `temperature`, brought to the start"),
+                about: "Density of the gas at the start, without the vapour. Without it the gas has its heat capacity, else air's.",
             },
             Key {
                 name: "temperature",
@@ -86,7 +86,7 @@ pub(super) static BUBBLE: [Section; 2] = [
                 name: "surface_tension",
                 unit: "N/m",
                 values: Values::Words("≥ 0"),
-                default: Preset::Number(0.0),
+                default: Preset::Words("that of `fluid.terms`, else 0"),
                 about: "σ in the equilibrium pressure p∞ + 2σ/R_n − p_v.",
             },
             Key {

@@ -17,6 +17,7 @@ mod sides;
 mod solid;
 mod start;
 mod terminal;
+mod terms;
 #[cfg(test)]
 mod tests;
 pub(super) mod time;
@@ -27,9 +28,10 @@ pub use page::keys_page;
 
 /// All that is declared, in the order in which it is told.
 fn sections() -> impl Iterator<Item = &'static Section> {
-    let parts: [&[Section]; 12] = [
+    let parts: [&[Section]; 13] = [
         &time::TIME,
         &fluid::FLUID,
+        &terms::TERMS,
         &start::START,
         &bubble::BUBBLE,
         &sides::SIDES_OF_FLUID,

@@ -76,7 +76,7 @@ fn step(content: &BubbleContent, rest: f64, [radius, speed]: [f64; 2], dt: f64) 
 fn rate(content: &BubbleContent, rest: f64, [radius, speed]: [f64; 2]) -> [f64; 2] {
     let (gamma, far) = (WATER.gamma, content.far_pressure);
     let pressure = content.gas_at(rest, radius).pressure;
-    let change = -3.0 * content.gamma * pressure * speed / radius;
+    let change = -3.0 * content.gas.gamma * pressure * speed / radius;
     let reference = far + WATER.pi;
     let share = (pressure + WATER.pi) / reference;
     let enthalpy = gamma / (gamma - 1.0) * reference / DENSITY * (share.powf(1.0 - 1.0 / gamma) - 1.0);
@@ -91,13 +91,13 @@ fn rate(content: &BubbleContent, rest: f64, [radius, speed]: [f64; 2]) -> [f64; 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fluid::StiffenedGas;
 
     #[test]
     fn lechners_bubble_grows_to_half_a_millimetre() {
         let content = BubbleContent {
             far_pressure: 1e5,
-            gamma: 1.4,
-            covolume: 0.0,
+            gas: StiffenedGas { gamma: 1.4, pi: 0.0 }.into(),
             surface_tension: 0.0,
             vapour_pressure: 0.0,
             temperature: 293.15,

@@ -1,6 +1,6 @@
 //! A laser bubble: a small one of high pressure that grows, collapses and rebounds.
 
-use fluid::BubbleContent;
+use fluid::{BubbleContent, StiffenedGas};
 
 use super::super::error::CaseErrors;
 use super::super::format::si;
@@ -136,8 +136,7 @@ impl LaserBubble {
     fn content(&self) -> BubbleContent {
         BubbleContent {
             far_pressure: self.pressure,
-            gamma: 1.4,
-            covolume: 0.0,
+            gas: StiffenedGas { gamma: 1.4, pi: 0.0 }.into(),
             surface_tension: 0.0,
             vapour_pressure: 0.0,
             temperature: super::super::keys::bubble::TEMPERATURE,

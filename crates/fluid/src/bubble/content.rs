@@ -1,5 +1,7 @@
 //! The pressure and the density of a bubble's gas and vapour from what it is in equilibrium with.
 
+use crate::NobleAbelStiffenedGas;
+
 /// Specific gas constant of air, J/(kg K).
 const AIR: f64 = 287.05;
 /// The same of water's vapour.
@@ -13,10 +15,8 @@ const WATER_VAPOUR: f64 = 461.52;
 pub struct BubbleContent {
     /// Pressure of the liquid far away p∞, Pa.
     pub far_pressure: f64,
-    /// Adiabatic exponent γ of the gas.
-    pub gamma: f64,
-    /// Its covolume b, m³/kg: the hard core.
-    pub covolume: f64,
+    /// The gas: γ, covolume b (the hard core), and the heat capacity that gives its density, else it has that of air. π is 0.
+    pub gas: NobleAbelStiffenedGas,
     /// Surface tension σ, N/m.
     pub surface_tension: f64,
     /// Pressure of the vapour p_v, Pa.
@@ -44,7 +44,7 @@ impl std::ops::Add for GasState {
 }
 
 impl BubbleContent {
-    /// The gas at the radius R_n of equilibrium: p_n = p∞ + 2σ/R_n − p_v (Laplace), ρ_n of air at T.
+    /// The gas at the radius R_n of equilibrium: p_n = p∞ + 2σ/R_n − p_v (Laplace), ρ_n at T.
     ///
     /// - `equilibrium_radius`: R_n > 0, m.
     /// - valid for: p_n > 0, which is not checked. errors: none. tested by: known bubbles.
@@ -55,12 +55,13 @@ impl BubbleContent {
         self.at_temperature(pressure)
     }
 
-    /// The gas at a pressure and the temperature T: p (v − b) = R_s T with air's R_s.
+    /// The gas at a pressure and the temperature T: p (v − b) = R_s T with R_s = (γ − 1) c_v, where c_v is not known air's.
     ///
     /// - `pressure`: Pa. valid for: T > 0. errors: none. tested by: known bubbles.
     #[must_use]
     pub fn at_temperature(&self, pressure: f64) -> GasState {
-        GasState { pressure, density: pressure / (AIR * self.temperature + self.covolume * pressure) }
+        let air = || pressure / (AIR * self.temperature + self.gas.covolume * pressure);
+        GasState { pressure, density: self.gas.density_at(pressure, self.temperature).unwrap_or_else(air) }
     }
 
     /// The gas of an equilibrium radius R_n at another radius R: ρ = ρ_n (R_n/R)³ and p = p_n ((v_n − b)/(v − b))^γ.
@@ -74,8 +75,7 @@ impl BubbleContent {
     pub fn gas_at(&self, equilibrium_radius: f64, radius: f64) -> GasState {
         let rest = self.in_equilibrium(equilibrium_radius);
         let density = rest.density * (equilibrium_radius / radius).powi(3);
-        let free = |density: f64| 1.0 / density - self.covolume;
-        GasState { pressure: rest.pressure * (free(rest.density) / free(density)).powf(self.gamma), density }
+        compressed(&self.gas, rest, density)
     }
 
     /// The vapour: at its pressure and the temperature T, an ideal gas.
@@ -97,26 +97,29 @@ impl BubbleContent {
     pub fn mixed_gamma(&self, gas_pressure: f64, vapour_gamma: f64) -> f64 {
         let whole = gas_pressure + self.vapour_pressure;
         let share = self.vapour_pressure / whole;
-        1.0 + 1.0 / ((1.0 - share) / (self.gamma - 1.0) + share / (vapour_gamma - 1.0))
+        1.0 + 1.0 / ((1.0 - share) / (self.gas.gamma - 1.0) + share / (vapour_gamma - 1.0))
     }
 
     /// What is left of a bubble whose gas is cut to that of another equilibrium radius, at the same radius and on the same isentrope.
     ///
-    /// K = p (v − b)^γ of the gas as it is gives ρ_n' = 1/(b + (K/p_n')^(1/γ)) at the new equilibrium, ρ' = ρ_n' (R_n'/R)³ and
-    /// p' = K/(1/ρ' − b)^γ; without a covolume p' = p_n' (R_n'/R)^(3γ). Vapour is added to that.
+    /// The isentrope p (v − b)^γ of the gas as it is has the density ρ_n' at the new equilibrium's p_n'; then ρ' = ρ_n' (R_n'/R)³, and
+    /// p' on the isentrope: without a covolume p_n' (R_n'/R)^(3γ). Vapour is added to that.
     ///
     /// - `gas`: as it is; `radius`: R; `equilibrium_radius`: R_n', m. errors: none.
     /// - tested by: the pressure of the new radius, the isentrope, the way there and back.
     #[must_use]
     pub fn cut(&self, gas: GasState, radius: f64, equilibrium_radius: f64) -> GasState {
-        let Self { gamma, covolume, .. } = *self;
-        let constant = gas.pressure * (1.0 / gas.density - covolume).powf(gamma);
         let rest = self.in_equilibrium(equilibrium_radius).pressure;
-        let rest_density = 1.0 / (covolume + (constant / rest).powf(1.0 / gamma));
+        let rest_density = self.gas.isentropic_density(gas.density, gas.pressure, rest);
         let density = rest_density * (equilibrium_radius / radius).powi(3);
-        let pressure = constant / (1.0 / density - covolume).powf(gamma);
-        GasState { pressure, density } + self.vapour()
+        compressed(&self.gas, gas, density) + self.vapour()
     }
+}
+
+/// A state brought to another density along its isentrope, (p + π)(v − b)^γ = const.
+pub(crate) fn compressed(law: &NobleAbelStiffenedGas, state: GasState, density: f64) -> GasState {
+    let ratio = law.free_density(density) / law.free_density(state.density);
+    GasState { pressure: (state.pressure + law.pi) * ratio.powf(law.gamma) - law.pi, density }
 }
 
 #[cfg(test)]
@@ -126,8 +129,7 @@ mod tests {
 
     const LABORATORY: BubbleContent = BubbleContent {
         far_pressure: 1e5,
-        gamma: 1.4,
-        covolume: 0.0,
+        gas: NobleAbelStiffenedGas { gamma: 1.4, pi: 0.0, covolume: 0.0, heat: None },
         surface_tension: 0.0,
         vapour_pressure: 0.0,
         temperature: 293.15,
@@ -165,7 +167,8 @@ mod tests {
 
     #[test]
     fn a_covolume_is_a_hard_core() {
-        let content = BubbleContent { covolume: 1.5e-3, ..LABORATORY };
+        let content =
+            BubbleContent { gas: NobleAbelStiffenedGas { covolume: 1.5e-3, ..LABORATORY.gas }, ..LABORATORY };
         let rest = content.in_equilibrium(100e-6);
         assert_relative_eq!(1e5 * (1.0 / rest.density - 1.5e-3), 287.05 * 293.15, max_relative = 1e-13);
         for radius in [12e-6, 50e-6, 300e-6] {

@@ -3,12 +3,12 @@
 use mesh::BlockSolver;
 use serde::{Deserialize, Serialize};
 
-use super::content::{BubbleContent, GasState};
+use super::content::{BubbleContent, GasState, compressed};
 use crate::physics::Fluid;
 use crate::state::conserved::{ENERGY, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
 use crate::state::primitive::PRESSURE;
 use crate::state::primitive_of;
-use crate::{BubbleCuts, Totals};
+use crate::{BubbleCuts, NobleAbelStiffenedGas, Totals};
 
 /// From this gas fraction on the pressure and the density of a cell are those of the gas.
 const PURE: f64 = 0.99;
@@ -65,7 +65,8 @@ pub(crate) fn cut<const N: usize>(
     let gas = mean_state(&cells);
     let factors = match rule {
         BubbleReset::GasShare(share) => {
-            Factors { density: *share, pressure: share.powf(fluid.model().mixture.gas.gamma) }
+            let left = compressed(&fluid.model().mixture.gas, gas, share * gas.density);
+            Factors { density: *share, pressure: left.pressure / gas.pressure }
         }
         BubbleReset::EquilibriumRadius(equilibrium, content) => {
             let left = content.cut(gas, radius, *equilibrium);
@@ -148,6 +149,21 @@ fn mean_state(cells: &[GasCell]) -> GasState {
     GasState { pressure: sums[1] / sums[0], density: sums[2] / sums[0] }
 }
 
+/// What the gas of a cell gains in internal energy per volume: that of its own density and of the cell's pressure.
+///
+/// - `mean`: density of the gas where the cell does not know.
+fn internal_gained(gas: &NobleAbelStiffenedGas, at: &GasCell, factors: Factors, mean: f64) -> f64 {
+    if at.phi <= 0.0 {
+        return 0.0;
+    }
+    let density = at.gas_mass(mean) / at.phi;
+    let [before, after] = [(1.0, 1.0), (factors.density, factors.pressure)].map(|(mass, pressure)| {
+        let pressure = pressure * (at.pressure + gas.pi) - gas.pi;
+        gas.internal_energy(mass * density, pressure)
+    });
+    at.phi * (after - before)
+}
+
 /// Multiplies the gas of cells; returns what came in by it.
 ///
 /// - `mean`: density of the gas where cells do not know.
@@ -165,8 +181,7 @@ fn multiply<const N: usize>(
         let &GasCell { slot, cell, volume, density, .. } = at;
         let block = fluid.state_mut().block_mut(slot);
         let gained = (factors.density - 1.0) * at.gas_mass(mean);
-        // The internal energy of the gas is linear in p + pi at fixed volume.
-        let internal = (factors.pressure - 1.0) * at.phi * gas.beta1() * (at.pressure + gas.pi);
+        let internal = internal_gained(&gas, at, factors, mean);
         let [m_z, m_r] = [MOMENTUM_Z, MOMENTUM_R].map(|c| block[c * N * N + cell]);
         let kinetic = 0.5 * gained * (m_z * m_z + m_r * m_r) / (density * density);
         let mut add = |c: usize, gained: f64| {

@@ -1,6 +1,6 @@
 //! The paper's mixture of two stiffened gases, as kernels use it.
 
-use crate::StiffenedGas;
+use crate::{NobleAbelStiffenedGas, StiffenedGas};
 
 /// β₁ = 1/(γ − 1) and β₂ = γπ/(γ − 1) as linear functions of the gas fraction φ, paper eq. (10).
 ///
@@ -13,16 +13,17 @@ pub struct Mixture {
     beta2_liquid: f64,
     beta2_difference: f64,
     /// The liquid (φ = 0).
-    pub liquid: StiffenedGas,
+    pub liquid: NobleAbelStiffenedGas,
     /// The gas (φ = 1).
-    pub gas: StiffenedGas,
+    pub gas: NobleAbelStiffenedGas,
 }
 
 impl Mixture {
     /// The mixture of a liquid (φ = 0) and a gas (φ = 1).
-    pub fn new(liquid: StiffenedGas, gas: StiffenedGas) -> Self {
-        let beta1 = |s: StiffenedGas| 1.0 / (s.gamma - 1.0);
-        let beta2 = |s: StiffenedGas| s.gamma * s.pi / (s.gamma - 1.0);
+    pub fn new(liquid: impl Into<NobleAbelStiffenedGas>, gas: impl Into<NobleAbelStiffenedGas>) -> Self {
+        let (liquid, gas) = (liquid.into(), gas.into());
+        let beta1 = |s: NobleAbelStiffenedGas| 1.0 / (s.gamma - 1.0);
+        let beta2 = |s: NobleAbelStiffenedGas| s.gamma * s.pi / (s.gamma - 1.0);
         Self {
             beta1_liquid: beta1(liquid),
             beta1_difference: beta1(gas) - beta1(liquid),
@@ -63,6 +64,11 @@ impl Mixture {
     pub(crate) fn fraction_of(&self, internal: f64, pressure: f64) -> f64 {
         (internal - self.beta1_liquid * pressure - self.beta2_liquid)
             / (self.beta1_difference * pressure + self.beta2_difference)
+    }
+
+    /// Whether one of the phases has temperatures.
+    pub(crate) fn has_temperature(&self) -> bool {
+        self.liquid.heat.is_some() || self.gas.heat.is_some()
     }
 
     /// Whether a cell of this gas fraction cannot bear tension.

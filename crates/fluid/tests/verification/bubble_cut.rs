@@ -2,7 +2,8 @@
 //! follows it.
 
 use fluid::{
-    BubbleContent, BubbleCuts, BubbleReset, FluidSetup, FluidSolver, FollowedBubble, ResetReport, Shape,
+    BubbleContent, BubbleCuts, BubbleReset, FluidSetup, FluidSolver, FollowedBubble, NobleAbelStiffenedGas,
+    ResetReport, Shape,
 };
 use mesh::Adaptation;
 
@@ -14,8 +15,7 @@ const PRESSURES: [f64; 2] = [1e7, 4e8];
 const RESETS: [BubbleReset; 2] = [BubbleReset::GasShare(0.1), BubbleReset::EquilibriumRadius(0.12, CONTENT)];
 const CONTENT: BubbleContent = BubbleContent {
     far_pressure: 1e7,
-    gamma: 1.4,
-    covolume: 0.0,
+    gas: NobleAbelStiffenedGas { gamma: 1.4, pi: 0.0, covolume: 0.0, heat: None },
     surface_tension: 0.0,
     vapour_pressure: 1e5,
     temperature: 293.15,

@@ -48,8 +48,8 @@ fn run(tube: &Tube, cells: usize, riemann: RiemannSolver) -> FluidSolver<8> {
             z: [0.0, tube.length],
             r: [0.0, tube.length * 8.0 / cells as f64],
         },
-        liquid,
-        gas: eos(&tube.right),
+        liquid: liquid.into(),
+        gas: eos(&tube.right).into(),
         riemann,
         ..setup(PLANAR, [cells, 8], boundaries)
     };
