@@ -266,7 +266,14 @@ fn steps(text: &mut String, case: &Case) {
     line(text, "steps", &format!("about {most:.0} of the first one's size; a collapse shortens them"));
     let most = duration(seconds(|grid| grid.cell_count() as f64));
     let assumed = format!("with {THREADS:.0} threads, release build, output aside");
-    if grids.iter().any(|(grid, _)| grid.is_some_and(|grid| grid.adaptation.is_some())) {
+    let follows = case.fluid.as_ref().and_then(|fluid| fluid.bubble?.cells_per_radius).is_some();
+    if follows {
+        line(
+            text,
+            "run time",
+            "no estimate: the grid follows the bubble, and its cells and steps grow with it",
+        );
+    } else if grids.iter().any(|(grid, _)| grid.is_some_and(|grid| grid.adaptation.is_some())) {
         let guess = duration(seconds(guessed_cells));
         let words = format!(
             "at most {most} if all cells were on the finest level; a tenth of them is a guess: {guess}"

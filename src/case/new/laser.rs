@@ -15,8 +15,9 @@ use super::wall::Wall;
 const CLEAR: f64 = 4.0;
 /// Largest radii of the domain from the axis, and of the solid downwards.
 const ACROSS: f64 = 5.0;
-/// How much after the second collapse the run ends, as a share of the time until then.
-const AFTER: f64 = 0.02;
+/// How long the run follows the second cycle, of its length by Gilmore's equation: grids that do not resolve the smallest radius let the
+/// bubble rebound to more, and so for longer.
+const SECOND: f64 = 1.6;
 /// By how much of R/d a rigid wall lengthens growth and collapse.
 const WALL_LENGTHENS: f64 = 0.205;
 /// What counts as a wave, Pa: of shocks and jets, not of the bubble's first pressure.
@@ -63,9 +64,9 @@ impl LaserBubble {
     /// Numbers that make no case, each named with what is allowed.
     pub fn text(&self) -> Result<String, CaseErrors> {
         let turns = self.turns()?;
-        let [largest, .., second] = turns;
+        let [largest, collapse, _, second] = turns;
         let longer = self.stand_off.map_or(1.0, |stand_off| 1.0 + WALL_LENGTHENS / stand_off.max(0.5));
-        let end = (1.0 + AFTER) * longer * second.time;
+        let end = longer * (collapse.time + SECOND * (second.time - collapse.time));
         let snapshots = (1..20).map(|share| f64::from(share) / 20.0 * end);
         let height = self.stand_off.unwrap_or(0.0) * largest.radius;
         // Cells for the largest radius, then as many levels as the first one needs.
@@ -80,9 +81,13 @@ impl LaserBubble {
             "local_steps = true              # coarse levels make longer steps than fine ones\n\n[fluid]\n";
         text += &finer.keys(below, above, ACROSS * largest.radius, &finest);
         text += &format!(
-            "scale_pressure = {:<14} # what grids resolve: shocks and jets, not the first pressure\nscale_density = {DENSITY:?}\n",
+            "epsilon = 1e-3                  # coarser than by default: the bubble counts\nscale_pressure = {:<14} # what grids resolve: shocks and jets, not the first pressure\nscale_density = {DENSITY:?}\n",
             number(WAVES)
         );
+        if self.stand_off == Some(0.0) && self.wall == Wall::Rigid {
+            // By symmetry the wall is none.
+            text += "near_wall = { shock_levels = 0 }  # half a bubble on a plane of symmetry: no wall\n";
+        }
         text += &self.bubble_keys(height);
         text += &match self.stand_off {
             Some(_) => self.wall.keys(&blocks.coarser(), [ACROSS * largest.radius; 2], "", false),
