@@ -156,6 +156,9 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
         text.head(head);
         text.number("gamma", eos.gamma);
         text.number("pi", eos.pi);
+        if eos.covolume != 0.0 {
+            text.number("covolume", eos.covolume);
+        }
         if let Some(heat) = eos.heat {
             text.number("heat_capacity", heat.capacity);
             text.number("energy", heat.energy);

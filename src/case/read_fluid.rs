@@ -10,7 +10,7 @@ use mesh::{Geometry, Limiter, Side};
 use super::keys::fluid::GAS;
 use super::read_bubble::{self, Described, Surroundings};
 use super::read_grid::{GridPlace, grid};
-use super::read_medium::medium;
+use super::read_medium::{leaves_room, medium, refuse_covolumes};
 use super::read_near_wall::near_wall;
 use super::read_pulse::pulse;
 use super::read_shape::body;
@@ -86,6 +86,9 @@ pub(super) fn fluid(
     }
     let riemann = table.name("riemann", &RiemannSolver::NAMES, faults);
     let model = table.name("model", &Model::NAMES, faults);
+    if model == Model::SaurelAbgrall {
+        refuse_covolumes([("liquid", liquid), ("gas", gas)], &table, faults);
+    }
     let by_default = if model == Model::SaurelAbgrall { Sharpening::None } else { Sharpening::Thinc };
     let sharpening = table.choice("interface", &Sharpening::NAMES, faults);
     if let Some(given) = sharpening.as_ref().filter(|given| given.value == Sharpening::Thinc)
@@ -257,7 +260,13 @@ fn state(
     let pressure = table.required("pressure", faults);
     let velocity = table.pair("velocity", faults).map_or([0.0; 2], |given| given.value);
     let pressure = pressure?;
-    if let Some(eos) = phase.and_then(|phase| setting.eos(phase))
+    let eos = phase.and_then(|phase| setting.eos(phase));
+    if let (Some(eos), Some(density)) = (eos, density)
+        && !leaves_room(eos, density, table, faults)
+    {
+        return None;
+    }
+    if let Some(eos) = eos
         && pressure.value + eos.pi <= 0.0
     {
         let least = -eos.pi;

@@ -30,6 +30,7 @@ pub(super) fn medium(
     };
     let gamma = value("gamma", known.map(|law| law.gamma), faults);
     let pi = value("pi", known.map(|law| law.pi), faults);
+    let covolume = table.number("covolume", faults);
     let heat = heat(&mut table, known.and_then(|law| law.heat), faults);
     table.finish(faults);
     let (gamma, pi) = (gamma?, pi?);
@@ -44,8 +45,51 @@ pub(super) fn medium(
         faults.of(&pi, message, "the stiffness: 0 for a gas, 3e8 Pa for water");
         sound = false;
     }
-    let covolume = known.map_or(0.0, |law| law.covolume);
+    if let Some(given) = covolume.as_ref().filter(|given| given.value < 0.0) {
+        let message = format!("must not be negative, got {:?} m3/kg", given.value);
+        faults.of(
+            given,
+            message,
+            "the covolume: 0 for an ideal gas, 6.61e-4 m3/kg for water of \"water-nasg\"",
+        );
+        sound = false;
+    }
+    let covolume = covolume.map_or(known.map_or(0.0, |law| law.covolume), |given| given.value);
     sound.then_some(NobleAbelStiffenedGas { gamma: gamma.value, pi: pi.value, covolume, heat })
+}
+
+/// The paper's mixture has one density, and covolumes ask for those of the phases.
+pub(super) fn refuse_covolumes(
+    phases: [(&'static str, Option<NobleAbelStiffenedGas>); 2],
+    table: &Table<'_>,
+    faults: &mut Faults,
+) {
+    for (phase, law) in phases {
+        if let (Some(law), Some(given)) = (law.filter(|law| law.covolume != 0.0), table.place(phase)) {
+            let b = law.covolume;
+            let message = format!(
+                "a covolume, {b:?} m3/kg, needs phases with densities of their own, got model = \"saurel-abgrall\""
+            );
+            faults.of(&given, message, "model = \"five-equation\" (the default), or covolume = 0");
+        }
+    }
+}
+
+/// Whether a covolume leaves room to move at a table's density; if not it is refused.
+pub(super) fn leaves_room(
+    law: NobleAbelStiffenedGas,
+    density: f64,
+    table: &Table<'_>,
+    faults: &mut Faults,
+) -> bool {
+    let leaves = law.free_share(density) > 0.0;
+    if let Some(given) = table.place("density").filter(|_| !leaves) {
+        let (most, b) = (1.0 / law.covolume, law.covolume);
+        let message = format!("the covolume of {b:?} m3/kg takes all of the volume at {density:?} kg/m3");
+        let help = format!("give a density below 1/covolume = {most:?} kg/m3, or a smaller covolume");
+        faults.of(&given, message, help);
+    }
+    leaves
 }
 
 /// The fluid of the library that a table names.

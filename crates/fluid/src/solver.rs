@@ -86,7 +86,7 @@ impl<const N: usize> FluidSolver<N> {
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
         let sides = SideStates::new(&mesh, |centre, widths| {
             let Contents { state, gas } = initial(centre, widths);
-            (Primitive::from_conserved(state.to_conserved(&mixture), &mixture), gas / state.density)
+            (Primitive::from_conserved(state.to_conserved(gas, &mixture), gas, &mixture), gas / state.density)
         });
         let boundaries = Boundaries::new(kinds, sides, setup.inflow.clone(), setup.far_field.clone());
         let fluid = Fluid {

@@ -15,6 +15,14 @@ const FLUID_NAME: Key = Key {
     about: "A fluid known by name, of which all constants are taken that the table does not give.",
 };
 
+const COVOLUME: Key = Key {
+    name: "covolume",
+    unit: "m3/kg",
+    values: Values::Words("≥ 0, with bρ < 1 everywhere"),
+    default: Preset::Words("that of `fluid`, else 0"),
+    about: "The covolume b, which makes the law a [Noble–Abel stiffened gas][eos]; not with `model = \"saurel-abgrall\"`.",
+};
+
 const HEAT_CAPACITY: Key = Key {
     name: "heat_capacity",
     unit: "J/(kg K)",
@@ -111,7 +119,8 @@ pub(super) static FLUID: [Section; 3] = [
         path: "fluid.liquid",
         repeated: false,
         title: "The liquid",
-        about: "Required. A stiffened gas, p = (γ − 1) ρe − γπ. Everywhere density > 0 and p + π > 0.",
+        about: "Required. A [stiffened gas][eos], p = (γ − 1) ρe − γπ, or with a covolume b and a reference energy q p = (γ − 1)(e − q)/(1/ρ − b) − γπ. \
+                Everywhere density > 0 and p + π > 0.",
         keys: &[
             FLUID_NAME,
             Key {
@@ -128,6 +137,7 @@ pub(super) static FLUID: [Section; 3] = [
                 default: Preset::Words("that of `fluid`; else required"),
                 about: "The stiffness π; 3e8 for water.",
             },
+            COVOLUME,
             HEAT_CAPACITY,
             ENERGY,
             ENTROPY,
@@ -154,6 +164,7 @@ pub(super) static FLUID: [Section; 3] = [
                 default: Preset::Number(GAS[1]),
                 about: "The stiffness π; 0 for a gas.",
             },
+            COVOLUME,
             HEAT_CAPACITY,
             ENERGY,
             ENTROPY,

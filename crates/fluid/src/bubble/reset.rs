@@ -124,7 +124,7 @@ fn cells_of<const N: usize>(
             let (i, j) = (cell % N, cell / N);
             let has_gas = u[PHI] > 0.0 || own.is_some_and(|own| own > 0.0);
             if has_gas && cuts.bubble_at(mesh.centre(*id, i, j)[0]) == number {
-                let pressure = primitive_of(u, &model.mixture)[PRESSURE];
+                let pressure = primitive_of::<true>(u, own.unwrap_or(0.0), &model.mixture)[PRESSURE];
                 let volume = mesh.volume(*id, j);
                 cells.push(GasCell { slot, cell, volume, density: u[RHO], pressure, phi: u[PHI], own });
             }

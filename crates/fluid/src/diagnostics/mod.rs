@@ -92,7 +92,9 @@ impl<const N: usize> FluidSolver<N> {
     /// [`FluidSolver::cell`] of a field.
     pub(crate) fn cell_of(&self, field: &Field, slot: usize, i: usize, j: usize) -> Primitive {
         let u: [f64; COUNT] = std::array::from_fn(|c| field.component(slot, c)[j * N + i]);
-        Primitive::from_conserved(u, &self.model().mixture)
+        let gas = self.model().scheme.phases.gas_component();
+        let gas = gas.map_or(0.0, |gas| field.component(slot, gas)[j * N + i]);
+        Primitive::from_conserved(u, gas, &self.model().mixture)
     }
 
     /// What happens on the axis.

@@ -21,7 +21,9 @@ impl<const N: usize> BlockStep<'_, N> {
     pub(super) fn solve_faces(&mut self, scratch: &mut BlockScratch<N>) {
         let ctx = self.ctx;
         let stride = Padded::<N>::STRIDE;
-        let BlockScratch { half, s_z, s_r, keep, sound, inverse_r, gas, z_faces, r_faces, .. } = scratch;
+        let BlockScratch {
+            half, s_z, s_r, keep, sound, gas_shares, inverse_r, gas, z_faces, r_faces, ..
+        } = scratch;
         let [rho, v_z, v_r, p, phi] = half.split::<COUNT>();
         let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_z.split::<COUNT>();
         let along_z = Reconstruction {
@@ -29,6 +31,7 @@ impl<const N: usize> BlockStep<'_, N> {
             differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
             keep,
             sound,
+            gas_shares,
             with_gas: self.gas.is_present(),
             dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
             along_faces: AlongFaces::new([V_Z, PRESSURE].map(|c| s_r.component(c)), stride),
@@ -56,7 +59,7 @@ impl<const N: usize> BlockStep<'_, N> {
         self.clipped_roots += faces(ctx, &along_r, stride, r_range, None, r_faces);
         if let Some(block) = self.gas.phases() {
             block.solve_faces(1, &along_r, inverse_r, gas, r_faces);
-            block.gas_fluxes(gas, [z_faces, r_faces]);
+            block.gas_fluxes(gas, gas_shares, [z_faces, r_faces]);
         }
     }
 }

@@ -9,6 +9,7 @@ mod boundaries;
 mod bubble;
 mod bubble_cut;
 mod contact;
+mod covolumes;
 mod far_field;
 mod five_equation;
 mod gravity;
