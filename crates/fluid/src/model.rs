@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::far_field::FarFieldMemory;
-use crate::bubble::follow::{Following, follow_bubble};
+use crate::bubble::follow::Following;
+use crate::bubble::look::follow_bubble;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
 use crate::state::finished::{FinishedCell, measure_cell};

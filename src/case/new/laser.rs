@@ -65,7 +65,9 @@ impl LaserBubble {
     pub fn text(&self) -> Result<String, CaseErrors> {
         let turns = self.turns()?;
         let [largest, collapse, _, second] = turns;
-        let longer = self.stand_off.map_or(1.0, |stand_off| 1.0 + WALL_LENGTHENS / stand_off.max(0.5));
+        // Half a bubble on a wall is half a free one.
+        let wall = self.stand_off.filter(|stand_off| *stand_off > 0.0);
+        let longer = wall.map_or(1.0, |stand_off| 1.0 + WALL_LENGTHENS / stand_off.max(0.5));
         let end = longer * (collapse.time + SECOND * (second.time - collapse.time));
         let snapshots = (1..20).map(|share| f64::from(share) / 20.0 * end);
         let height = self.stand_off.unwrap_or(0.0) * largest.radius;

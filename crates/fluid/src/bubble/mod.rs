@@ -2,4 +2,6 @@
 
 pub(crate) mod content;
 pub(crate) mod follow;
+pub(crate) mod look;
 pub(crate) mod reset;
+pub(crate) mod rule;

@@ -1,9 +1,9 @@
 //! The cut of a bubble's gas where it is at its largest: what condenses and dissolves until the collapse, at once.
 
 use mesh::BlockSolver;
-use serde::{Deserialize, Serialize};
 
-use super::content::{BubbleContent, GasState, compressed};
+use super::content::{GasState, compressed};
+use super::rule::{BubbleReset, ResetReport};
 use crate::physics::Fluid;
 use crate::state::conserved::{ENERGY, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
 use crate::state::primitive::PRESSURE;
@@ -12,34 +12,6 @@ use crate::{BubbleCuts, NobleAbelStiffenedGas, Totals};
 
 /// From this gas fraction on the pressure and the density of a cell are those of the gas.
 const PURE: f64 = 0.99;
-
-/// What a bubble's gas is cut to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum BubbleReset {
-    /// The gas of another equilibrium radius, m, and vapour at its pressure.
-    EquilibriumRadius(f64, BubbleContent),
-    /// This share of its mass.
-    GasShare(f64),
-}
-
-/// A cut of a bubble's gas. Masses and energies as those of [`Totals`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ResetReport {
-    /// When, s.
-    pub time: f64,
-    /// The bubble's radius then, m.
-    pub radius: f64,
-    /// Mean pressure of its gas before and after, Pa.
-    pub pressure: [f64; 2],
-    /// Mass of its gas before and after, kg.
-    pub gas_mass: [f64; 2],
-    /// Mass that came with it (below zero: left).
-    pub mass: f64,
-    /// Axial momentum, likewise.
-    pub momentum_z: f64,
-    /// Energy, likewise.
-    pub energy: f64,
-}
 
 /// Factors of the gas's density and pressure.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +23,7 @@ struct Factors {
 /// Cuts the gas of a bubble: in each cell its mass per volume is multiplied by one factor and its internal energy as its pressure
 /// by another, velocities and gas fractions stay. The liquid of mixed cells keeps its mass and its energy.
 ///
-/// The factors are those from the mean state of the gas (cells with φ ≥ 0.99) to that of [`BubbleContent::cut`]; with a share s of
+/// The factors are those from the mean state of the gas (cells with φ ≥ 0.99) to that of [`super::content::BubbleContent::cut`]; with a share s of
 /// the mass s and s^γ, the same isentrope. Where phases have no masses of their own, the gas of a cell counts with the mean density.
 ///
 /// - `radius`: R of the bubble, m. errors: none. tested by: ledgers, the pressure after it, both models.
