@@ -272,16 +272,19 @@ fn own_gas(
     } else {
         content.at_temperature(given.value)
     };
-    if !(own.pressure > 0.0 && own.pressure.is_finite() && own.density > 0.0) {
+    if let Some(density) = numbers.gas_density {
+        own.density = density;
+    }
+    let has_room = content.gas.free_share(own.density) > 0.0;
+    if !(own.pressure > 0.0 && own.pressure.is_finite() && own.density > 0.0 && has_room) {
         let message = format!(
             "the gas would have {:?} Pa and {:?} kg/m3 at a radius of {radius:?} m",
             own.pressure, own.density
         );
-        faults.of(given, message, "give another amount of gas, or another radius");
+        let help =
+            "give another amount of gas or another radius; with a covolume, a density below 1/covolume";
+        faults.of(given, message, help);
         return None;
-    }
-    if let Some(density) = numbers.gas_density {
-        own.density = density;
     }
     Some(own)
 }

@@ -32,6 +32,7 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Append("[fluid.bubble]\nregion = 0\ncells_per_radius = 1"), &["fluid.bubble.cells_per_radius: must lie in [2, 10000], got 1.0", "40 is a good begin"]),
     (Edit::Replace("[fluid.liquid]", "adapt = false\nbubble = { region = 0, cells_per_radius = 20 }\n[fluid.liquid]"), &["fluid.bubble.cells_per_radius: 20.0 cells along the present radius need a grid that adapts", "fluid.adapt = true"]),
     (Append("[fluid.gas]\ngamma = 1.4\npi = 1e5\n[fluid.bubble]\ncentre = [0.004, 0.0]\nradius = 1e-4\nequilibrium_radius = 1e-3"), &["fluid.bubble: describes an ideal gas, and fluid.gas.pi is 100000.0 Pa", "fluid.gas.pi = 0"]),
+    (Append("[fluid.gas]\ngamma = 1.4\ncovolume = 1e-3\n[fluid.bubble]\ncentre = [0.004, 0.0]\nradius = 1e-5\nequilibrium_radius = 1e-3"), &["fluid.bubble.equilibrium_radius: the gas would have", "a density below 1/covolume"]),
     (Edit::Sets(&["geometry=planar", "fluid.bubble={ region = 0 }"]), &["fluid.bubble: describes a sphere, and the geometry is planar", "take geometry = \"axisymmetric\""]),
     (Append("[fluid.bubble]\nregoin = 0"), &["fluid.bubble.regoin: unknown key", "did you mean `region`?"]),
 ];

@@ -7,7 +7,7 @@ use super::super::format::si;
 use super::checks::Checks;
 use super::gilmore::{Turn, cycles};
 use super::grid::Blocks;
-use super::parts::{DENSITY, WATER, number, times};
+use super::parts::{DENSITY, WATER, number, sound, times};
 use super::quantity::Dimension;
 use super::wall::Wall;
 
@@ -17,9 +17,11 @@ const CLEAR: f64 = 4.0;
 const ACROSS: f64 = 5.0;
 /// How long the run follows the second cycle, of its length by Gilmore's equation: grids that do not resolve the smallest radius let the
 /// bubble rebound to more, and so for longer.
-const SECOND: f64 = 1.6;
+const SECOND: f64 = 1.7;
 /// By how much of R/d a rigid wall lengthens growth and collapse.
 const WALL_LENGTHENS: f64 = 0.205;
+/// Over how much of R/c of the largest radius the wall's pressure is averaged.
+const MEAN: f64 = 1.0 / 12.0;
 /// What counts as a wave, Pa: of shocks and jets, not of the bubble's first pressure.
 const WAVES: f64 = 1e7;
 
@@ -96,6 +98,13 @@ impl LaserBubble {
             None => "\n[coupling]\nscheme = \"none\"                 # liquid alone, open on all sides\n"
                 .to_owned(),
         };
+        if self.stand_off.is_some() {
+            let mean = MEAN * largest.radius / sound(self.pressure);
+            text += &format!(
+                "\n[output]\nmean_time = {:<19} # of the wall's pressure: R/(12 c) of the largest radius\n",
+                number(mean)
+            );
+        }
         Ok(text)
     }
 
