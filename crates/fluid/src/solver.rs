@@ -85,7 +85,7 @@ impl<const N: usize> FluidSolver<N> {
         let (mesh, state) =
             crate::initial::mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
-        let sides = SideStates::new(&mesh, |centre, widths| {
+        let sides = SideStates::new(&mesh, |_, centre, widths| {
             let Contents { state, gas } = initial(centre, widths);
             (Primitive::from_conserved(state.to_conserved(gas, &mixture), gas, &mixture), gas / state.density)
         });
