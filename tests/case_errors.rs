@@ -8,6 +8,8 @@ use cav::case::{Case, CaseErrors};
 
 #[path = "case_errors/bad.rs"]
 mod bad;
+#[path = "case_errors/bubble.rs"]
+mod bubble;
 mod fixture;
 #[path = "case_errors/good.rs"]
 mod good_cases;
@@ -62,7 +64,7 @@ fn every_bad_case_is_refused_with_key_and_remedy() {
     assert!(BAD.len() >= 35);
     good();
     let mut wrong = String::new();
-    for (number, (edit, fragments)) in BAD.iter().enumerate() {
+    for (number, (edit, fragments)) in BAD.iter().chain(bubble::BAD).enumerate() {
         match read(edit) {
             Ok(_) => wrong += &format!("row {number} ({fragments:?}) was accepted\n"),
             Err(errors) => {

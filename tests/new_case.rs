@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use cav::case::Case;
-use cav::case::new::{Collapse, FreeBubble, ShockedBubble, Wall, WallLoad};
+use cav::case::new::{Collapse, FreeBubble, LaserBubble, ShockedBubble, Wall, WallLoad};
 
 fn cav(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_cav")).args(arguments).output().expect("cav starts")
@@ -110,6 +110,25 @@ fn every_kind_writes_cases_without_a_warning() {
             }
         }
     }
+    for (radius, equilibrium_radius, pressure, stand_off) in
+        [(20e-6, 184.1e-6, 1e5, None), (50e-6, 0.3e-3, 1e6, Some(1.2)), (1e-5, 1e-4, 1e5, Some(0.3))]
+    {
+        for wall in ["rigid", "steel"].map(|wall| Wall::named(wall).expect("a wall")) {
+            let asked = LaserBubble {
+                radius,
+                equilibrium_radius,
+                left_radius: stand_off.map(|_| 0.4 * equilibrium_radius),
+                pressure,
+                stand_off,
+                wall,
+                ..LaserBubble::default()
+            };
+            let case = read(&asked.text().expect("a case"));
+            let cells = case.cells_per_radius().expect("a bubble");
+            assert!((16.0..32.1).contains(&cells), "{cells}");
+            assert!(case.fluid.as_ref().is_some_and(|fluid| fluid.bubble.is_some()));
+        }
+    }
     for cells_per_radius in [4.0, 33.3, 200.0] {
         read(&FreeBubble { cells_per_radius, ..FreeBubble::default() }.text().expect("a case"));
         let load =
@@ -130,6 +149,8 @@ fn what_makes_no_case_is_named_with_what_is_allowed() {
         (["collapse", "--radius", "1psi"], "give a number with m, cm, mm"),
         (["load", "--wall", "rigid"], "a rigid wall takes no load"),
         (["load", "--duration", "1mm"], "give a number with s, ms"),
+        (["laser", "--equilibrium-radius", "30um"], "equilibrium_radius: must be larger, got 3e-5"),
+        (["laser", "--left-radius", "1mm"], "left_radius: must be less than R_n, got 0.001"),
         (["free", "--cells-per-radius", "nan"], "cells_per_radius: must be from 4 to 2000"),
         (["shock", "--amplitude", "-1MPa"], "amplitude: must be positive"),
     ] {
@@ -145,7 +166,7 @@ fn what_makes_no_case_is_named_with_what_is_allowed() {
 #[test]
 fn kinds_are_listed_and_cases_drawn() {
     let listed = text(&cav(&["new"]).stdout);
-    for kind in ["cav new collapse", "cav new free", "cav new shock", "cav new load"] {
+    for kind in ["cav new collapse", "cav new free", "cav new laser", "cav new shock", "cav new load"] {
         assert!(listed.contains(kind), "{listed}");
     }
     let directory = tempfile::tempdir().expect("a directory");

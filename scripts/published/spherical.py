@@ -6,10 +6,10 @@ from scipy.integrate import solve_ivp
 GAMMA, PI = 7.15, 3.046e8
 
 
-def gilmore(radius, gas, pressure, density, end, *, gas_gamma=1.4, covolume=0.0):
+def gilmore(radius, gas, pressure, density, end, *, gas_gamma=1.4, covolume=0.0, stiffness=PI):
     """Times and radii, s and m, of a bubble that begins at rest with a gas pressure; `covolume` is the share of the first volume
     that the gas's molecules keep for themselves."""
-    reference, start = pressure + PI, density
+    reference, start = pressure + stiffness, density
     sound = np.sqrt(GAMMA * reference / start)
 
     def gas_pressure(r, v):
@@ -20,7 +20,7 @@ def gilmore(radius, gas, pressure, density, end, *, gas_gamma=1.4, covolume=0.0)
     def rate(_, y):
         r, v = y
         p, p_t = gas_pressure(r, v)
-        share = (p + PI) / reference
+        share = (p + stiffness) / reference
         enthalpy = GAMMA / (GAMMA - 1.0) * reference / start * (share ** (1.0 - 1.0 / GAMMA) - 1.0)
         c = np.sqrt(sound**2 + (GAMMA - 1.0) * enthalpy)
         enthalpy_t = p_t / (start * share ** (1.0 / GAMMA))

@@ -1,5 +1,7 @@
 //! `cav check` and `cav materials`: what a case means in cells, steps, memory and time, before it is run.
 
+mod bubble;
+
 use std::fmt::Write as _;
 
 use coupler::Scheme;
@@ -35,6 +37,7 @@ pub fn report(case: &Case) -> String {
             near_wall(&mut text, &fluid.near_wall);
         }
         regions(&mut text, case, fluid);
+        bubble::bubble(&mut text, fluid);
         sides(&mut text, fluid);
     }
     if let (Some(solid), Some(memory)) = (&case.solid, case.solid_memory()) {
@@ -248,7 +251,10 @@ fn steps(text: &mut String, case: &Case) {
     let [most, guess] = run_time::estimate(case, [count(fluid), count(solid)]).map(duration);
     let assumed = format!("with {:.0} threads, release build", run_time::THREADS);
     let adapts = |grid: Option<&GridCase>| grid.is_some_and(|grid| grid.adaptation.is_some());
-    if adapts(case.fluid.as_ref().map(|side| &side.grid))
+    if case.fluid.as_ref().and_then(|fluid| fluid.bubble?.cells_per_radius).is_some() {
+        let words = "no estimate: the grid follows the bubble, and its cells and steps grow with it";
+        line(text, "run time", words);
+    } else if adapts(case.fluid.as_ref().map(|side| &side.grid))
         || adapts(case.solid.as_ref().map(|side| &side.grid))
     {
         let words = format!("{most} if all cells were on the finest level; a guess: {guess}");

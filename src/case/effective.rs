@@ -1,5 +1,7 @@
 //! A case written out in full, and its hash.
 
+mod bubble;
+
 use std::fmt::Write as _;
 
 use coupler::Scheme;
@@ -173,6 +175,9 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
         text.head("[[fluid.region]]");
         write_shape(text, &region.shape);
         write_state(text, &region.state);
+    }
+    if let Some(bubble) = &fluid.bubble {
+        bubble::write(text, bubble);
     }
     if let Some(shape) = &fluid.tracer {
         text.head("[fluid.tracer]");

@@ -27,6 +27,22 @@ pub(super) fn check(
     }
 }
 
+/// Gives a bubble that starts at its largest the liquid that begins to move from rest, where the case has that field.
+///
+/// - `is_free`: whether there is such a bubble, and the case does not say.
+pub(super) fn at_rest(
+    is_free: bool,
+    initial: &mut InitialCondition,
+    grid: &GridCase,
+    boundary: [Boundary; 4],
+    context: Context,
+) {
+    let domain = Domain { geometry: context.geometry, z: grid.z, r: grid.r };
+    if is_free && context.scheme.is_some() && RayleighField::between(initial, &domain, boundary).is_ok() {
+        initial.pressure = InitialPressure::Rayleigh;
+    }
+}
+
 fn remedy(error: RayleighError) -> String {
     let otherwise = |what: &str| format!("{what}, or take initial_pressure = \"uniform\"");
     match error {

@@ -1,5 +1,6 @@
 //! Case files: TOML in SI units, read into a validated [`Case`]. [`keys_page`] lists every key.
 
+mod bubble;
 mod check;
 mod cross;
 mod effective;
@@ -15,12 +16,14 @@ mod memory;
 pub mod new;
 mod read;
 mod read_adaptation;
+mod read_bubble;
 mod read_coupling;
 mod read_fluid;
 mod read_grid;
 mod read_medium;
 mod read_near_wall;
 mod read_plasticity;
+mod read_pulse;
 mod read_sensors;
 mod read_shape;
 mod read_solid;
@@ -50,6 +53,7 @@ use fluid::{
 use mesh::{Adaptation, Geometry, Limiter, Side};
 use solid::{InitialStress, Material, PotentialPulse, Weight};
 
+pub use bubble::{BubbleCase, ResetCase};
 pub use check::report;
 pub use error::{CaseError, CaseErrors};
 pub use keys::adaptation::DEFAULT_ADAPT_EVERY;
@@ -204,6 +208,8 @@ pub struct FluidCase {
     pub wave_epsilon: f64,
     /// Gravity along z, if any.
     pub gravity: Option<Gravity>,
+    /// The bubble that is described by what is in it, if one is.
+    pub bubble: Option<BubbleCase>,
     /// What acts besides.
     pub terms: TermsCase,
     /// Where the passive tracer is at t = 0, if there is one.

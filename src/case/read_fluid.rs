@@ -3,17 +3,19 @@
 use coupler::Scheme;
 use fluid::{
     Boundary, Gravity, InitialCondition, InitialPressure, Model, NobleAbelStiffenedGas, Phase, PhaseState,
-    Pulse, PulseShape, Region, RiemannSolver, Shape, Sharpening, StiffenedGas,
+    Pulse, Region, RiemannSolver, Shape, Sharpening, StiffenedGas,
 };
 use mesh::{Geometry, Limiter, Side};
 
 use super::keys::fluid::GAS;
+use super::read_bubble::{self, Described, Surroundings};
 use super::read_grid::{GridPlace, grid};
 use super::read_medium::{leaves_room, medium, refuse_covolumes};
 use super::read_near_wall::near_wall;
-use super::read_shape::{Kind, body, on_axis, shape};
-use super::read_terms::terms;
-use super::reader::{Faults, Given, Table, number, pair};
+use super::read_pulse::pulse;
+use super::read_shape::body;
+use super::read_terms::{TermsCase, terms};
+use super::reader::{Faults, Given, Table};
 use super::shared::{Context, boundaries, history};
 use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, scales};
 
@@ -58,20 +60,23 @@ pub(super) fn fluid(
         Some(table) => medium(table, Some(air), faults),
         None => Some(air),
     };
-    let setting = Setting {
+    let mut setting = Setting {
         liquid,
         gas,
         grid: placed.as_ref().map(|(grid, _)| grid.clone()),
         geometry: context.geometry,
     };
+    let terms = terms(&mut table, faults);
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
-    let initial = initial(&mut table, pressure.as_ref(), &setting, faults);
+    let (mut initial, bubble) = initial(&mut table, pressure.as_ref(), &terms, &mut setting, faults);
     let gravity = initial.as_ref().and_then(|initial| gravity(&mut table, initial, &setting, faults));
     let tracer = table.table("tracer", faults).and_then(|table| tracer(table, &setting, faults));
-    let terms = terms(&mut table, faults);
     let (mut boundary, named) = sides(&mut table, context, faults);
-    if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
+    let gas = setting.gas;
+    if let (Some(initial), Some(grid)) = (&mut initial, &setting.grid) {
         initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
+        let is_free = pressure.is_none() && bubble.as_ref().is_some_and(|bubble| bubble.is_largest);
+        initial_pressure::at_rest(is_free, initial, grid, boundary, context);
     }
     let inflow = inflow(&mut table, boundary, liquid, faults);
     if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
@@ -121,6 +126,7 @@ pub(super) fn fluid(
         scale_density,
         wave_epsilon: super::read_adaptation::DEFAULT_ERROR,
         gravity,
+        bubble: bubble.map(|bubble| bubble.case),
         terms,
         tracer,
     };
@@ -172,9 +178,10 @@ fn tracer(mut table: Table<'_>, setting: &Setting, faults: &mut Faults) -> Optio
 fn initial(
     table: &mut Table<'_>,
     pressure: Option<&Given<InitialPressure>>,
-    setting: &Setting,
+    terms: &TermsCase,
+    setting: &mut Setting,
     faults: &mut Faults,
-) -> Option<InitialCondition> {
+) -> (Option<InitialCondition>, Option<Described>) {
     let ambient = if table.has("ambient") {
         table.table("ambient", faults).and_then(|mut table| {
             let ambient = state(&mut table, Some(Phase::Liquid), setting, faults);
@@ -186,19 +193,51 @@ fn initial(
         table.missing("ambient", "write [fluid.ambient] with density and pressure", faults);
         None
     };
+    let bubble = bubble(table, (ambient, terms), setting, faults);
     let regions: Vec<Option<Region>> =
         table.tables("region", faults).into_iter().map(|table| region(table, setting, faults)).collect();
     let pulses: Vec<Option<Pulse>> = table
         .tables("pulse", faults)
         .into_iter()
-        .map(|table| pulse(table, setting, ambient, faults))
+        .map(|table| pulse(table, setting.geometry, setting.liquid, ambient, faults))
         .collect();
-    Some(InitialCondition {
-        ambient: ambient?,
-        pressure: pressure.map_or(InitialPressure::Uniform, |given| given.value),
-        regions: regions.into_iter().collect::<Option<_>>()?,
-        pulses: pulses.into_iter().collect::<Option<_>>()?,
-    })
+    let described = bubble.iter().filter_map(|bubble| bubble.region).map(Some);
+    let whole = || {
+        Some(InitialCondition {
+            ambient: ambient?,
+            pressure: pressure.map_or(InitialPressure::Uniform, |given| given.value),
+            regions: described.chain(regions).collect::<Option<_>>()?,
+            pulses: pulses.into_iter().collect::<Option<_>>()?,
+        })
+    };
+    let initial = whole();
+    if let (Some(bubble), Some(initial)) = (&bubble, &initial) {
+        read_bubble::check_region(bubble, initial, faults);
+    }
+    (initial, bubble)
+}
+
+/// The bubble that is described by what is in it; the gas gets the γ that it has with its vapour.
+fn bubble(
+    table: &mut Table<'_>,
+    (ambient, terms): (Option<PhaseState>, &TermsCase),
+    setting: &mut Setting,
+    faults: &mut Faults,
+) -> Option<Described> {
+    let table = table.table("bubble", faults)?;
+    let Setting { gas, grid, geometry, .. } = setting;
+    let around = Surroundings {
+        ambient,
+        gas: *gas,
+        grid: grid.as_ref(),
+        geometry: *geometry,
+        surface_tension: terms.surface_tension.unwrap_or(0.0),
+    };
+    let described = read_bubble::bubble(table, &around, faults)?;
+    if let (Some(gas), Some(gamma)) = (gas, described.gamma) {
+        gas.gamma = gamma;
+    }
+    Some(described)
 }
 
 /// A uniform state; its pressure must be one that its phase can have.
@@ -246,69 +285,6 @@ fn region(mut table: Table<'_>, setting: &Setting, faults: &mut Faults) -> Optio
     let shape = body(&mut table, setting.grid.as_ref(), setting.geometry, faults);
     table.finish(faults);
     Some(Region { shape: shape?, state: state? })
-}
-
-fn pulse(
-    mut table: Table<'_>,
-    setting: &Setting,
-    ambient: Option<PhaseState>,
-    faults: &mut Faults,
-) -> Option<Pulse> {
-    let kind = shape(&mut table, &[("sphere", Kind::Sphere), ("plane", Kind::Plane)], faults)?;
-    let centre = centre(&mut table, kind, faults);
-    let width = table.required_positive("width", faults);
-    let amplitude = table.required("amplitude", faults);
-    let shape = if kind == Kind::Sphere {
-        if let Some(centre) = &centre {
-            on_axis(centre, setting.geometry, faults);
-        }
-        Some(PulseShape::Sphere)
-    } else {
-        let given = table.pair("direction", faults);
-        let faulty = given.is_none() && table.has("direction");
-        let direction = given.map(|given| unit(&given, setting.geometry, faults));
-        (!faulty).then_some(PulseShape::Plane { direction })
-    };
-    table.finish(faults);
-    let (amplitude, centre) = (amplitude?, centre?);
-    if let (Some(ambient), Some(liquid)) = (ambient, setting.liquid) {
-        let lowest = ambient.pressure + amplitude.value;
-        if lowest + liquid.pi <= 0.0 {
-            let message =
-                format!("the pressure at the pulse's centre would be {lowest:?} Pa, where p + pi > 0 fails");
-            faults.of(&amplitude, message, "give a smaller amplitude");
-        }
-    }
-    Some(Pulse { shape: shape?, centre: centre.value, width: width?, amplitude: amplitude.value })
-}
-
-/// `[z, r]`, or for a plane only z.
-fn centre(table: &mut Table<'_>, kind: Kind, faults: &mut Faults) -> Option<Given<[f64; 2]>> {
-    let Some(given) = table.raw("centre") else {
-        table.missing("centre", "give `centre = [z, r]` in m", faults);
-        return None;
-    };
-    let unit = table.unit("centre");
-    let value = if kind == Kind::Plane && !given.value.is_array() {
-        number(&given, &unit, faults).map(|z| [z, 0.0])
-    } else {
-        pair(&given, &format!("{unit}, as [z, r]"), faults)
-    };
-    Some(Given { value: value?, path: given.path, span: given.span })
-}
-
-/// The direction at length one; a direction that has it already stays as it is, to the last bit.
-fn unit(given: &Given<[f64; 2]>, geometry: Geometry, faults: &mut Faults) -> [f64; 2] {
-    let [z, r] = given.value;
-    let length = z.hypot(r);
-    if length == 0.0 {
-        faults.of(given, "has no length", "give [1.0, 0.0] for up, [-1.0, 0.0] for down");
-    }
-    if geometry == Geometry::Axisymmetric && r != 0.0 {
-        let message = format!("a plane wave in axisymmetric geometry goes along z, got [{z:?}, {r:?}]");
-        faults.of(given, message, "give [1.0, 0.0] or [-1.0, 0.0], or take geometry = \"planar\"");
-    }
-    if (length - 1.0).abs() < 1e-14 { [z, r] } else { [z / length, r / length] }
 }
 
 /// The sides, and the span of each that the case names. Open ones have a far field if it does not, see [`far_field::decide`].

@@ -71,7 +71,7 @@ pub(super) fn body(
     }
 }
 
-fn extent(grid: &GridCase) -> String {
+pub(super) fn extent(grid: &GridCase) -> String {
     let ([z0, z1], [r0, r1]) = (grid.z, grid.r);
     format!("the fluid is z = {z0:?} to {z1:?} m, r = {r0:?} to {r1:?} m")
 }

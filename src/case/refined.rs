@@ -39,6 +39,11 @@ impl Case {
             all.push(format!("{side}.levels={}", grid.levels + halvings));
             all.extend(bounds(side, grid, &table, halvings));
         }
+        // The grid that follows a bubble does so with halved cells.
+        let followed = case.fluid.as_ref().and_then(|fluid| fluid.bubble?.cells_per_radius);
+        if let Some(cells) = followed {
+            all.push(format!("fluid.bubble.cells_per_radius={:?}", cells * (halvings as f64).exp2()));
+        }
         Self::read(text, name, shown, &all).map(|case| (case, all))
     }
 }

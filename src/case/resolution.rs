@@ -11,13 +11,12 @@ use super::Case;
 const MEAN_SHARE: f64 = 1.0 / 12.0;
 
 impl Case {
-    /// Finest fluid cells along the radius of the first region, by their larger width; `None` unless that is a ball of gas.
+    /// Finest fluid cells along the radius of the first region at the start, by their larger width; `None` unless that is a ball of gas.
     pub fn cells_per_radius(&self) -> Option<f64> {
         let fluid = self.fluid.as_ref()?;
         let region = fluid.initial.regions.first().filter(|region| region.state.phase == Phase::Gas)?;
         let Shape::Sphere { radius, .. } = region.shape else { return None };
-        let [h_z, h_r] = fluid.grid.cell_size();
-        Some(radius / h_z.max(h_r))
+        Some(radius / fluid.first_cell())
     }
 
     /// Over how long the wall pressure's running mean is taken, s: `output.mean_time`, else R/(12 c) with the equivalent radius R of the

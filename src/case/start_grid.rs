@@ -78,7 +78,9 @@ impl Place {
             (Medium::Fluid, Some(fluid)) => fluid.initial.asks_for_finer(self.low, self.high, self.widths),
             _ => false,
         };
-        let mut wanted = if asks { grid.levels } else { grid.root_level() };
+        let finest =
+            if asks { case.fluid.as_ref().map_or(grid.levels, |fluid| fluid.first_level()) } else { 0 };
+        let mut wanted = finest.max(grid.root_level());
         for bound in grid.adaptation.iter().flat_map(|adaptation| &adaptation.bounds) {
             if bound.zone.meets(self.low, self.high, self.widths, &domain) {
                 wanted = wanted.max(usize::from(bound.at_least)).min(usize::from(bound.at_most));

@@ -50,7 +50,9 @@ fn fluids(fluid: &FluidCase, cfl: f64) -> FirstStep {
         }
     };
     for (number, region) in initial.regions.iter().enumerate() {
-        see(of(&region.state, format!("fluid.region.{number}")));
+        let described = fluid.bubble.is_some_and(|bubble| bubble.region == number);
+        let by = if described { " (fluid.bubble)" } else { "" };
+        see(of(&region.state, format!("fluid.region.{number}{by}")));
     }
     // At a pulse's crest, and in an inflow, the liquid is compressed along its isentrope.
     let eos = fluid.eos(&initial.ambient);

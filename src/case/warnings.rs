@@ -50,8 +50,7 @@ impl Case {
 }
 
 fn fluid_warnings(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>) {
-    let [h_z, h_r] = fluid.grid.cell_size();
-    let widest = h_z.max(h_r);
+    let widest = fluid.first_cell();
     let initial = &fluid.initial;
     for (number, region) in initial.regions.iter().enumerate() {
         if let Shape::Sphere { radius, .. } = region.shape {

@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 use solid::Material;
 
 use crate::case::CaseErrors;
-use crate::case::new::{Collapse, Dimension, FreeBubble, ShockedBubble, Wall, WallLoad};
+use crate::case::new::{Collapse, Dimension, FreeBubble, LaserBubble, ShockedBubble, Wall, WallLoad};
 
 /// What `cav new` lists.
 const KINDS: &str = "\
@@ -12,6 +12,7 @@ cav new writes a short, commented case file to standard output:
 
   cav new collapse    a gas bubble collapses near a wall that may yield
   cav new free        a gas bubble collapses in unbounded liquid and rebounds
+  cav new laser       a laser bubble grows, collapses and rebounds
   cav new shock       a lithotripter's pulse collapses an air bubble near a wall
   cav new load        a given pressure on a wall, without a fluid: the pit
 
@@ -38,6 +39,8 @@ enum Kind {
     Collapse(CollapseArgs),
     /// A gas bubble collapses in unbounded liquid and rebounds.
     Free(FreeArgs),
+    /// A laser bubble grows, collapses and rebounds, free or near a wall.
+    Laser(LaserArgs),
     /// A lithotripter's pulse collapses an air bubble near a wall.
     Shock(ShockArgs),
     /// A given pressure on a wall, without a fluid: the pit.
@@ -46,6 +49,14 @@ enum Kind {
 
 fn length(text: &str) -> Result<f64, String> {
     Dimension::Length.parse(text)
+}
+
+/// A length, or `none`.
+#[derive(Clone, Copy)]
+struct LengthOrNone(Option<f64>);
+
+fn length_or_none(text: &str) -> Result<LengthOrNone, String> {
+    if text == "none" { Ok(LengthOrNone(None)) } else { length(text).map(|value| LengthOrNone(Some(value))) }
 }
 
 fn pressure(text: &str) -> Result<f64, String> {
@@ -101,6 +112,31 @@ struct FreeArgs {
     gas_pressure: f64,
     /// Finest cells per radius of the bubble.
     #[arg(long, value_name = "N", default_value_t = 40.0)]
+    cells_per_radius: f64,
+}
+
+#[derive(Args)]
+struct LaserArgs {
+    /// Radius at the start.
+    #[arg(long, value_parser = length, default_value = "20um")]
+    radius: f64,
+    /// Radius at which its gas would be in equilibrium.
+    #[arg(long, value_parser = length, default_value = "184.1um")]
+    equilibrium_radius: f64,
+    /// The same of the gas that is left after the first maximum; none: all of it.
+    #[arg(long, value_parser = length_or_none, default_value = "64um")]
+    left_radius: LengthOrNone,
+    /// Pressure of the liquid far away.
+    #[arg(long, value_parser = pressure, default_value = "1bar")]
+    pressure: f64,
+    /// Distance of the bubble's centre from a wall, in largest radii; without it there is no wall.
+    #[arg(long, value_name = "D/R", allow_negative_numbers = true)]
+    stand_off: Option<f64>,
+    /// A material of the library, a short name such as steel, or rigid.
+    #[arg(long, value_parser = Wall::named, default_value = "rigid", requires = "stand_off")]
+    wall: Wall,
+    /// Cells along the present radius of the bubble, at least.
+    #[arg(long, value_name = "N", default_value_t = 16.0)]
     cells_per_radius: f64,
 }
 
@@ -162,6 +198,16 @@ pub(super) fn text(args: New) -> Result<String, CaseErrors> {
         Kind::Free(FreeArgs { radius, pressure, gas_pressure, cells_per_radius }) => {
             FreeBubble { radius, pressure, gas_pressure, cells_per_radius }.text()
         }
+        Kind::Laser(asked) => LaserBubble {
+            radius: asked.radius,
+            equilibrium_radius: asked.equilibrium_radius,
+            left_radius: asked.left_radius.0,
+            pressure: asked.pressure,
+            stand_off: asked.stand_off,
+            wall: asked.wall,
+            cells_per_radius: asked.cells_per_radius,
+        }
+        .text(),
         Kind::Shock(ShockArgs { radius, pressure, amplitude, stand_off, wall, cells_per_radius }) => {
             ShockedBubble { radius, pressure, amplitude, stand_off, wall, cells_per_radius }.text()
         }

@@ -51,6 +51,7 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         scales: scales(fluid),
         gravity: fluid.gravity,
         viscosity: fluid.terms.viscosity,
+        followed: fluid.followed_bubble(),
         tracer: fluid.tracer,
     }
 }

@@ -172,11 +172,24 @@ fn table() -> String {
     yielding_by("end = 1e-7\n", "", law)
 }
 
+/// A bubble by what is in it, which grows and whose gas is cut, on a grid that follows it.
+fn laser() -> String {
+    let lines = grid([0.0, 0.01], 0.01, [16, 16]) + "levels = 2\n";
+    let text = [
+        "[time]\nend = 2e-7\n",
+        &water(&lines, 1e6),
+        "[fluid.bubble]\ncentre = [0.005, 0.0]\nradius = 1e-3\nequilibrium_radius = 2e-3\nvapour_pressure = 2339.0\n\
+         vapour_gamma = 1.33\ngas_density = 100.0\ntemperature = 300.0\nsurface_tension = 0.07\ncells_per_radius = 6.0\n\
+         reset = { equilibrium_radius = 5e-4 }\n[coupling]\nscheme = \"none\"\n",
+    ];
+    text.concat()
+}
+
 /// The numbers of its `[coupling]` are tried in two processes.
 pub const IN_TWO: &str = "full";
 
 /// By name.
-pub fn all() -> [(&'static str, String); 6] {
+pub fn all() -> [(&'static str, String); 7] {
     [
         ("full", full()),
         ("strong", strong()),
@@ -184,5 +197,6 @@ pub fn all() -> [(&'static str, String); 6] {
         ("rayleigh", rayleigh()),
         ("yielding", yielding()),
         ("table", table()),
+        ("laser", laser()),
     ]
 }

@@ -13,8 +13,8 @@ use cav::run::process::stop::Stop;
 use cav::run::record::conclusion::conclude;
 use cav::run::side::fluid_side::Turn;
 
-use crate::cases::{coupled, fluid_alone, loaded, second_bubble, solid};
-use crate::compare::{assert_same, datasets};
+use crate::cases::{coupled, fluid_alone, growing, loaded, second_bubble, solid};
+use crate::compare::{assert_same, datasets, summary};
 use crate::processes::without_processes;
 
 /// Never, within a test.
@@ -166,6 +166,48 @@ fn a_fluid_alone() {
     let _turn = without_processes();
     check("fluid", &fluid_alone(), &[], 43);
     check("fluid, local", &fluid_alone(), &["time.local_steps=true", "fluid.model=five-equation"], 17);
+}
+
+#[test]
+fn a_bubble_that_grows_and_whose_gas_is_cut() {
+    let _turn = without_processes();
+    check("cut", &growing(), &[], 43);
+    check(
+        "cut, local, the paper's mixture",
+        &growing(),
+        &["time.local_steps=true", "fluid.model=saurel-abgrall"],
+        17,
+    );
+    // It has been cut, once, and the ledgers know.
+    let case = Case::from_toml(&growing(), "cut", &[]).unwrap();
+    let workshop = tempfile::tempdir().unwrap();
+    undisturbed(&case, &workshop.path().join("run"));
+    let told = summary(&workshop.path().join("run"));
+    let number = |key: &str| told[key].as_f64().unwrap_or_else(|| panic!("no {key} in {told:#}"));
+    assert!(number("reset_time") < number("collapse_time"), "{told:#}");
+    assert!((number("reset_time") / number("growth_time") - 1.0).abs() < 0.02, "{told:#}");
+    assert!((number("reset_equivalent_radius") / number("max_equivalent_radius") - 1.0).abs() < 1e-3);
+    let kept = number("reset_gas_mass_after") / number("reset_gas_mass_before");
+    assert!((kept / 0.125 - 1.0).abs() < 0.2, "{kept}");
+    let history = hdf5::File::open(workshop.path().join("run/history.h5")).unwrap();
+    let column = |name: &str| -> Vec<f64> {
+        history.dataset(&format!("conservation/fluid/{name}")).unwrap().read_raw().unwrap()
+    };
+    let [mass, energy, floor] = ["mass", "energy", "energy_from_floor"].map(column);
+    let sides = |what: &str| -> Vec<f64> {
+        let all = ["z_min", "z_max", "r_min", "r_max"].map(|side| column(&format!("{what}_in_{side}")));
+        (0..mass.len()).map(|row| all.iter().map(|side| side[row]).sum()).collect()
+    };
+    let (mass_in, energy_in) = (sides("mass"), sides("energy"));
+    let [cut_mass, cut_energy] = ["mass_from_reset", "energy_from_reset"].map(column);
+    assert!(cut_mass[0] == 0.0 && cut_mass.last().is_some_and(|cut| *cut < 0.0));
+    for row in 0..mass.len() {
+        let off = [
+            (mass[row] - mass[0] - mass_in[row] - cut_mass[row]) / mass[0],
+            (energy[row] - energy[0] - energy_in[row] - cut_energy[row] - floor[row]) / energy[0],
+        ];
+        assert!(off.iter().all(|part| part.abs() < 1e-12), "row {row}: {off:?}");
+    }
 }
 
 #[test]

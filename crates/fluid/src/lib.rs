@@ -6,6 +6,7 @@
 
 mod analysis;
 mod boundary;
+mod bubble;
 mod components;
 mod diagnostics;
 mod error;
@@ -27,6 +28,8 @@ mod two_phase;
 pub use analysis::Scales;
 pub use boundary::PressureHistory;
 pub use boundary::far_field::{FarField, FarFieldError};
+pub use bubble::content::{BubbleContent, GasState};
+pub use bubble::rule::{BubbleReset, FollowedBubble, ResetReport};
 pub use diagnostics::bubble_cuts::{BubbleCuts, TRACE_GAS};
 pub use diagnostics::ledger::{BoundaryLedger, Fixups};
 pub use diagnostics::{AxisState, Bubble, CELL_FIELDS, Snapshot, Totals, WallPressures};

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::far_field::FarFieldMemory;
+use crate::bubble::follow::Following;
+use crate::bubble::look::follow_bubble;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
 use crate::state::conserved::{PHI, RHO};
@@ -25,6 +27,7 @@ pub struct FluidMemory {
     far: FarFieldMemory,
     fixups: Fixups,
     ledger: BoundaryLedger,
+    bubble: Option<Following>,
 }
 
 impl Fluid {
@@ -216,6 +219,10 @@ impl<const N: usize> Model<N> for Fluid {
         near_wall::demanded_levels(&self.near_wall, (mesh, field, &self.mixture), base, travel)
     }
 
+    fn finest_for_details(&self, mesh: &Mesh<N>, base: u8) -> u8 {
+        self.follower.as_ref().map_or(base, |follower| follower.finest_for_details(mesh, base))
+    }
+
     /// How many predictions are limited is counted.
     fn remap(
         &mut self,
@@ -230,6 +237,7 @@ impl<const N: usize> Model<N> for Fluid {
     }
 
     fn whole_step_ended(solver: &mut BlockSolver<Self, N>) {
+        follow_bubble(solver);
         follow_sources(solver);
     }
 
@@ -239,13 +247,19 @@ impl<const N: usize> Model<N> for Fluid {
             // Those of the traces shown are among them.
             fixups: self.tally.all_fixups(),
             ledger: self.tally.ledger,
+            bubble: self.follower.as_ref().map(|follower| follower.now.clone()),
         }
     }
 
     fn restore(&mut self, memory: FluidMemory) -> Result<(), Misfit> {
-        let FluidMemory { far, fixups, ledger } = memory;
+        let FluidMemory { far, fixups, ledger, bubble } = memory;
         if !far.impulses.fits(&self.far.impulses) {
             return Err(Misfit("the far field's faces are not those of the fluid's sides".to_owned()));
+        }
+        match (&mut self.follower, bubble) {
+            (Some(own), Some(saved)) => own.now = saved,
+            (None, None) => {}
+            _ => return Err(Misfit("only one of both follows a bubble".to_owned())),
         }
         self.far = far;
         self.tally = Tally { fixups, ledger, scaled_traces: SharedCount::default() };

@@ -7,6 +7,7 @@ use mesh::{Limiter, Mesh, Step};
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::far_field::{FarFieldMemory, Moment};
+use crate::bubble::follow::Follower;
 use crate::components::Component;
 use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
@@ -26,6 +27,8 @@ pub struct Fluid {
     pub(crate) far: FarFieldMemory,
     pub(crate) analysis: Analysis,
     pub(crate) near_wall: NearWall,
+    /// The bubble that is followed, if one is.
+    pub(crate) follower: Option<Follower>,
     /// Whether there is gas in each block, or will be at the end of the step it is in, as the reports have it.
     pub(crate) has_gas: Vec<bool>,
     /// Slots of the blocks along r_min, in order.

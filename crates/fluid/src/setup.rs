@@ -6,8 +6,8 @@ use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
 use crate::{
-    Boundary, FarField, Gravity, Model, NearWall, NobleAbelStiffenedGas, RiemannSolver, Shape, Sharpening,
-    StiffenedGas, Viscosity,
+    Boundary, FarField, FollowedBubble, Gravity, Model, NearWall, NobleAbelStiffenedGas, RiemannSolver,
+    Shape, Sharpening, StiffenedGas, Viscosity,
 };
 
 /// Everything that defines a fluid.
@@ -47,6 +47,8 @@ pub struct FluidSetup {
     pub gravity: Option<Gravity>,
     /// Viscosity of both phases, if any; the fluid then sticks to walls.
     pub viscosity: Option<Viscosity>,
+    /// The bubble that the grid follows, or whose gas is cut, if any.
+    pub followed: Option<FollowedBubble>,
     /// Where there is a passive tracer at t = 0, if any: its mass fraction is 1 within and 0 beyond.
     pub tracer: Option<Shape>,
 }
@@ -73,6 +75,7 @@ impl FluidSetup {
             scales: Scales { pressure: 1e6, density: 1e3 },
             gravity: None,
             viscosity: None,
+            followed: None,
             tracer: None,
         }
     }

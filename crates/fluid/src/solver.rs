@@ -7,6 +7,8 @@ use mesh::{BlockSolver, Domain, SavedBlocks, Side, SideStates};
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::far_field::FarFieldMemory;
+use crate::bubble::follow::Follower;
+use crate::bubble::look::follow_bubble;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::initial::fill;
 use crate::model::FluidMemory;
@@ -105,11 +107,13 @@ impl<const N: usize> FluidSolver<N> {
             carried: components::of(setup),
             analysis,
             near_wall: setup.near_wall,
+            follower: setup.followed.clone().map(Follower::new),
             tally: Tally::default(),
             mixture,
         };
         let scratch = || BlockScratch::new(components, carried_count);
         let mut blocks = BlockSolver::new(fluid, mesh, state, setup.adaptation.clone(), scratch)?;
+        follow_bubble(&mut blocks);
         follow_sources(&mut blocks);
         Ok(Self(blocks))
     }

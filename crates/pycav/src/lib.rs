@@ -43,7 +43,7 @@ mod _pycav {
     #[pymodule_export]
     use super::launch::{convergence, main, run_in_processes};
     #[pymodule_export]
-    use super::new::{new_collapse, new_free_bubble, new_shocked_bubble, new_wall_load};
+    use super::new::{new_collapse, new_free_bubble, new_laser_bubble, new_shocked_bubble, new_wall_load};
     #[pymodule_export]
     use super::runs::runs;
     #[pymodule_export]

@@ -1,7 +1,7 @@
 //! Cases for what is asked most often, as `cav new` writes them.
 
 use cav::case::CaseErrors;
-use cav::case::new::{Collapse, FreeBubble, ShockedBubble, Wall, WallLoad};
+use cav::case::new::{Collapse, FreeBubble, LaserBubble, ShockedBubble, Wall, WallLoad};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -41,6 +41,23 @@ pub fn new_free_bubble(
     cells_per_radius: f64,
 ) -> PyResult<Case> {
     case(FreeBubble { radius, pressure, gas_pressure, cells_per_radius }.text(), "free")
+}
+
+/// A laser bubble, free or near a wall; the arguments of `cav new laser`, SI.
+#[pyfunction]
+pub fn new_laser_bubble(
+    radius: f64,
+    equilibrium_radius: f64,
+    left_radius: Option<f64>,
+    pressure: f64,
+    stand_off: Option<f64>,
+    wall_name: &str,
+    cells_per_radius: f64,
+) -> PyResult<Case> {
+    let wall = wall(wall_name)?;
+    let asked =
+        LaserBubble { radius, equilibrium_radius, left_radius, pressure, stand_off, wall, cells_per_radius };
+    case(asked.text(), "laser")
 }
 
 /// A lithotripter's pulse and an air bubble near a wall; the arguments of `cav new shock`, SI.

@@ -1,8 +1,9 @@
 //! The pages that texts on keys lead to.
 
 /// Name, then the page from the repository's root, with the heading.
-pub(super) const LINKS: [(&str, &str); 18] = [
+pub(super) const LINKS: [(&str, &str); 20] = [
     ("absorbing", "docs/theory/absorbing-sides.md"),
+    ("bubble", "docs/theory/bubble-content.md"),
     ("eos", "docs/theory/equations-of-state.md"),
     ("far-field", "docs/theory/far-field.md"),
     ("far-sides", "docs/verification/distant-sides.md"),
@@ -15,6 +16,7 @@ pub(super) const LINKS: [(&str, &str); 18] = [
     ("participants", "docs/guide/own-solver.md"),
     ("plasticity", "docs/theory/plasticity.md"),
     ("refine", "docs/verification/convergence.md#the-grids"),
+    ("reset", "docs/theory/bubble-content.md#the-cut-at-the-largest-radius"),
     ("sensors", "docs/reference/output-histories.md#sensors-every-step-sensorsname"),
     ("start", "docs/reference/cases.md#the-pressure-of-the-start"),
     ("steps", "docs/theory/time-steps.md#steps-of-their-own"),

@@ -1,6 +1,7 @@
 //! The keys of a case file, declared once: the reader looks every key up here, and so do `cav keys` and the page on keys.
 
 pub(super) mod adaptation;
+pub(super) mod bubble;
 pub(super) mod coupling;
 mod declared;
 mod find;
@@ -27,11 +28,12 @@ pub use page::keys_page;
 
 /// All that is declared, in the order in which it is told.
 fn sections() -> impl Iterator<Item = &'static Section> {
-    let parts: [&[Section]; 12] = [
+    let parts: [&[Section]; 13] = [
         &time::TIME,
         &fluid::FLUID,
         &terms::TERMS,
         &start::START,
+        &bubble::BUBBLE,
         &sides::SIDES_OF_FLUID,
         &adaptation::ADAPTATION_OF_FLUID,
         &solid::SOLID,

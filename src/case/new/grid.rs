@@ -27,6 +27,11 @@ impl Blocks {
         Self { width: self.width, levels: self.levels.saturating_sub(1) }
     }
 
+    /// The same blocks, halved so many times more.
+    pub fn finer(&self, times: u32) -> Self {
+        Self { width: self.width, levels: self.levels + times }
+    }
+
     /// How many blocks cover so much, at least.
     fn covering(&self, reach: f64) -> usize {
         // A reach that is a whole number of blocks but for round-off.

@@ -6,7 +6,9 @@
 mod checks;
 mod collapse;
 mod free;
+mod gilmore;
 mod grid;
+mod laser;
 mod load;
 mod parts;
 mod quantity;
@@ -15,6 +17,7 @@ mod wall;
 
 pub use collapse::Collapse;
 pub use free::FreeBubble;
+pub use laser::LaserBubble;
 pub use load::WallLoad;
 pub use quantity::Dimension;
 pub use shock::ShockedBubble;

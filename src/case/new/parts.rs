@@ -5,7 +5,7 @@ use fluid::StiffenedGas;
 use super::super::scales::RAYLEIGH_FACTOR;
 
 /// Water, with π in Pa.
-const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
+pub(super) const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 /// Water: kg/m³.
 pub(super) const DENSITY: f64 = 1000.0;
 /// By how much of R/d a rigid wall at the distance d lengthens the collapse (the image bubble's first-order term).

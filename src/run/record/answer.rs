@@ -74,11 +74,21 @@ fn bubble(summary: Summary<'_>) -> Option<String> {
             si(first, "m")
         ));
     };
+    // Of a bubble that grows first, the largest radius is what its collapse starts from.
+    let largest = summary.number("growth_time").zip(summary.number("max_equivalent_radius"));
+    let (grows, from, whole) = match largest {
+        Some((grown, largest)) => (
+            format!("The bubble grows to {} at {}. It", si(largest, "m"), si(grown, "s")),
+            largest,
+            "largest",
+        ),
+        None => ("The bubble".to_owned(), first, "first"),
+    };
     let mut words = format!(
-        "The bubble is smallest at {}: {}, {} of its first radius.",
+        "{grows} is smallest at {}: {}, {} of its {whole} radius.",
         si(time, "s"),
         si(smallest, "m"),
-        percent(smallest / first)
+        percent(smallest / from)
     );
     if let Some(jet) = summary.number("jet_velocity_peak").filter(|jet| *jet > 0.0) {
         words += &format!(" On the axis liquid runs towards the wall with up to {}.", si(jet, "m/s"));
@@ -217,6 +227,11 @@ mod tests {
             text.contains("speaks against it. By a study: all of it.") && !text.contains("--refine"),
             "{text}"
         );
+        summary["growth_time"] = json!(1e-6);
+        summary["max_equivalent_radius"] = json!(1.56e-3);
+        let grown = told(&summary);
+        let words = "The bubble grows to 1.56 mm at 1 µs. It is smallest at 7.82 µs: 78 µm, 5.0 % of its largest radius.";
+        assert!(grown.contains(words), "{grown}");
         summary["surface_still"] = json!(0.3);
         summary["wall_pressure_peak_anywhere"] = json!(6e8);
         summary["warnings"] = json!(["one"]);

@@ -17,11 +17,13 @@ use crate::run::side::wall_faces::WallFaces;
 
 mod columns;
 mod conservation;
+mod cut;
 mod files;
 mod fixups;
 pub mod saved;
 
 use columns::{BUBBLE_COLUMNS, PROBE_COLUMNS, STEP_COLUMNS};
+use cut::CutRecord;
 
 /// Everything that the fluid's side writes.
 pub struct FluidRecord {
@@ -33,6 +35,8 @@ pub struct FluidRecord {
     bubbles: Option<SeriesId>,
     interface: Option<InterfaceHistory>,
     conservation: SeriesId,
+    /// What the cut of a bubble's gas adds to it, in cases with one.
+    cut: CutRecord,
     ticker: Ticker,
     probes: Vec<ProbeSeries>,
     faces: WallFaces,
@@ -108,6 +112,7 @@ impl FluidRecord {
             None => None,
         };
         let conservation = history.add_series("/conservation/fluid", &conservation::COLUMNS)?;
+        let cut = CutRecord::create(solver, history)?;
         let interface_z = case.solid.as_ref().map(|_| mesh.domain().z[0]);
         let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, history)?;
         Ok(Self {
@@ -116,6 +121,7 @@ impl FluidRecord {
             clips,
             interface,
             conservation,
+            cut,
             ticker: Ticker::of(case),
             probes,
             faces,
@@ -245,6 +251,7 @@ impl FluidRecord {
         }
         if due {
             history.push(self.conservation, &conservation::row(solver))?;
+            self.cut.write(solver, history)?;
         }
         for probe in &mut self.probes {
             let Some(state) = solver.sample(probe.probe.position) else { continue };
@@ -274,12 +281,16 @@ impl FluidRecord {
             Geometry::Planar => (volume / std::f64::consts::PI).sqrt(),
         };
         let collapse = self.collapse.found();
+        let grown = self.collapse.grown();
+        let largest = self.collapse.largest().filter(|largest| largest.volume > 0.0);
         let with_wall = self.interface.is_some();
         let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
         let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
         let value = json!({
             "collapse_time": collapse.map(|c| c.time),
             "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
+            "growth_time": grown.map(|largest| largest.time),
+            "max_equivalent_radius": largest.map(|largest| radius(largest.volume)),
             "final_equivalent_radius": self.last_bubble.equivalent_radius,
             "trace_gas_volume": self.last_bubble.trace_volume,
             "thin_gas_volume": self.last_bubble.thin_volume,
@@ -298,6 +309,7 @@ impl FluidRecord {
             Value::Object(mut map) => {
                 map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
                 map.extend(self.film.thinnest.summary());
+                map.extend(cut::summary(solver));
                 let masses = solver.carried_masses();
                 map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
                 map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));

@@ -89,7 +89,7 @@ impl<const N: usize> FluidSolver<N> {
     }
 }
 
-fn bubbles<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> Vec<Bubble> {
+pub(crate) fn bubbles<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> Vec<Bubble> {
     let geometry = fluid.mesh().domain().geometry;
     gas_sums(fluid, cuts).into_iter().map(|sums| sums.bubble(geometry)).collect()
 }

@@ -1,6 +1,6 @@
 //! The mesh that the initial condition asks for, filled with it.
 
-use mesh::{BlockId, Field, Mesh, Side};
+use mesh::{BlockId, Domain, Field, Mesh, Side};
 
 use crate::analysis::Analysis;
 use crate::setup::{AsksForFiner, InitialState};
@@ -26,8 +26,13 @@ pub(crate) fn initial_mesh<const N: usize>(
         let high = [0, 1].map(|axis| low[axis] + N as f64 * widths[axis]);
         if asks_for_finer(low, high, widths) { id.level + 1 } else { 0 }
     };
-    let adaptation = setup.adaptation.as_ref();
-    let base = adaptation.map_or(setup.levels, |adaptation| adaptation.base(setup.levels));
+    let FluidSetup { domain, coarsest, levels, .. } = *setup;
+    let ending = setup.adaptation.as_ref().map(|adaptation| {
+        let base = adaptation.base(levels);
+        adaptation.ending_at(followed_level(setup, base), levels)
+    });
+    let adaptation = ending.as_deref();
+    let base = adaptation.map_or(levels, |adaptation| adaptation.base(levels));
     let has_wall = setup.boundaries[Side::ZMin as usize].is_wall();
     // What moves is looked at again before it has moved far.
     let near = NearWall { shock_levels: 0, ..setup.near_wall };
@@ -39,6 +44,14 @@ pub(crate) fn initial_mesh<const N: usize>(
         }
         levels
     };
-    let FluidSetup { domain, coarsest, levels, .. } = *setup;
     Ok(Mesh::initial(domain, coarsest, levels, periodic, adaptation, analysis, fill, demanded)?)
+}
+
+/// The finest level that details may ask for at t = 0, `base` at the most.
+fn followed_level(setup: &FluidSetup, base: u8) -> u8 {
+    let Some(followed) = &setup.followed else { return base };
+    let FluidSetup { domain: Domain { z, r, .. }, coarsest, .. } = *setup;
+    let widths = [(z[1] - z[0]) / coarsest[0] as f64, (r[1] - r[0]) / coarsest[1] as f64];
+    let widest = widths[0].max(widths[1]);
+    followed.finest_level(followed.radius, |level| widest / f64::from(1u32 << level), base)
 }

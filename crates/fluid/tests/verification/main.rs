@@ -7,6 +7,7 @@ mod adaptive_error;
 mod beside_fast_gas;
 mod boundaries;
 mod bubble;
+mod bubble_cut;
 mod contact;
 mod covolumes;
 mod far_field;

@@ -31,10 +31,12 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let span = self.adapting.horizon.renew(settings.every, steps, self.progress.time, dt, longest);
         let travel = |slot: usize| 1.0 + span / crossing[slot];
         let (analysis, patches) = (self.model.analysis(), &self.adapting.patches);
-        let base = settings.base(self.mesh.tree().finest());
+        let finest = self.mesh.tree().finest();
+        let base = self.model.finest_for_details(&self.mesh, settings.base(finest));
+        let settings = settings.ending_at(base, finest);
         let demanded = self.model.demanded_levels(&self.mesh, &self.state, base, &travel);
         let at_least = |slot: usize| demanded.get(slot).copied().unwrap_or(0);
-        let adapted = self.mesh.adapted(&self.state, analysis, settings, patches, travel, at_least);
+        let adapted = self.mesh.adapted(&self.state, analysis, &settings, patches, travel, at_least);
         let Some(adapted) = adapted else { return false };
         self.model.remap(&adapted, (&self.mesh, &self.state), &self.adapting.patches, &mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
@@ -52,6 +54,11 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         }
         self.model.mesh_changed(&self.mesh);
         true
+    }
+
+    /// Takes notice that the cells of some blocks have been changed between two steps of the whole, see [`BlockSolver::state_mut`].
+    pub fn state_changed(&mut self, slots: impl IntoIterator<Item = usize>) {
+        self.measure(slots);
     }
 
     /// Takes the reports of some blocks from their cells, and those of all for the steps to come.

@@ -104,6 +104,12 @@ pub trait Model<const N: usize>: Sized + Sync {
     ) -> Vec<u8> {
         Vec::new()
     }
+    /// The finest level that details may ask for at present: `base`, that of the settings, or a coarser one.
+    ///
+    /// Thresholds are those of a grid that ends there, see [`crate::Adaptation::epsilon`].
+    fn finest_for_details(&self, _mesh: &Mesh<N>, base: u8) -> u8 {
+        base
+    }
     /// Carries a field over to another mesh.
     fn remap(
         &mut self,

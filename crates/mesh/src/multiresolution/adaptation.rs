@@ -1,5 +1,7 @@
 //! What a user says about adaptation; the machinery is in `patch.rs`, `marks.rs` and `remap.rs`.
 
+use std::borrow::Cow;
+
 use crate::{Domain, Side};
 
 /// How a grid adapts.
@@ -20,6 +22,14 @@ impl Adaptation {
     /// L, the finest level that details may ask for, of a tree whose finest is `finest`.
     pub fn base(&self, finest: u8) -> u8 {
         finest.saturating_sub(self.above)
+    }
+
+    /// The same with details that may ask for no level finer than `base`, in a tree whose finest is `finest`.
+    pub fn ending_at(&self, base: u8, finest: u8) -> Cow<'_, Self> {
+        if base >= self.base(finest) {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(Self { above: finest - base, ..self.clone() })
     }
 }
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .cells import Cells
     from ._hits import hits
     from ._report import report
-    from .new import collapse, free_bubble, shocked_bubble, wall_load
+    from .new import collapse, free_bubble, laser_bubble, shocked_bubble, wall_load
     from .result import Result, Snapshot
     from .result import open_run as open
     from ._run import run
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
     "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "bends", "collapse",
-    "consistent_runs", "convergence", "failures", "free_bubble", "hits", "materials", "open", "paraview_state",
+    "consistent_runs", "convergence", "failures", "free_bubble", "hits", "laser_bubble", "materials", "open", "paraview_state",
     "plot", "refine", "report", "run", "runs", "save_map", "shocked_bubble", "stand_off_map", "sweep", "theory", "units",
     "wall_load", "with_uncertainty",
 ]
@@ -48,7 +48,7 @@ _PLACES = {
     "Case": "case", "Cells": "cells", "Convergence": "_convergence", "FluidSolver": "solvers", "Material": "case", "Result": "result",
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
     "bends": "sweeps", "collapse": "new", "consistent_runs": "sweeps", "convergence": "_convergence",
-    "failures": "sweeps", "free_bubble": "new", "hits": "_hits", "materials": "case", "open": "result",
+    "failures": "sweeps", "free_bubble": "new", "hits": "_hits", "laser_bubble": "new", "materials": "case", "open": "result",
     "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "run": "_run", "runs": "_runs", "save_map": "sweeps",
     "shocked_bubble": "new", "stand_off_map": "sweeps", "sweep": "sweeps", "units": "exchange", "wall_load": "new",
     "with_uncertainty": "sweeps",

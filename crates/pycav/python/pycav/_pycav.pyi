@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Case", "CaseError", "CouplingError", "FluidSolver", "InternalError", "NumericalError", "OutputError", "RunError",
-    "Simulation", "SolidSolver", "convergence", "main", "materials", "new_collapse", "new_free_bubble", "new_shocked_bubble",
-    "new_wall_load", "run_in_processes", "runs",
+    "Simulation", "SolidSolver", "convergence", "main", "materials", "new_collapse", "new_free_bubble", "new_laser_bubble",
+    "new_shocked_bubble", "new_wall_load", "run_in_processes", "runs",
 ]
 
 _Array = NDArray[np.float64]
@@ -133,6 +133,10 @@ class SolidSolver(_Solver):
 
 def new_collapse(
     radius: float, pressure: float, stand_off: float, wall_name: str, gas_pressure: float, cells_per_radius: float, elastic: bool
+) -> Case: ...
+def new_laser_bubble(
+    radius: float, equilibrium_radius: float, left_radius: float | None, pressure: float, stand_off: float | None,
+    wall_name: str, cells_per_radius: float,
 ) -> Case: ...
 def new_free_bubble(radius: float, pressure: float, gas_pressure: float, cells_per_radius: float) -> Case: ...
 def new_shocked_bubble(

@@ -59,6 +59,40 @@ def free_bubble(
     return Case._of(_pycav.new_free_bubble(radius, pressure, gas_pressure, cells_per_radius))
 
 
+def laser_bubble(
+    radius: float = 20e-6,
+    equilibrium_radius: float = 184.1e-6,
+    left_radius: float | None = 64e-6,
+    pressure: float = 1e5,
+    stand_off: float | None = None,
+    wall: str = "rigid",
+    *,
+    cells_per_radius: float = 16.0,
+) -> Case:
+    """A laser bubble: a small one of high pressure that grows, collapses and rebounds, on a grid that follows it.
+
+    Parameters
+    ----------
+    radius
+        At the start, m.
+    equilibrium_radius
+        R_n of its gas, m: it starts with the pressure p∞ (R_n/R)^(3γ).
+    left_radius
+        R_n of the gas that is left when the bubble is at its largest, m; all of it stays with None.
+    pressure
+        Of the liquid far away, Pa.
+    stand_off
+        d/R_max, the distance of the bubble's centre from a wall in largest radii; far from any wall with None.
+    wall
+        As of `collapse`.
+    cells_per_radius
+        Along the present radius, at least.
+
+    Errors as of `collapse`.
+    """
+    return Case._of(_pycav.new_laser_bubble(radius, equilibrium_radius, left_radius, pressure, stand_off, wall, cells_per_radius))
+
+
 def shocked_bubble(
     radius: float = 1e-4,
     pressure: float = 1e5,

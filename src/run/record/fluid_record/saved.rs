@@ -88,6 +88,7 @@ impl FluidRecord {
             bubbles: _,
             interface,
             conservation: _,
+            cut: _,
             ticker,
             probes,
             faces: _,
