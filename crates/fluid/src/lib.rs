@@ -6,6 +6,7 @@
 
 mod analysis;
 mod boundary;
+mod capillarity;
 mod components;
 mod diagnostics;
 mod error;
@@ -44,5 +45,6 @@ pub use solver::{FluidSolver, FluidState};
 pub use state::Primitive;
 pub use step::clips::Clips;
 pub use terms::gravity::Gravity;
+pub use terms::surface_tension::SurfaceTension;
 pub use thermodynamics::eos::StiffenedGas;
 pub use thermodynamics::mixture::Mixture;

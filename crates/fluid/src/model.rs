@@ -167,6 +167,8 @@ impl<const N: usize> Model<N> for Fluid {
             ledger.energy[side] += energy;
             ledger.gas_mass[side] += gas_mass;
         }
+        ledger.tension_impulse += report.tension[0];
+        ledger.tension_work += report.tension[1];
         let id = mesh.tree().leaves()[slot];
         if let Some(states) = interface.states_of::<N>(slot) {
             let h_r = mesh.widths(id.level)[1];

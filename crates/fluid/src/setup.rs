@@ -5,7 +5,9 @@ use mesh::{Adaptation, Domain, Limiter};
 use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
-use crate::{Boundary, FarField, Gravity, Model, NearWall, RiemannSolver, Shape, Sharpening, StiffenedGas};
+use crate::{
+    Boundary, FarField, Gravity, Model, NearWall, RiemannSolver, Shape, Sharpening, StiffenedGas, SurfaceTension,
+};
 
 /// Everything that defines a fluid.
 #[derive(Clone, Debug)]
@@ -42,6 +44,8 @@ pub struct FluidSetup {
     pub scales: Scales,
     /// Gravity along z, if any.
     pub gravity: Option<Gravity>,
+    /// The tension of the interface between gas and liquid, if any.
+    pub surface_tension: Option<SurfaceTension>,
     /// Where there is a passive tracer at t = 0, if any: its mass fraction is 1 within and 0 beyond.
     pub tracer: Option<Shape>,
 }
@@ -67,6 +71,7 @@ impl FluidSetup {
             near_wall: NearWall::default(),
             scales: Scales { pressure: 1e6, density: 1e3 },
             gravity: None,
+            surface_tension: None,
             tracer: None,
         }
     }

@@ -4,8 +4,10 @@ use mesh::{Padded, Side, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
+use crate::capillarity::Interfaces;
 use crate::components::carried::CarriedCells;
 use crate::physics::FluidStep;
+use crate::reconstruction::capillary::level_slopes;
 use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
 use crate::reconstruction::predictor::{Predicted, Predictor, predict};
 use crate::state::COUNT;
@@ -88,6 +90,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if !gas.is_present() {
             scratch.without_gas();
         }
+        if let Some(tension) = ctx.model.terms.surface_tension() {
+            find_jumps(ctx, slot, tension, gas.is_present(), scratch);
+        }
         Self { ctx, slot, id, inverse_h, gas, limited_predictions, clipped_roots: 0 }
     }
 
@@ -127,6 +132,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         predict(scratch.cells.split(), predictor, out);
         even_slopes(self.ctx, self.slot, scratch);
         predict_beside_mirrors(self.ctx, self.slot, self.inverse_h, scratch);
+        if scratch.capillary.is_present() {
+            level_slopes(self.ctx, self.inverse_h, scratch);
+        }
         if let Some(gain) = self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt) {
             for (component, gain) in VELOCITY.into_iter().zip(gain) {
                 scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);
@@ -153,10 +161,10 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     /// What terms add to fluxes and cells, and what the mass carries with it: the fluxes are final then.
     pub(super) fn add_terms(&self, scratch: &mut BlockScratch<N>) {
         let ctx = self.ctx;
-        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } = scratch;
+        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, capillary, .. } = scratch;
         if !ctx.model.terms.is_empty() {
             let metric = &self.metric(face_weight, inverse_weight);
-            let block = TermBlock { cells: N, metric, half: half.split() };
+            let block = TermBlock { cells: N, metric, half: half.split(), capillary };
             with_sources.clear();
             with_sources.extend_from_slice(ctx.old.block(self.slot));
             ctx.model.terms.add(&block, [z_faces, r_faces], with_sources);
@@ -215,6 +223,19 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         }
     }
 
+    /// The axial momentum and the energy that surface tension has added to the block (per radian).
+    fn tension_gains(&self, scratch: &BlockScratch<N>) -> [f64; 2] {
+        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, capillary, .. } = scratch;
+        let mut gains = [0.0; 2];
+        let metric = self.metric(face_weight, inverse_weight);
+        capillary.for_gains(N, &metric, [&z_faces.velocity, &r_faces.velocity], |cell, [axial, _, work]| {
+            let volume = self.ctx.mesh.volume(self.id, cell / N);
+            gains[0] += volume * axial;
+            gains[1] += volume * work;
+        });
+        gains
+    }
+
     /// What the block tells of the step.
     pub(super) fn report(&self, scratch: &mut BlockScratch<N>, new: &[f64], report: &mut BlockReport<N>) {
         let ctx = self.ctx;
@@ -235,6 +256,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
                 report.lift_pressure(*added, ctx.mesh.volume(self.id, cell / N));
             }
         }
+        report.tension = self.tension_gains(scratch);
         let BlockScratch { z_faces, r_faces, face_weight, half, .. } = &*scratch;
         if ctx.mesh.touches(self.slot, Side::ZMin) {
             for (j, pressure) in report.wall_pressure.iter_mut().enumerate() {
@@ -244,6 +266,31 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         report.inflow = boundary_inflow(ctx, self.slot, z_faces, r_faces, face_weight);
         report.impulse = far_field_gains(ctx, self.slot, half, z_faces, r_faces);
     }
+}
+
+/// Finds the jumps of pressure across the interfaces in a block's padded cells.
+fn find_jumps<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    tension: f64,
+    has_gas: bool,
+    scratch: &mut BlockScratch<N>,
+) {
+    let BlockScratch { cells, capillary, .. } = scratch;
+    if !has_gas {
+        capillary.clear();
+        return;
+    }
+    let block = Interfaces {
+        mesh: ctx.mesh,
+        field: ctx.old,
+        slot,
+        kinds: ctx.model.analysis.boundaries,
+        mixture: &ctx.model.mixture,
+        tension,
+        has_phases: ctx.model.analysis.has_phases,
+    };
+    capillary.find(&block, cells.component(PRESSURE), cells.component(PHI));
 }
 
 /// Takes the marked cells' means for the states on their faces.

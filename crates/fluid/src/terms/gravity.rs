@@ -33,7 +33,7 @@ impl Term for Gravity {
     }
 
     fn add_sources(&self, block: &TermBlock<'_>, [z_faces, r_faces]: [&FaceRows; 2], block_rows: &mut [f64]) {
-        let TermBlock { cells: n, metric, half } = *block;
+        let TermBlock { cells: n, metric, half, .. } = *block;
         let (z_mass, r_mass, v_z) = (&z_faces.mass, &r_faces.mass, half[V_Z]);
         for j in 0..n {
             let row = metric.row(j);

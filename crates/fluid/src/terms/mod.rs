@@ -5,8 +5,10 @@
 //! case has not are not in the list, and a block's step with an empty list is bitwise that without terms.
 
 pub(crate) mod gravity;
+pub(crate) mod surface_tension;
 
 use crate::FluidSetup;
+use crate::capillarity::CapillaryRows;
 use crate::reconstruction::Rows;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
@@ -18,6 +20,8 @@ pub(crate) struct TermBlock<'a> {
     pub metric: &'a Metric<'a>,
     /// The padded cells at mid-step: ρ, v_z, v_r, p, φ.
     pub half: Rows<'a>,
+    /// The jumps of pressure across interfaces, where there is surface tension.
+    pub capillary: &'a CapillaryRows,
 }
 
 /// What a term adds.
@@ -26,6 +30,11 @@ pub(crate) trait Term: Send + Sync {
     /// traces that the solid gets.
     fn acceleration(&self) -> [f64; 2] {
         [0.0; 2]
+    }
+
+    /// The tension of interfaces, N/m. It enters the pressures' slopes and the Riemann problems of the faces.
+    fn surface_tension(&self) -> Option<f64> {
+        None
     }
 
     /// Adds to the fluxes through the faces of a block along z and r, before they are registered.
@@ -47,18 +56,23 @@ pub(crate) trait Term: Send + Sync {
 pub(crate) struct Terms {
     list: Vec<Box<dyn Term>>,
     acceleration: [f64; 2],
+    surface_tension: Option<f64>,
 }
 
 impl Terms {
     /// Those that a setup asks for.
     pub fn of(setup: &FluidSetup) -> Self {
-        let all: [Option<Box<dyn Term>>; 1] = [setup.gravity.map(|gravity| Box::new(gravity) as _)];
+        let all: [Option<Box<dyn Term>>; 2] = [
+            setup.gravity.map(|gravity| Box::new(gravity) as _),
+            setup.surface_tension.map(|tension| Box::new(tension) as _),
+        ];
         let list: Vec<Box<dyn Term>> = all.into_iter().flatten().collect();
         let acceleration = list.iter().fold([0.0; 2], |[z, r], term| {
             let more = term.acceleration();
             [z + more[0], r + more[1]]
         });
-        Self { list, acceleration }
+        let surface_tension = list.iter().find_map(|term| term.surface_tension());
+        Self { list, acceleration, surface_tension }
     }
 
     /// Whether there is none.
@@ -71,7 +85,12 @@ impl Terms {
         self.acceleration
     }
 
-    /// That over a time, m/s; `None` without any.
+    /// The tension of interfaces, N/m; `None` without any.
+    pub fn surface_tension(&self) -> Option<f64> {
+        self.surface_tension
+    }
+
+    /// The acceleration over a time, m/s; `None` without any.
     pub fn velocity_gain(&self, time: f64) -> Option<[f64; 2]> {
         (self.acceleration != [0.0; 2]).then(|| self.acceleration.map(|a| a * time))
     }

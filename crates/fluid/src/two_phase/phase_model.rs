@@ -131,6 +131,7 @@ impl Fluid {
             mixture: &self.mixture,
             options,
             velocity_gain: self.terms.velocity_gain(0.5 * dt),
+            jumps: None,
         }
     }
 }
