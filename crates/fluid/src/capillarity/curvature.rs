@@ -132,3 +132,57 @@ fn of_columns_along_r(
     let azimuthal = if place.radius.is_some() { 1.0 / (own * root) } else { 0.0 };
     Some(azimuthal - second / (stretch * root))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::initial::exact_share::share_of_ball;
+    use mesh::Geometry;
+
+    /// Largest and mean error of κ R over the cells that a ball's edge cuts, and how many of them have no height function.
+    fn errors(geometry: Geometry, cells: usize) -> (f64, f64, usize) {
+        let (h, radius) = (1.0 / cells as f64, 1.0);
+        let nz = 2 * cells + 16;
+        let nr = if geometry == Geometry::Planar { nz } else { cells + 16 };
+        // Rows below 8 are images beyond the axis.
+        let images = if geometry == Geometry::Planar { 0 } else { 8 };
+        let middle = [1.0 + 8.3 * h, if geometry == Geometry::Planar { 1.0 + 8.4 * h } else { 0.0 }];
+        let place = |j: usize| (j as f64 - images as f64 + 0.5) * h;
+        let phi: Vec<f64> = (0..nr * nz)
+            .map(|k| {
+                let centre = [(k % nz) as f64 * h + 0.5 * h, place(k / nz)];
+                let centre = if images > 0 { [centre[0], centre[1].abs()] } else { centre };
+                share_of_ball(radius, middle, geometry, centre, [h, h])
+            })
+            .collect();
+        let exact = if geometry == Geometry::Planar { 1.0 } else { 2.0 };
+        let (mut worst, mut sum, mut count, mut without) = (0.0_f64, 0.0, 0, 0);
+        for j in 8..nr - 7 {
+            for i in 7..nz - 7 {
+                let k = j * nz + i;
+                if phi[k] <= 1e-6 || phi[k] >= 1.0 - 1e-6 {
+                    continue;
+                }
+                let radius = (geometry == Geometry::Axisymmetric).then(|| place(j));
+                let (kappa, is_height) = curvature(&phi, nz, k, &CellPlace { widths: [h, h], radius });
+                let error = (kappa / exact - 1.0).abs();
+                if std::env::var("SHOW").is_ok() {
+                    eprintln!("{i} {} {:.4} {:+.3e} {is_height}", j - images, phi[k], kappa / exact - 1.0);
+                }
+                worst = worst.max(error);
+                sum += error;
+                count += 1;
+                without += usize::from(!is_height);
+            }
+        }
+        (worst, sum / f64::from(count), without)
+    }
+
+    #[test]
+    fn the_curvature_of_circles_and_spheres_is_of_second_order() {
+        for geometry in [Geometry::Planar, Geometry::Axisymmetric] {
+            let found = [8, 16, 32, 64].map(|cells| errors(geometry, cells));
+            eprintln!("{geometry:?} {found:?}");
+        }
+    }
+}

@@ -19,26 +19,42 @@ pub(crate) fn with_exact_share(
     let mut cutting = initial.regions.iter().filter(|region| may_cut(&region.shape, centre, widths));
     let (Some(region), None) = (cutting.next(), cutting.next()) else { return contents };
     let Shape::Sphere { centre: middle, radius } = region.shape else { return contents };
-    let [offset, r] = [centre[0] - middle[0], centre[1] - middle[1]];
-    let share = match geometry {
-        Geometry::Axisymmetric if middle[1] == 0.0 => ball_share(radius, offset, centre[1], widths),
-        Geometry::Axisymmetric => return contents,
-        Geometry::Planar => disc_share(radius, offset, r, widths),
-    };
+    if geometry == Geometry::Axisymmetric && middle[1] != 0.0 {
+        return contents;
+    }
+    let share = share_of_ball(radius, middle, geometry, centre, widths);
     let sampled = contents.state.phi;
-    let phi = if region.state.phase == Phase::Gas { share } else { 1.0 - share };
-    let own = region.state.density;
-    // What the samples have of each phase; of one that they have missed it is the region's.
-    let gas = if sampled > 0.0 { contents.gas / sampled } else { own };
-    let liquid = if sampled < 1.0 { (contents.state.density - contents.gas) / (1.0 - sampled) } else { own };
+    let is_gas = region.state.phase == Phase::Gas;
+    let phi = if is_gas { share } else { 1.0 - share };
+    let (gas_around, liquid_around) =
+        if is_gas { (&region.state, &initial.ambient) } else { (&initial.ambient, &region.state) };
+    // What the samples have of each phase; of one that they have missed, what was asked for.
+    let Contents { state, gas: gas_mass } = contents;
+    let gas = if sampled > 0.0 { gas_mass / sampled } else { gas_around.density };
+    let liquid =
+        if sampled < 1.0 { (state.density - gas_mass) / (1.0 - sampled) } else { liquid_around.density };
     contents.gas = phi * gas;
     contents.state.density = contents.gas + (1.0 - phi) * liquid;
     contents.state.phi = phi;
     if sampled <= TRACE_GAS && phi > TRACE_GAS {
-        let is_gas = region.state.phase == Phase::Gas;
-        contents.state.pressure = if is_gas { region.state.pressure } else { initial.ambient.pressure };
+        contents.state.pressure = gas_around.pressure;
     }
     contents
+}
+
+/// The share of a ball about a place on the axis, or of a disc in planar geometry, in the cell at `centre`.
+pub(crate) fn share_of_ball(
+    radius: f64,
+    middle: [f64; 2],
+    geometry: Geometry,
+    centre: [f64; 2],
+    widths: [f64; 2],
+) -> f64 {
+    let [z, r] = [centre[0] - middle[0], centre[1] - middle[1]];
+    match geometry {
+        Geometry::Axisymmetric => ball_share(radius, z, centre[1], widths),
+        Geometry::Planar => disc_share(radius, z, r, widths),
+    }
 }
 
 /// The share of a ball about z = 0 on the axis in the ring of cells at (z, r): ∫∫ r dr dz within, over that of the cell.

@@ -81,3 +81,47 @@ fn study_static() {
         }
     }
 }
+
+#[test]
+#[ignore = "a study"]
+fn study_where() {
+    for (name, kind) in [("sharp", SHARP), ("mixture", MIXTURE)] {
+        for inside in [Phase::Gas, Phase::Liquid] {
+            for cells in [16, 32] {
+                let mut fluid = ball(kind, AXIAL, inside, cells, [2.0 + 0.3 / cells as f64, 0.0]);
+                for time in [0.05, 0.2, 0.5, 1.0] {
+                    run_to(&mut fluid, time);
+                    let mut list = vec![];
+                    let (mut energy, mut mass) = (0.0, 0.0);
+                    each_cell(&fluid, |[z, r], ij, w| {
+                        list.push((w.v_z.hypot(w.v_r), ij, (z - 2.0, r), w.phi));
+                        if w.phi < 0.5 { energy += r * (w.v_z * w.v_z + w.v_r * w.v_r); mass += r; }
+                    });
+                    list.sort_by(|a, b| b.0.total_cmp(&a.0));
+                    eprintln!("{name} {inside:?} {cells} {time} rms liquid {:.2e}", (energy / mass as f64).sqrt());
+                    for x in list.iter().step_by(3).take(4) { eprintln!("    {:.2e} {:?} z,r {:.3?} phi {:.5}", x.0, x.1, x.2, x.3); }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+#[ignore = "a study"]
+fn study_dump() {
+    let cells = 32;
+    let mut fluid = ball(MIXTURE, AXIAL, Phase::Gas, cells, [2.0 + 0.3 / cells as f64, 0.0]);
+    for time in [0.0, 0.01, 0.2] {
+        if time > 0.0 { run_to(&mut fluid, time); }
+        let mut all = std::collections::BTreeMap::new();
+        each_cell(&fluid, |_, ij, w| { all.insert((ij[1], ij[0]), w); });
+        for j in 29..35 {
+            for i in 50..62 {
+                let w = all[&(j, i)];
+                eprint!(" {:.6}/{:+.2}/{:+.1e}/{:+.1e}", w.phi, w.pressure - if w.phi == 0.0 { 8000.0 } else { 1e4 }, w.v_z, w.v_r);
+            }
+            eprintln!();
+        }
+        eprintln!();
+    }
+}
