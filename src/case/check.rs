@@ -10,7 +10,6 @@ use solid::Material;
 use super::format::{duration, hex, mebibytes, plain, si};
 use super::materials::law_in_words;
 use super::memory::{Memory, available_memory};
-use super::scales::sound_speed;
 use super::steps::first_steps;
 use super::warnings::SAFE_CFL;
 use super::{Case, FluidCase, GridCase, SolidCase};
@@ -208,7 +207,7 @@ fn material(text: &mut String, material: &Material) {
 
 fn impedances(text: &mut String, fluid: &FluidCase, solid: &SolidCase) {
     let ambient = &fluid.initial.ambient;
-    let z_fluid = ambient.density * sound_speed(fluid.eos(ambient), ambient.density, ambient.pressure);
+    let z_fluid = ambient.density * fluid.eos(ambient).sound_speed(ambient.density, ambient.pressure);
     let z_solid = solid.material.impedance_p();
     let reflection = (z_solid - z_fluid) / (z_solid + z_fluid);
     let numbers = format!(
@@ -316,7 +315,7 @@ mod tests {
         let time = rayleigh_time(&liquid, &gas, 1e-3).expect("it collapses");
         assert!((time - 4.09e-6).abs() < 0.01e-6, "{time}");
         assert!(rayleigh_time(&gas, &liquid, 1e-3).is_none());
-        let c = sound_speed(StiffenedGas { gamma: 7.15, pi: 3e8 }, 1000.0, 5e7);
+        let c = StiffenedGas { gamma: 7.15, pi: 3e8 }.sound_speed(1000.0, 5e7);
         assert!((c - 1581.929).abs() < 1e-3, "{c}");
     }
 }

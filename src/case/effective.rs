@@ -8,7 +8,7 @@ use mesh::{LevelBound, Side, Zone};
 use sha2::{Digest, Sha256};
 use solid::plasticity::Hardening;
 
-use super::{Case, FluidCase, GridCase, LoadCase, SolidCase};
+use super::{Case, FluidCase, GridCase, LoadCase, SolidCase, TermsCase};
 
 impl Case {
     /// The case as TOML with all defaults filled in; reading it gives this case again.
@@ -111,6 +111,21 @@ impl Case {
     }
 }
 
+fn write_terms(text: &mut Lines, terms: &TermsCase) {
+    if *terms == TermsCase::default() {
+        return;
+    }
+    text.head("[fluid.terms]");
+    if let Some(sigma) = terms.surface_tension {
+        text.number("surface_tension", sigma);
+    }
+    if let Some([liquid, gas]) = terms.viscosity {
+        text.head("[fluid.terms.viscosity]");
+        text.number("liquid", liquid);
+        text.number("gas", gas);
+    }
+}
+
 fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     text.head("[fluid]");
     write_grid(text, &fluid.grid);
@@ -139,7 +154,16 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
         text.head(head);
         text.number("gamma", eos.gamma);
         text.number("pi", eos.pi);
+        if eos.covolume != 0.0 {
+            text.number("covolume", eos.covolume);
+        }
+        if let Some(heat) = eos.heat {
+            text.number("heat_capacity", heat.capacity);
+            text.number("energy", heat.energy);
+            text.number("entropy", heat.entropy);
+        }
     }
+    write_terms(text, &fluid.terms);
     text.head("[fluid.ambient]");
     write_state(text, &fluid.initial.ambient);
     for region in &fluid.initial.regions {

@@ -1,7 +1,8 @@
 //! `"far-field"` sides: which they are where the case does not say, and whether it has what it asks for.
 
 use fluid::{
-    Boundary, FarField, FarFieldError, Gravity, InitialCondition, Mixture, PressureHistory, StiffenedGas,
+    Boundary, FarField, FarFieldError, Gravity, InitialCondition, Mixture, NobleAbelStiffenedGas,
+    PressureHistory,
 };
 use mesh::{Domain, Side};
 
@@ -19,7 +20,7 @@ pub(super) fn decide(
     named: &[Option<Given<()>>; 4],
     initial: &InitialCondition,
     grid: &GridCase,
-    media: [Option<StiffenedGas>; 2],
+    media: [Option<NobleAbelStiffenedGas>; 2],
     (inflow, gravity): (Option<&Inflow>, Option<Gravity>),
     context: Context,
     faults: &mut Faults,

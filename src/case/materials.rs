@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use fluid::{Heat, NamedFluid};
 use solid::Material;
 use solid::plasticity::{Hardening, JohnsonCook, MaterialHardening, RateFactor, ThermalSoftening};
 
@@ -40,7 +41,44 @@ pub fn materials_table() -> String {
         );
     }
     hardening_table(&mut text);
+    fluids_table(&mut text);
     text
+}
+
+/// The constants of `[fluid.liquid]` and `[fluid.gas]` by `fluid = "name"`, and those of terms.
+fn fluids_table(text: &mut String) {
+    let row = |text: &mut String, cells: [String; 9], source: &str| {
+        let [name, numbers @ ..] = cells;
+        let _ = write!(text, "{name:<19}");
+        for number in numbers {
+            let _ = write!(text, "{number:>10}");
+        }
+        let _ = writeln!(text, "  {source}");
+    };
+    let _ = writeln!(
+        text,
+        "\np = (gamma - 1)(e - q)/(1/rho - b) - gamma pi, `fluid = \"name\"` in [fluid.liquid], [fluid.gas]:"
+    );
+    let heads = ["name", "gamma", "pi", "b", "c_v", "q", "q'", "viscosity", "conduct."];
+    row(text, heads.map(str::to_owned), "source");
+    let units = ["", "1", "MPa", "m3/kg", "J/(kg K)", "kJ/kg", "J/(kg K)", "Pa s", "W/(m K)"];
+    row(text, units.map(str::to_owned), "");
+    for NamedFluid { name, law, viscosity, conductivity, source } in NamedFluid::library() {
+        let heat =
+            |of: fn(&Heat) -> f64| law.heat.as_ref().map_or("-".to_owned(), |heat| of(heat).to_string());
+        let cells = [
+            (*name).to_owned(),
+            law.gamma.to_string(),
+            (law.pi / 1e6).to_string(),
+            if law.covolume > 0.0 { format!("{:e}", law.covolume) } else { "0".to_owned() },
+            heat(|heat| heat.capacity),
+            heat(|heat| heat.energy / 1e3),
+            heat(|heat| heat.entropy),
+            format!("{viscosity:.2e}"),
+            conductivity.to_string(),
+        ];
+        row(text, cells, source);
+    }
 }
 
 /// The constants of `[solid.plasticity] law = "johnson-cook"` for those that have some.

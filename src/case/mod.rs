@@ -18,11 +18,13 @@ mod read_adaptation;
 mod read_coupling;
 mod read_fluid;
 mod read_grid;
+mod read_medium;
 mod read_near_wall;
 mod read_plasticity;
 mod read_sensors;
 mod read_shape;
 mod read_solid;
+mod read_terms;
 mod reader;
 mod recorded_load;
 mod refined;
@@ -41,7 +43,8 @@ use std::path::PathBuf;
 
 use coupler::{Kappa, Participant, Scheme, StarSolver};
 use fluid::{
-    Gravity, InitialCondition, Model, NearWall, PhaseState, RiemannSolver, Shape, Sharpening, StiffenedGas,
+    Gravity, InitialCondition, Model, NearWall, NobleAbelStiffenedGas, PhaseState, RiemannSolver, Shape,
+    Sharpening,
 };
 use mesh::{Adaptation, Geometry, Limiter, Side};
 use solid::{InitialStress, Material, PotentialPulse, Weight};
@@ -54,6 +57,7 @@ pub use load::{GaussianLoad, LoadCase};
 pub use materials::materials_table;
 pub use memory::{Memory, available_memory};
 pub use read_adaptation::DEFAULT_ERROR;
+pub use read_terms::TermsCase;
 pub use recorded_load::RecordedLoad;
 pub use steps::SMALLEST_STEP;
 
@@ -172,9 +176,9 @@ pub struct FluidCase {
     /// Domain and cells.
     pub grid: GridCase,
     /// The liquid's equation of state.
-    pub liquid: StiffenedGas,
+    pub liquid: NobleAbelStiffenedGas,
     /// The gas's equation of state.
-    pub gas: StiffenedGas,
+    pub gas: NobleAbelStiffenedGas,
     /// What fills the domain at t = 0.
     pub initial: InitialCondition,
     /// The four sides in the order of [`Side::ALL`].
@@ -199,13 +203,15 @@ pub struct FluidCase {
     pub wave_epsilon: f64,
     /// Gravity along z, if any.
     pub gravity: Option<Gravity>,
+    /// What acts besides.
+    pub terms: TermsCase,
     /// Where the passive tracer is at t = 0, if there is one.
     pub tracer: Option<Shape>,
 }
 
 impl FluidCase {
     /// The equation of state of the phase of a state.
-    pub fn eos(&self, state: &PhaseState) -> StiffenedGas {
+    pub fn eos(&self, state: &PhaseState) -> NobleAbelStiffenedGas {
         match state.phase {
             fluid::Phase::Liquid => self.liquid,
             fluid::Phase::Gas => self.gas,

@@ -2,29 +2,31 @@
 
 use coupler::Scheme;
 use fluid::{
-    Boundary, Gravity, InitialCondition, InitialPressure, Model, Phase, PhaseState, Pulse, PulseShape,
-    Region, RiemannSolver, Shape, Sharpening, StiffenedGas,
+    Boundary, Gravity, InitialCondition, InitialPressure, Model, NobleAbelStiffenedGas, Phase, PhaseState,
+    Pulse, PulseShape, Region, RiemannSolver, Shape, Sharpening, StiffenedGas,
 };
 use mesh::{Geometry, Limiter, Side};
 
 use super::keys::fluid::GAS;
 use super::read_grid::{GridPlace, grid};
+use super::read_medium::{leaves_room, medium, refuse_covolumes};
 use super::read_near_wall::near_wall;
 use super::read_shape::{Kind, body, on_axis, shape};
+use super::read_terms::terms;
 use super::reader::{Faults, Given, Table, number, pair};
 use super::shared::{Context, boundaries, history};
 use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, scales};
 
 /// Equations of state as far as they could be read, and the grid likewise.
 struct Setting {
-    liquid: Option<StiffenedGas>,
-    gas: Option<StiffenedGas>,
+    liquid: Option<NobleAbelStiffenedGas>,
+    gas: Option<NobleAbelStiffenedGas>,
     grid: Option<GridCase>,
     geometry: Geometry,
 }
 
 impl Setting {
-    fn eos(&self, phase: Phase) -> Option<StiffenedGas> {
+    fn eos(&self, phase: Phase) -> Option<NobleAbelStiffenedGas> {
         match phase {
             Phase::Liquid => self.liquid,
             Phase::Gas => self.gas,
@@ -40,16 +42,20 @@ pub(super) fn fluid(
     let mut placed = grid(&mut table, context, Side::ZMin, faults);
     let near_wall = near_wall(&mut table, placed.as_mut().map(|(grid, _)| grid), context, faults);
     let liquid = if table.has("liquid") {
-        table.table("liquid", faults).and_then(|table| stiffened_gas(table, None, faults))
+        table.table("liquid", faults).and_then(|table| medium(table, None, faults))
     } else {
         table.table("liquid", faults);
-        table.missing("liquid", "write [fluid.liquid] with gamma and pi, for water 7.15 and 3e8", faults);
+        table.missing(
+            "liquid",
+            "write [fluid.liquid] and below it fluid = \"water\", or gamma and pi, for water 7.15 and 3e8",
+            faults,
+        );
         None
     };
     let [gamma, pi] = GAS;
-    let air = StiffenedGas { gamma, pi };
+    let air = StiffenedGas { gamma, pi }.into();
     let gas = match table.table("gas", faults) {
-        Some(table) => stiffened_gas(table, Some(air), faults),
+        Some(table) => medium(table, Some(air), faults),
         None => Some(air),
     };
     let setting = Setting {
@@ -62,6 +68,7 @@ pub(super) fn fluid(
     let initial = initial(&mut table, pressure.as_ref(), &setting, faults);
     let gravity = initial.as_ref().and_then(|initial| gravity(&mut table, initial, &setting, faults));
     let tracer = table.table("tracer", faults).and_then(|table| tracer(table, &setting, faults));
+    let terms = terms(&mut table, faults);
     let (mut boundary, named) = sides(&mut table, context, faults);
     if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
         initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
@@ -74,6 +81,9 @@ pub(super) fn fluid(
     }
     let riemann = table.name("riemann", &RiemannSolver::NAMES, faults);
     let model = table.name("model", &Model::NAMES, faults);
+    if model == Model::SaurelAbgrall {
+        refuse_covolumes([("liquid", liquid), ("gas", gas)], &table, faults);
+    }
     let by_default = if model == Model::SaurelAbgrall { Sharpening::None } else { Sharpening::Thinc };
     let sharpening = table.choice("interface", &Sharpening::NAMES, faults);
     if let Some(given) = sharpening.as_ref().filter(|given| given.value == Sharpening::Thinc)
@@ -111,39 +121,10 @@ pub(super) fn fluid(
         scale_density,
         wave_epsilon: super::read_adaptation::DEFAULT_ERROR,
         gravity,
+        terms,
         tracer,
     };
     Some((case, place))
-}
-
-fn stiffened_gas(
-    mut table: Table<'_>,
-    default: Option<StiffenedGas>,
-    faults: &mut Faults,
-) -> Option<StiffenedGas> {
-    let mut value = |key, default: Option<f64>, faults: &mut Faults| match default {
-        Some(default) if !table.has(key) => {
-            table.raw(key);
-            Some(Given { value: default, path: String::new(), span: 0..0 })
-        }
-        _ => table.required(key, faults),
-    };
-    let gamma = value("gamma", default.map(|eos| eos.gamma), faults);
-    let pi = value("pi", default.map(|eos| eos.pi), faults);
-    table.finish(faults);
-    let (gamma, pi) = (gamma?, pi?);
-    let mut sound = true;
-    if gamma.value <= 1.0 {
-        let message = format!("must be greater than 1, got {:?}", gamma.value);
-        faults.of(&gamma, message, "the adiabatic exponent: 1.4 for air, 7.15 for water");
-        sound = false;
-    }
-    if pi.value < 0.0 {
-        let message = format!("must not be negative, got {:?} Pa", pi.value);
-        faults.of(&pi, message, "the stiffness: 0 for a gas, 3e8 Pa for water");
-        sound = false;
-    }
-    sound.then_some(StiffenedGas { gamma: gamma.value, pi: pi.value })
 }
 
 /// Gravity along z, under which the pressure of the ambient liquid is that of the case on z_min.
@@ -240,7 +221,13 @@ fn state(
     let pressure = table.required("pressure", faults);
     let velocity = table.pair("velocity", faults).map_or([0.0; 2], |given| given.value);
     let pressure = pressure?;
-    if let Some(eos) = phase.and_then(|phase| setting.eos(phase))
+    let eos = phase.and_then(|phase| setting.eos(phase));
+    if let (Some(eos), Some(density)) = (eos, density)
+        && !leaves_room(eos, density, table, faults)
+    {
+        return None;
+    }
+    if let Some(eos) = eos
         && pressure.value + eos.pi <= 0.0
     {
         let least = -eos.pi;
@@ -361,7 +348,7 @@ fn sides(
 fn inflow(
     table: &mut Table<'_>,
     boundary: [Boundary; 4],
-    liquid: Option<StiffenedGas>,
+    liquid: Option<NobleAbelStiffenedGas>,
     faults: &mut Faults,
 ) -> Option<Inflow> {
     let wanted = boundary.contains(&Boundary::Inflow);

@@ -6,7 +6,6 @@ use fluid::{Phase, Shape};
 use mesh::Geometry;
 
 use super::Case;
-use super::scales::sound_speed;
 
 /// The part of R/c, the time that sound takes along the radius, over which the wall pressure is averaged where a case does not say.
 const MEAN_SHARE: f64 = 1.0 / 12.0;
@@ -29,7 +28,7 @@ impl Case {
             let ambient = &fluid.initial.ambient;
             let mut gas = fluid.initial.regions.iter().filter(|region| region.state.phase == Phase::Gas);
             let radius = equivalent_radius(self.geometry, gas.next()?.shape);
-            let sound = sound_speed(fluid.eos(ambient), ambient.density, ambient.pressure);
+            let sound = fluid.eos(ambient).sound_speed(ambient.density, ambient.pressure);
             (ambient.phase == Phase::Liquid).then_some(MEAN_SHARE * radius / sound)
         })
     }

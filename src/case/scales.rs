@@ -1,6 +1,6 @@
 //! Reference values of a case, to which the thresholds of adaptation are relative.
 
-use fluid::{InitialCondition, PhaseState, StiffenedGas};
+use fluid::{InitialCondition, NobleAbelStiffenedGas, PhaseState};
 use solid::{Material, PotentialPulse};
 
 use super::reader::{LARGEST, SMALLEST};
@@ -9,18 +9,17 @@ use super::{Inflow, LoadCase};
 /// Stress scale of a solid on which nothing acts, Pa.
 const QUIET_STRESS: f64 = 1e6;
 
-/// c = √(γ(p + π)/ρ).
-pub(super) fn sound_speed(eos: StiffenedGas, density: f64, pressure: f64) -> f64 {
-    (eos.gamma * (pressure + eos.pi) / density).sqrt()
-}
-
 /// The largest difference of pressure in a fluid, Pa: of regions, pulses and inflow to the ambient, and ρc times the
 /// differences of velocity; where there is none, the ambient pressure.
 ///
 /// - `eos`: that of the ambient phase.
-pub(super) fn pressure(initial: &InitialCondition, inflow: Option<&Inflow>, eos: StiffenedGas) -> f64 {
+pub(super) fn pressure(
+    initial: &InitialCondition,
+    inflow: Option<&Inflow>,
+    eos: NobleAbelStiffenedGas,
+) -> f64 {
     let ambient = &initial.ambient;
-    let impedance = ambient.density * sound_speed(eos, ambient.density, ambient.pressure);
+    let impedance = ambient.density * eos.sound_speed(ambient.density, ambient.pressure);
     let regions = initial.regions.iter().flat_map(|region| {
         let [v_z, v_r] = [0, 1].map(|k| region.state.velocity[k] - ambient.velocity[k]);
         [region.state.pressure - ambient.pressure, impedance * v_z.hypot(v_r)]
@@ -33,9 +32,9 @@ pub(super) fn pressure(initial: &InitialCondition, inflow: Option<&Inflow>, eos:
 /// The largest difference of density in a fluid, kg/m³; where no region differs, that of a wave of `pressure`.
 ///
 /// - `eos`: that of the ambient phase.
-pub(super) fn density(initial: &InitialCondition, pressure: f64, eos: StiffenedGas) -> f64 {
+pub(super) fn density(initial: &InitialCondition, pressure: f64, eos: NobleAbelStiffenedGas) -> f64 {
     let ambient: &PhaseState = &initial.ambient;
-    let c = sound_speed(eos, ambient.density, ambient.pressure);
+    let c = eos.sound_speed(ambient.density, ambient.pressure);
     largest(initial.regions.iter().map(|region| region.state.density - ambient.density))
         .or_else(|| largest([pressure / (c * c)]))
         .unwrap_or(1.0)
@@ -74,7 +73,8 @@ mod tests {
     use crate::case::GaussianLoad;
     use fluid::{Phase, Pulse, PulseShape, Region, Shape};
 
-    const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
+    const WATER: NobleAbelStiffenedGas =
+        NobleAbelStiffenedGas { gamma: 7.15, pi: 3e8, covolume: 0.0, heat: None };
 
     fn at_rest(pressure: f64) -> InitialCondition {
         let ambient = PhaseState { phase: Phase::Liquid, density: 1000.0, pressure, velocity: [0.0; 2] };

@@ -2,7 +2,6 @@
 
 use fluid::{PhaseState, PulseShape};
 
-use super::scales::sound_speed;
 use super::{Case, FluidCase, GridCase, SolidCase};
 
 /// A step shorter than this share of the run never gets to its end, or means that the solution has gone bad.
@@ -40,7 +39,7 @@ pub(super) fn first_steps(case: &Case) -> [Option<FirstStep>; 2] {
 fn fluids(fluid: &FluidCase, cfl: f64) -> FirstStep {
     const KEYS: &str = "density, pressure, velocity, and gamma and pi of fluid.liquid or fluid.gas";
     let of = |state: &PhaseState, table: String| {
-        let c = sound_speed(fluid.eos(state), state.density, state.pressure);
+        let c = fluid.eos(state).sound_speed(state.density, state.pressure);
         FirstStep::new(&fluid.grid, cfl, state.velocity.map(|v| v.abs() + c), table, KEYS)
     };
     let initial = &fluid.initial;
@@ -53,11 +52,11 @@ fn fluids(fluid: &FluidCase, cfl: f64) -> FirstStep {
     for (number, region) in initial.regions.iter().enumerate() {
         see(of(&region.state, format!("fluid.region.{number}")));
     }
-    // At a pulse's crest, and in an inflow, the liquid is compressed along its isentrope, (p + π)/ρ^γ = const.
+    // At a pulse's crest, and in an inflow, the liquid is compressed along its isentrope.
     let eos = fluid.eos(&initial.ambient);
     let (density, pressure) = (initial.ambient.density, initial.ambient.pressure);
     let compressed = |crest: f64| {
-        let density = density * ((crest + eos.pi) / (pressure + eos.pi)).powf(1.0 / eos.gamma);
+        let density = eos.isentropic_density(density, pressure, crest);
         PhaseState { density, pressure: crest, ..initial.ambient }
     };
     let crests = fluid.inflow.iter().flat_map(|inflow| &inflow.pressure).map(|row| row[1]);
@@ -68,7 +67,7 @@ fn fluids(fluid: &FluidCase, cfl: f64) -> FirstStep {
     for (number, pulse) in initial.pulses.iter().enumerate().filter(|(_, pulse)| pulse.amplitude > 0.0) {
         let mut state = compressed(pressure + pulse.amplitude);
         if let PulseShape::Plane { direction: Some([z, r]) } = pulse.shape {
-            let v = pulse.amplitude / (density * sound_speed(eos, density, pressure));
+            let v = pulse.amplitude / (density * eos.sound_speed(density, pressure));
             state.velocity[0] += v * z;
             state.velocity[1] += v * r;
         }

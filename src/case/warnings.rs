@@ -3,7 +3,6 @@
 use fluid::{Boundary, Phase, Shape};
 use mesh::{Geometry, Side};
 
-use super::scales::sound_speed;
 use super::{Case, FluidCase};
 
 /// Fewer cells than this along a radius or a width resolve nothing.
@@ -77,7 +76,7 @@ fn near_sides(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>)
     if ambient.phase != Phase::Liquid {
         return;
     }
-    let sound = sound_speed(fluid.eos(ambient), ambient.density, ambient.pressure);
+    let sound = fluid.eos(ambient).sound_speed(ambient.density, ambient.pressure);
     for (number, region) in fluid.initial.regions.iter().enumerate() {
         let Shape::Sphere { centre: [z, r], radius } = region.shape else { continue };
         if region.state.phase != Phase::Gas {

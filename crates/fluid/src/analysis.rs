@@ -101,7 +101,8 @@ impl Multiresolution for Analysis {
         }
         let above_floor = |d: &[f64; MOST_COMPONENTS]| {
             let at = |c: usize| mean[c] + share * d[c];
-            let [_, _, _, p, phi] = primitive_of(std::array::from_fn(at), &self.mixture);
+            let gas = if self.has_phases { at(GAS) } else { 0.0 };
+            let [_, _, _, p, phi] = primitive_of::<true>(std::array::from_fn(at), gas, &self.mixture);
             let own = self.pressure(mean);
             let floor = self.mixture.pressure_floor(phi);
             p - floor > 0.2 * (own - self.mixture.pressure_floor(mean[PHI])).min(own - floor)
@@ -110,20 +111,22 @@ impl Multiresolution for Analysis {
     }
 
     /// The largest of |δp|/p_ref, ρc|δv|/p_ref, |δρ|/ρ_ref, |δφ| and the |δY| of what is carried, with the linearised
-    /// β₁ δp = δ(ρE) − v·δ(ρv) + ½v² δρ − (β₁'p + β₂') δφ and ρ δv = δ(ρv) − v δρ.
+    /// β₁ δp = δ(ρE) − v·δ(ρv) + ½v² δρ − (β₁'p + β₂') δφ + what covolumes bind of both phases' δm, and ρ δv = δ(ρv) − v δρ.
     #[inline(always)]
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
-        let [rho, v_z, v_r, p, phi] = primitive_of(leading(cell), &self.mixture);
+        let [gas, d_gas] = if self.has_phases { [cell[GAS], detail[GAS]] } else { [0.0; 2] };
+        let [rho, v_z, v_r, p, phi] = primitive_of::<true>(leading(cell), gas, &self.mixture);
         let [d_rho, d_mz, d_mr, d_energy, d_phi] = leading(detail);
-        let beta1 = self.mixture.beta1(phi);
+        let [beta1, _] = self.mixture.free_betas::<true>(phi, rho, gas);
+        let d_bound = self.mixture.bound_energy(p, d_rho, d_gas);
         let per_phi = (self.mixture.beta1(1.0) - self.mixture.beta1(0.0)) * p + self.mixture.beta2(1.0)
             - self.mixture.beta2(0.0);
         let kinetic = 0.5 * (v_z * v_z + v_r * v_r);
-        let d_p = (d_energy - v_z * d_mz - v_r * d_mr + kinetic * d_rho - per_phi * d_phi) / beta1;
+        let d_p = (d_energy - v_z * d_mz - v_r * d_mr + kinetic * d_rho - per_phi * d_phi + d_bound) / beta1;
         let (d_vz, d_vr) = (d_mz - v_z * d_rho, d_mr - v_r * d_rho);
         // Not `hypot`: it would take as long as all else here together, and nothing can overflow.
         let d_v = (d_vz * d_vz + d_vr * d_vr).sqrt() / rho;
-        let impedance = (rho * self.mixture.bulk_modulus(p, phi)).max(0.0).sqrt();
+        let impedance = (rho * self.mixture.bulk_modulus(rho, p, phi, gas / rho)).max(0.0).sqrt();
         let by_pressure = d_p.abs().max(impedance * d_v) / self.scales.pressure;
         let by_flow = by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs());
         self.carried
@@ -145,7 +148,8 @@ fn leading(cell: &[f64]) -> ConservedCell {
 
 impl Analysis {
     fn pressure(&self, mean: &[f64]) -> f64 {
-        Primitive::from_conserved(leading(mean), &self.mixture).pressure
+        let gas = if self.has_phases { mean[GAS] } else { 0.0 };
+        Primitive::from_conserved(leading(mean), gas, &self.mixture).pressure
     }
 }
 
@@ -170,7 +174,7 @@ mod tests {
 
     fn conserved(density: f64, velocity: f64, pressure: f64, phi: f64) -> ConservedCell {
         let mixture = analysis().mixture;
-        Primitive { density, v_z: velocity, v_r: 0.0, pressure, phi }.to_conserved(&mixture)
+        Primitive { density, v_z: velocity, v_r: 0.0, pressure, phi }.to_conserved(0.0, &mixture)
     }
 
     #[test]
@@ -202,7 +206,7 @@ mod tests {
             let share = analysis().share(&mean, &deviations);
             for d in &deviations {
                 let child: ConservedCell = std::array::from_fn(|c| mean[c] + share * d[c]);
-                let w = Primitive::from_conserved(child, &analysis().mixture);
+                let w = Primitive::from_conserved(child, 0.0, &analysis().mixture);
                 assert!(w.density > 0.0 && w.pressure > 100.0, "{w:?}");
                 assert!((-1e-6..=1.0 + 1e-6).contains(&w.phi), "{w:?}");
             }

@@ -47,4 +47,6 @@ pub use step::clips::Clips;
 pub use terms::gravity::Gravity;
 pub use terms::surface_tension::SurfaceTension;
 pub use thermodynamics::eos::StiffenedGas;
+pub use thermodynamics::library::NamedFluid;
 pub use thermodynamics::mixture::Mixture;
+pub use thermodynamics::noble_abel::{Heat, NobleAbelStiffenedGas};

@@ -29,7 +29,8 @@ pub struct FluidMemory {
 impl Fluid {
     /// A cell of a block as it is.
     fn measured<const N: usize>(&self, block: &[f64], cell: usize) -> FinishedCell {
-        measure_cell(std::array::from_fn(|c| block[c * N * N + cell]), &self.mixture)
+        let gas = self.scheme.phases.gas_component().map_or(0.0, |gas| block[gas * N * N + cell]);
+        measure_cell(std::array::from_fn(|c| block[c * N * N + cell]), gas, &self.mixture)
     }
 
     /// The cells of a block that are not physical.

@@ -6,7 +6,8 @@ use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
 use crate::{
-    Boundary, FarField, Gravity, Model, NearWall, RiemannSolver, Shape, Sharpening, StiffenedGas, SurfaceTension,
+    Boundary, FarField, Gravity, Model, NearWall, NobleAbelStiffenedGas, RiemannSolver, Shape, Sharpening,
+    StiffenedGas, SurfaceTension,
 };
 
 /// Everything that defines a fluid.
@@ -19,9 +20,9 @@ pub struct FluidSetup {
     /// Levels of refinement: the finest grid has `coarsest · 2^levels` cells.
     pub levels: u8,
     /// The liquid's equation of state.
-    pub liquid: StiffenedGas,
+    pub liquid: NobleAbelStiffenedGas,
     /// The gas's equation of state.
-    pub gas: StiffenedGas,
+    pub gas: NobleAbelStiffenedGas,
     /// The two-phase model.
     pub model: Model,
     /// What keeps the interface sharp; without a say in the paper's mixture.
@@ -58,8 +59,8 @@ impl FluidSetup {
             domain,
             coarsest: cells,
             levels: 0,
-            liquid: StiffenedGas { gamma: 7.15, pi: 3e8 },
-            gas: StiffenedGas { gamma: 1.4, pi: 0.0 },
+            liquid: StiffenedGas { gamma: 7.15, pi: 3e8 }.into(),
+            gas: StiffenedGas { gamma: 1.4, pi: 0.0 }.into(),
             model: Model::FiveEquation,
             sharpening: Sharpening::Thinc,
             riemann: RiemannSolver::Hllc,

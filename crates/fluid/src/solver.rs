@@ -88,12 +88,12 @@ impl<const N: usize> FluidSolver<N> {
         let (mesh, mut state) =
             crate::initial::mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         if let Some(tension) = setup.surface_tension {
-            level_mixed_cells(&mesh, &mixture, kinds, tension.coefficient, &mut state);
+            level_mixed_cells(&mesh, &mixture, kinds, (tension.coefficient, has_phases), &mut state);
         }
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
         let sides = SideStates::new(&mesh, |centre, widths| {
             let Contents { state, gas } = initial(centre, widths);
-            (Primitive::from_conserved(state.to_conserved(&mixture), &mixture), gas / state.density)
+            (Primitive::from_conserved(state.to_conserved(gas, &mixture), gas, &mixture), gas / state.density)
         });
         let boundaries = Boundaries::new(kinds, sides, setup.inflow.clone(), setup.far_field.clone());
         let fluid = Fluid {

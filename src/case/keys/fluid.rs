@@ -6,6 +6,47 @@ use super::grid::{CELLS, LEVELS, LIMITER, R, Z};
 /// The gas where a case does not say: γ, and π in Pa.
 pub(in crate::case) const GAS: [f64; 2] = [1.4, 0.0];
 
+/// Of both phases.
+const FLUID_NAME: Key = Key {
+    name: "fluid",
+    unit: "",
+    values: Values::Words("a fluid of `cav materials`, as `\"water\"` or `\"air\"`"),
+    default: Preset::None,
+    about: "A fluid known by name, of which all constants are taken that the table does not give.",
+};
+
+const COVOLUME: Key = Key {
+    name: "covolume",
+    unit: "m3/kg",
+    values: Values::Words("≥ 0, with bρ < 1 everywhere"),
+    default: Preset::Words("that of `fluid`, else 0"),
+    about: "The covolume b, which makes the law a [Noble–Abel stiffened gas][eos]; not with `model = \"saurel-abgrall\"`.",
+};
+
+const HEAT_CAPACITY: Key = Key {
+    name: "heat_capacity",
+    unit: "J/(kg K)",
+    values: Values::Positive,
+    default: Preset::Words("that of `fluid`, else none"),
+    about: "The heat capacity c_v at constant volume; gives temperatures.",
+};
+
+const ENERGY: Key = Key {
+    name: "energy",
+    unit: "J/kg",
+    values: Values::Number,
+    default: Preset::Words("that of `fluid`, else 0"),
+    about: "The reference energy q; with a heat capacity only.",
+};
+
+const ENTROPY: Key = Key {
+    name: "entropy",
+    unit: "J/(kg K)",
+    values: Values::Number,
+    default: Preset::Words("that of `fluid`, else 0"),
+    about: "The reference entropy q′; with a heat capacity only.",
+};
+
 pub(super) static FLUID: [Section; 3] = [
     Section {
         path: "fluid",
@@ -78,22 +119,28 @@ pub(super) static FLUID: [Section; 3] = [
         path: "fluid.liquid",
         repeated: false,
         title: "The liquid",
-        about: "Required. A stiffened gas, p = (γ − 1) ρe − γπ. Everywhere density > 0 and p + π > 0.",
+        about: "Required. A [stiffened gas][eos], p = (γ − 1) ρe − γπ, or with a covolume b and a reference energy q p = (γ − 1)(e − q)/(1/ρ − b) − γπ. \
+                Everywhere density > 0 and p + π > 0.",
         keys: &[
+            FLUID_NAME,
             Key {
                 name: "gamma",
                 unit: "1",
                 values: Values::Words("> 1"),
-                default: Preset::Required,
+                default: Preset::Words("that of `fluid`; else required"),
                 about: "The adiabatic exponent γ; 7.15 for water.",
             },
             Key {
                 name: "pi",
                 unit: "Pa",
                 values: Values::Words("≥ 0"),
-                default: Preset::Required,
+                default: Preset::Words("that of `fluid`; else required"),
                 about: "The stiffness π; 3e8 for water.",
             },
+            COVOLUME,
+            HEAT_CAPACITY,
+            ENERGY,
+            ENTROPY,
         ],
     },
     Section {
@@ -102,6 +149,7 @@ pub(super) static FLUID: [Section; 3] = [
         title: "The gas",
         about: "The same law as the liquid's.",
         keys: &[
+            FLUID_NAME,
             Key {
                 name: "gamma",
                 unit: "1",
@@ -116,6 +164,10 @@ pub(super) static FLUID: [Section; 3] = [
                 default: Preset::Number(GAS[1]),
                 about: "The stiffness π; 0 for a gas.",
             },
+            COVOLUME,
+            HEAT_CAPACITY,
+            ENERGY,
+            ENTROPY,
         ],
     },
 ];

@@ -1,8 +1,9 @@
 //! The pages that texts on keys lead to.
 
 /// Name, then the page from the repository's root, with the heading.
-pub(super) const LINKS: [(&str, &str); 17] = [
+pub(super) const LINKS: [(&str, &str); 18] = [
     ("absorbing", "docs/theory/absorbing-sides.md"),
+    ("eos", "docs/theory/equations-of-state.md"),
     ("far-field", "docs/theory/far-field.md"),
     ("far-sides", "docs/verification/distant-sides.md"),
     ("film", "docs/theory/near-wall.md"),

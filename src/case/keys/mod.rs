@@ -16,6 +16,7 @@ mod sides;
 mod solid;
 mod start;
 mod terminal;
+mod terms;
 #[cfg(test)]
 mod tests;
 pub(super) mod time;
@@ -26,9 +27,10 @@ pub use page::keys_page;
 
 /// All that is declared, in the order in which it is told.
 fn sections() -> impl Iterator<Item = &'static Section> {
-    let parts: [&[Section]; 11] = [
+    let parts: [&[Section]; 12] = [
         &time::TIME,
         &fluid::FLUID,
+        &terms::TERMS,
         &start::START,
         &sides::SIDES_OF_FLUID,
         &adaptation::ADAPTATION_OF_FLUID,

@@ -2,8 +2,6 @@
 
 use fluid::StiffenedGas;
 
-use super::super::scales::sound_speed;
-
 /// Water, with π in Pa.
 const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 /// Water: kg/m³.
@@ -95,7 +93,7 @@ pressure = {gas}
 
 /// The sound speed of water at a pressure, m/s.
 pub(super) fn sound(pressure: f64) -> f64 {
-    sound_speed(WATER, DENSITY, pressure)
+    WATER.sound_speed(DENSITY, pressure)
 }
 
 /// `[time]`: the end, and snapshots between 0 and it.

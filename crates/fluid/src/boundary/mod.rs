@@ -163,22 +163,32 @@ impl Boundaries {
     ) {
         for (j, state) in wall.iter().enumerate() {
             let inner = Padded::<N>::index(0, j as isize);
-            faces.set(inner - 1, wall_face(cells.face_state(inner, -1.0), *state, mixture));
+            let share = if cells.with_gas { cells.gas_shares[inner] } else { 0.0 };
+            faces.set(inner - 1, wall_face(cells.face_state(inner, -1.0), share, *state, mixture));
         }
     }
 }
 
 /// The flux through a wall that moves with `wall.velocity`, see [`Boundaries::impose_wall`].
-fn wall_face(trace: PrimitiveCell, wall: FaceState, mixture: &Mixture) -> Face {
+///
+/// - `share`: the gas's part of the mass; without a say where there is no covolume.
+fn wall_face(trace: PrimitiveCell, share: f64, wall: FaceState, mixture: &Mixture) -> Face {
     let [density, v_n, v_t, pressure, phi] = trace;
     // As in the trace that the other side got: on the wall the reconstruction may leave the unit interval.
     let phi = phi.clamp(0.0, 1.0);
-    let at = mixture.at(phi);
-    let fluid = coupler::FluidTrace { pressure, velocity: v_n, density, gamma: at.gamma, pi: at.pi };
-    let star = coupler::star_density(&fluid, wall.pressure);
+    let at = mixture.law_at(density, phi, share);
+    let fluid = coupler::FluidTrace {
+        pressure,
+        velocity: v_n,
+        density: at.free_density(density),
+        gamma: at.gamma,
+        pi: at.pi,
+    };
+    let star = at.density_of_free(coupler::star_density(&fluid, wall.pressure));
     let mass = star * wall.velocity;
     let kinetic = 0.5 * mass * (wall.velocity * wall.velocity + v_t * v_t);
-    let energy = (1.0 + mixture.beta1(phi)) * wall.power + mixture.beta2(phi) * wall.velocity + kinetic;
+    let [beta1, beta2] = mixture.free_betas::<true>(phi, star, star * share);
+    let energy = (1.0 + beta1) * wall.power + beta2 * wall.velocity + kinetic;
     Face {
         mass,
         velocity: wall.velocity,
@@ -237,11 +247,11 @@ mod tests {
         let mixture =
             Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
         let trace = [1000.0, 0.0, 3.0, 5e7, 0.0];
-        let rest = wall_face(trace, FaceState { pressure: 5e7, velocity: 0.0, power: 0.0 }, &mixture);
+        let rest = wall_face(trace, 0.0, FaceState { pressure: 5e7, velocity: 0.0, power: 0.0 }, &mixture);
         assert_eq!((rest.mass, rest.pressure, rest.energy, rest.shear), (0.0, 5e7, 0.0, 0.0));
         // A wall that moves with the fluid at its pressure passes the fluid's own flux.
         let trace = [1000.0, 2.0, 3.0, 5e7, 0.0];
-        let moving = wall_face(trace, FaceState { pressure: 5e7, velocity: 2.0, power: 1e8 }, &mixture);
+        let moving = wall_face(trace, 0.0, FaceState { pressure: 5e7, velocity: 2.0, power: 1e8 }, &mixture);
         let own = crate::riemann::hllc::flux_hllc(trace, trace, &mixture);
         approx::assert_relative_eq!(moving.mass, own.mass, max_relative = 1e-14);
         approx::assert_relative_eq!(moving.energy, own.energy, max_relative = 1e-14);

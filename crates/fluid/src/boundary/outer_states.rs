@@ -108,12 +108,15 @@ fn far_state<const N: usize>(
 /// The state behind a plane wave of pressure `p` that enters into `initial` through a side: isentropic, with
 /// v = ∫dp/(ρc) ≈ (p − p₀)/(ρc) inwards.
 fn entering(initial: Primitive, side: Side, p: f64, mixture: &Mixture) -> Primitive {
-    let at = mixture.at(initial.phi);
+    // What enters is of one phase, whose part of the mass is φ.
+    let at = mixture.law_at(initial.density, initial.phi, initial.phi);
     let ratio = (p + at.pi) / (initial.pressure + at.pi);
-    let density = initial.density * ratio.powf(1.0 / at.gamma);
+    let before = at.free_density(initial.density);
+    let after = before * ratio.powf(1.0 / at.gamma);
     let sound = |p: f64, rho: f64| (at.gamma * (p + at.pi) / rho).sqrt();
-    // Riemann invariant of the isentropic simple wave: v = 2 (c − c₀)/(γ − 1).
-    let jump = 2.0 / (at.gamma - 1.0) * (sound(p, density) - sound(initial.pressure, initial.density));
+    // Riemann invariant of the isentropic simple wave: v = 2 (c − c₀)/(γ − 1), with the sound speeds in the free volume.
+    let jump = 2.0 / (at.gamma - 1.0) * (sound(p, after) - sound(initial.pressure, before));
+    let density = at.density_of_free(after);
     let inwards = if matches!(side, Side::ZMin | Side::RMin) { jump } else { -jump };
     let (mut v_z, mut v_r) = (initial.v_z, initial.v_r);
     if axis(side) == 0 {

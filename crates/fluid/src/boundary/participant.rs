@@ -48,18 +48,22 @@ impl<const N: usize> FluidSolver<N> {
                 let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);
                 for j in 0..N {
                     let k = Padded::<N>::index(0, j as isize);
-                    if let Some(state) = at_interface(k) {
-                        put_rows(Trace::steady(state), self.mixture(), first + j, &mut put);
+                    if let Some((state, share)) = at_interface(k) {
+                        put_rows(Trace::steady(state), share, self.mixture(), first + j, &mut put);
                         continue;
                     }
+                    let share = self.gas_share(cells, k);
+                    let bound = self.mixture().bound_beta1::<true>(share);
                     let [w, d_z, d_r] = [cells, s_z, s_r].map(|rows| at(&rows.split(), k));
-                    let (_, keep) = half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, self.mixture());
+                    let (_, keep) =
+                        half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, bound, self.mixture());
                     let slope = d_r.map(|d| keep * d * inverse_h[1]);
                     let mut rate = rates(
                         w,
                         d_z.map(|d| d * inverse_h[0]),
                         d_r.map(|d| d * inverse_h[1]),
                         inverse_r[k],
+                        share,
                         self.mixture(),
                     )
                     .map(|rate| keep * rate);
@@ -73,7 +77,8 @@ impl<const N: usize> FluidSolver<N> {
                         let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
                         let stride = Padded::<N>::STRIDE;
                         let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
-                        let sound = (self.mixture().bulk_modulus(w[PRESSURE], w[PHI]) / w[RHO]).sqrt();
+                        let modulus = self.mixture().bulk_modulus(w[RHO], w[PRESSURE], w[PHI], share);
+                        let sound = (modulus / w[RHO]).sqrt();
                         let speed = w[V_Z].abs() + sound;
                         let cell = [w[PRESSURE], w[PHI], d_z[PRESSURE]];
                         keep * dispersion.on_wall(c, cell, speed, across, along)
@@ -89,7 +94,7 @@ impl<const N: usize> FluidSolver<N> {
                     let trace = whole.admissible(w, reach, self.mixture());
                     let is_bounded = (phi - state[PHI]).abs() > TRACE_GAS;
                     scaled += u64::from(is_bounded || trace != whole);
-                    put_rows(trace, self.mixture(), first + j, &mut put);
+                    put_rows(trace, share, self.mixture(), first + j, &mut put);
                 }
             });
         }
@@ -124,7 +129,13 @@ impl<const N: usize> FluidSolver<N> {
         });
     }
 
-    /// The state at mid-step on the wall's face of a cell that holds both phases; `None` of other cells.
+    /// The gas's part of the mass in an assembled cell.
+    fn gas_share(&self, cells: &Padded<N>, k: usize) -> f64 {
+        let gas = self.model().scheme.phases.gas_component();
+        gas.map_or(0.0, |gas| cells.component(gas)[k] / cells.component(RHO)[k])
+    }
+
+    /// The state at mid-step on the wall's face of a cell that holds both phases, and the gas's part of the mass; `None` of other cells.
     fn interface_trace(
         &self,
         cells: &Padded<N>,
@@ -132,13 +143,14 @@ impl<const N: usize> FluidSolver<N> {
         inverse_h: [f64; 2],
         k: usize,
         dt: f64,
-    ) -> Option<PrimitiveCell> {
+    ) -> Option<(PrimitiveCell, f64)> {
         let rule = self.model().mixed_cell_rule(inverse_h, inverse_r, dt)?;
         let cells = Cells { rows: cells.split(), stride: Padded::<N>::STRIDE };
         cells.is_at_interface(k, rule.mixture).then(|| {
             let mut states = FaceStates::default();
             face_states(&cells, &[Window { first: k, step: 1, listed: 1 }], &rule, &mut states);
-            states.of(0, 0).w
+            let state = states.of(0, 0);
+            (state.w, state.gas_share)
         })
     }
 
@@ -156,25 +168,35 @@ impl<const N: usize> FluidSolver<N> {
     }
 }
 
-/// Writes the rows of a trace.
-fn put_rows(trace: Trace, mixture: &Mixture, face: usize, put: &mut impl FnMut(TraceRow, usize, f64)) {
+/// Writes the rows of a trace. Its density is that in the free volume, with which alone the star state is that of a stiffened gas.
+///
+/// - `share`: the gas's part of the mass; without a say where there is no covolume.
+fn put_rows(
+    trace: Trace,
+    share: f64,
+    mixture: &Mixture,
+    face: usize,
+    put: &mut impl FnMut(TraceRow, usize, f64),
+) {
     let Trace { state: [rho, v_z, v_r, p, phi], rate, slope } = trace;
-    let at = mixture.at(phi);
-    let impedance = (rho * mixture.bulk_modulus(p, phi)).max(0.0).sqrt();
+    let at = mixture.law_at(rho, phi, share);
+    let impedance = (rho * mixture.bulk_modulus(rho, p, phi, share)).max(0.0).sqrt();
+    // d(ρ/(1 − bρ)) = dρ/(1 − bρ)².
+    let per_free = at.free_share(rho).powi(-2);
     for (row, value) in [
-        (TraceRow::Density, rho),
+        (TraceRow::Density, at.free_density(rho)),
         (TraceRow::NormalVelocity, v_z),
         (TraceRow::TangentialVelocity, v_r),
         (TraceRow::Pressure, p),
         (TraceRow::Shear, 0.0),
-        (TraceRow::DensityRate, rate[RHO]),
+        (TraceRow::DensityRate, per_free * rate[RHO]),
         (TraceRow::NormalVelocityRate, rate[V_Z]),
         (TraceRow::TangentialVelocityRate, rate[V_R]),
         (TraceRow::PressureRate, rate[PRESSURE]),
         (TraceRow::Gamma, at.gamma),
         (TraceRow::Pi, at.pi),
         (TraceRow::Impedance, impedance),
-        (TraceRow::DensitySlope, slope[RHO]),
+        (TraceRow::DensitySlope, per_free * slope[RHO]),
         (TraceRow::NormalVelocitySlope, slope[V_Z]),
         (TraceRow::PressureSlope, slope[PRESSURE]),
     ] {

@@ -6,7 +6,7 @@ use super::curvature::curvature;
 use super::jumps::share_of_jump;
 use super::patch::WidePatch;
 use super::place::CellPlace;
-use crate::state::conserved::{ENERGY, PHI};
+use crate::state::conserved::{ENERGY, GAS, PHI, RHO};
 use crate::{Boundary, Mixture, TRACE_GAS};
 
 /// κ of a cell of a block, 1/m, and whether it is a height function's; `patch` holds the block's gas fractions.
@@ -26,11 +26,13 @@ pub(super) fn curvature_at<const N: usize>(
 
 /// Gives mixed cells, filled at the gas's pressure p_g, the pressure p_g − (1 − ψ)σκ that their liquid asks for, see [`share_of_jump`]:
 /// with the gas's all through, the liquid beside a bubble at rest would be thrown off.
+///
+/// - `tension`: σ, N/m, and whether the gas has a mass of its own.
 pub(crate) fn level_mixed_cells<const N: usize>(
     mesh: &Mesh<N>,
     mixture: &Mixture,
     kinds: [Boundary; 4],
-    tension: f64,
+    (tension, has_phases): (f64, bool),
     field: &mut Field,
 ) {
     let filled = field.clone();
@@ -51,8 +53,10 @@ pub(crate) fn level_mixed_cells<const N: usize>(
         for cell in (0..N * N).filter(|cell| is_cut(phi[*cell])) {
             let (kappa, _) = curvature_at(mesh, *id, &patch, [(cell % N) as isize, (cell / N) as isize]);
             let own = phi[cell];
-            let lack = (1.0 - share_of_jump(own, mixture)) * tension * kappa;
-            block[ENERGY * N * N + cell] -= mixture.beta1(own) * lack;
+            let rho = block[RHO * N * N + cell];
+            let gas = if has_phases { block[GAS * N * N + cell] } else { 0.0 };
+            let lack = (1.0 - share_of_jump(own, rho, gas, mixture)) * tension * kappa;
+            block[ENERGY * N * N + cell] -= mixture.free_betas::<true>(own, rho, gas)[0] * lack;
         }
     }
 }

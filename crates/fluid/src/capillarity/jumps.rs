@@ -2,16 +2,30 @@
 
 use crate::Mixture;
 use crate::riemann::hllc::Face;
-use crate::state::primitive::{PHI, PRESSURE};
+use crate::state::primitive::{PHI, PRESSURE, RHO};
 use crate::two_phase::FaceState;
 
-/// ψ(φ) = φβ₁(1)/β₁(φ): how much of Laplace's jump the pressure of a mixed cell has risen by.
+/// ψ = φβ₁(1)/β₁(φ), β₁ of the free volumes: how much of Laplace's jump the pressure of a mixed cell has risen by.
 ///
-/// Where gas at p + J and liquid at p are mixed, ρe = β₁(φ)(p + ψJ) + β₂(φ). So a step of J that moves with uniform velocity keeps its
+/// Where gas at p + J and liquid at p are mixed, ρe = β₁(p + ψJ) + β₂. So a step of J that moves with uniform velocity keeps its
 /// pressures on both sides, whatever the gas fraction of the cells between is.
+///
+/// - `gas`: m_g, kg/m³; like ρ without a say where no phase has a covolume.
 #[inline(always)]
-pub(crate) fn share_of_jump(phi: f64, mixture: &Mixture) -> f64 {
-    phi * mixture.beta1(1.0) / mixture.beta1(phi)
+pub(crate) fn share_of_jump(phi: f64, rho: f64, gas: f64, mixture: &Mixture) -> f64 {
+    let of_gas = phi * mixture.beta1(1.0);
+    if mixture.has_covolume() {
+        let bound = mixture.beta1(1.0) - mixture.free_betas::<true>(1.0, gas, gas)[0];
+        (of_gas - bound) / mixture.free_betas::<true>(phi, rho, gas)[0]
+    } else {
+        of_gas / mixture.beta1(phi)
+    }
+}
+
+/// ψ on the side of a face.
+#[inline(always)]
+fn share_beside(FaceState { w, gas_share }: &FaceState, mixture: &Mixture) -> f64 {
+    share_of_jump(w[PHI], w[RHO], w[RHO] * gas_share, mixture)
 }
 
 /// The faces of a padded block along one axis, indexed by the cell below them.
@@ -44,7 +58,7 @@ impl FaceJumps<'_> {
     }
 
     fn gauge(&self, k: usize, [lower, upper]: &[FaceState; 2], mixture: &Mixture) -> Gauge {
-        let [below, above] = [lower, upper].map(|side| share_of_jump(side.w[PHI], mixture));
+        let [below, above] = [lower, upper].map(|side| share_beside(side, mixture));
         let across = self.tension[k] * (above - below);
         let own = [below - self.share[k], above - self.share[k + self.step]].map(|part| self.tension[k] * part);
         // The side of more gas keeps its pressure: to the liquid's stiffness the jump is nothing.
@@ -70,7 +84,10 @@ impl FaceJumps<'_> {
     pub fn settle(&self, k: usize, states: &[FaceState; 2], mut face: Face, mixture: &Mixture) -> Face {
         let Gauge { shifts, own } = self.gauge(k, states, mixture);
         let from = usize::from(face.velocity < 0.0);
-        let foreign = mixture.beta1(states[from].w[PHI]) * (shifts[from] - own[from]);
+        let FaceState { w, gas_share } = states[from];
+        let rho = w[RHO] * face.compression;
+        let [beta1, _] = mixture.free_betas::<true>(w[PHI], rho, rho * gas_share);
+        let foreign = beta1 * (shifts[from] - own[from]);
         let mean = face.pressure - shifts[0] + 0.5 * self.jump[k];
         face.energy += face.velocity * ((mean - face.pressure) - foreign);
         face.pressure = mean;

@@ -5,6 +5,7 @@ use mesh::{Field, GHOSTS, Mesh, Padded, Side};
 use super::initial::curvature_at;
 use super::jumps::{FaceJumps, share_of_jump};
 use super::patch::WidePatch;
+use crate::reconstruction::Rows;
 use crate::step::update::Metric;
 use crate::two_phase::is_compliant;
 use crate::{Boundary, Mixture};
@@ -81,8 +82,9 @@ impl CapillaryRows {
     /// On a face J = σκ with the mean of both cells' curvatures, weighted by φ(1 − φ): what lies far from the middle of the interface
     /// knows less of it.
     ///
-    /// - `pressure`, `phi`: of the padded cells.
-    pub fn find<const N: usize>(&mut self, block: &Interfaces<'_, N>, pressure: &[f64], phi: &[f64]) {
+    /// - `cells`: the padded cells, primitive; `gas_shares`: the gas's part of their mass.
+    pub fn find<const N: usize>(&mut self, block: &Interfaces<'_, N>, cells: Rows<'_>, gas_shares: &[f64]) {
+        let [density, _, _, pressure, phi] = cells;
         self.clear();
         let has_step = |k: usize, step: usize| {
             let [a, b] = [k, k + step];
@@ -105,7 +107,8 @@ impl CapillaryRows {
             row.resize(len, 0.0);
         }
         self.share.clear();
-        self.share.extend(phi.iter().map(|phi| share_of_jump(*phi, block.mixture)));
+        let shares = (0..len).map(|k| share_of_jump(phi[k], density[k], density[k] * gas_shares[k], block.mixture));
+        self.share.extend(shares);
         self.patch.fill(block.mesh, block.field, block.slot, block.kinds, phi);
         let id = block.mesh.tree().leaves()[block.slot];
         let mut known = vec![None; len];

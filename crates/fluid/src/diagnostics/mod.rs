@@ -5,13 +5,14 @@ pub(crate) mod bubbles;
 pub(crate) mod ledger;
 
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
-use mesh::{Field, GHOSTS, Padded, limited_differences};
+use mesh::{Field, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
 use crate::components::is_component;
 use crate::state::COUNT;
 use crate::state::conserved::{ENERGY, GAS, MOMENTUM_Z, PHI, RHO};
 use crate::step::{BlockScratch, reconstruct};
+use crate::thermodynamics::temperature::cell_temperature;
 use crate::{FluidSolver, Primitive};
 
 /// The gas as a whole, or of one of several bubbles.
@@ -70,10 +71,16 @@ mesh::cell_fields! {
         pressure: 1, "Pa", "pressure";
         velocity: 3, "m/s", "velocity (z, r, 0)";
         gas_fraction: 1, "1", "volume fraction of gas";
+        temperature: 1, "K", "temperature";
         tracer: 1, "1", "mass fraction of the tracer";
         schlieren: 1, "kg/m4", "magnitude of the density gradient";
         level: 1, "1", "refinement level";
     }
+}
+
+/// The places of a block's own cells among the padded ones, row by row.
+fn own_cells<const N: usize>() -> impl Iterator<Item = usize> {
+    (0..N as isize).flat_map(|j| (0..N as isize).map(move |i| Padded::<N>::index(i, j)))
 }
 
 impl<const N: usize> FluidSolver<N> {
@@ -85,7 +92,9 @@ impl<const N: usize> FluidSolver<N> {
     /// [`FluidSolver::cell`] of a field.
     pub(crate) fn cell_of(&self, field: &Field, slot: usize, i: usize, j: usize) -> Primitive {
         let u: [f64; COUNT] = std::array::from_fn(|c| field.component(slot, c)[j * N + i]);
-        Primitive::from_conserved(u, &self.model().mixture)
+        let gas = self.model().scheme.phases.gas_component();
+        let gas = gas.map_or(0.0, |gas| field.component(slot, gas)[j * N + i]);
+        Primitive::from_conserved(u, gas, &self.model().mixture)
     }
 
     /// What happens on the axis.
@@ -163,7 +172,10 @@ impl<const N: usize> FluidSolver<N> {
 
     /// Whether its snapshots have a field.
     pub fn has_field(&self, name: &str) -> bool {
-        !is_component(name) || self.model().carried.iter().any(|carried| carried.name == name)
+        match name {
+            "temperature" => self.model().mixture.has_temperature(),
+            name => !is_component(name) || self.model().carried.iter().any(|carried| carried.name == name),
+        }
     }
 
     /// The names and masses of what the mass carries besides, kg (planar: kg per metre of depth).
@@ -211,16 +223,24 @@ impl<const N: usize> FluidSolver<N> {
                     s_z.component_mut(RHO),
                     s_r.component_mut(RHO),
                 );
-                for j in GHOSTS..GHOSTS + N {
-                    for k in j * Padded::<N>::STRIDE + GHOSTS..j * Padded::<N>::STRIDE + GHOSTS + N {
-                        let at = |c: usize| cells.component(c)[k];
-                        snapshot.density.push(at(RHO));
-                        snapshot.velocity.extend([at(V_Z), at(V_R), 0.0]);
-                        snapshot.pressure.push(at(PRESSURE));
-                        snapshot.gas_fraction.push(at(PHI));
-                        let gradient = [s_z.component(RHO)[k] / h_z, s_r.component(RHO)[k] / h_r];
-                        snapshot.schlieren.push(gradient[0].hypot(gradient[1]));
-                        snapshot.level.push(f64::from(id.level));
+                for k in own_cells::<N>() {
+                    let at = |c: usize| cells.component(c)[k];
+                    snapshot.density.push(at(RHO));
+                    snapshot.velocity.extend([at(V_Z), at(V_R), 0.0]);
+                    snapshot.pressure.push(at(PRESSURE));
+                    snapshot.gas_fraction.push(at(PHI));
+                    let gradient = [s_z.component(RHO)[k] / h_z, s_r.component(RHO)[k] / h_r];
+                    snapshot.schlieren.push(gradient[0].hypot(gradient[1]));
+                    snapshot.level.push(f64::from(id.level));
+                }
+                if self.model().mixture.has_temperature() {
+                    let gas = self.model().scheme.phases.gas_component().map(|gas| cells.component(gas));
+                    let [rho, p, phi] = [RHO, PRESSURE, PHI].map(|c| cells.component(c));
+                    for k in own_cells::<N>() {
+                        let gas = gas.map(|gas| gas[k]);
+                        let temperature =
+                            cell_temperature(&self.model().mixture, [rho[k], p[k], phi[k]], gas);
+                        snapshot.temperature.push(temperature);
                     }
                 }
                 for (carried, component) in self.model().carried.iter().zip(self.model().carried_components())

@@ -5,7 +5,8 @@ use mesh::{Field, Geometry, Mesh, for_some_blocks};
 use crate::initial::shapes::{may_cut, samples};
 use crate::state::Contents;
 use crate::{
-    Gravity, InitialCondition, Mixture, Phase, PhaseState, Primitive, PulseShape, RayleighField, TRACE_GAS,
+    Gravity, InitialCondition, Mixture, NobleAbelStiffenedGas, Phase, PhaseState, Primitive, PulseShape,
+    RayleighField, TRACE_GAS,
 };
 
 /// The initial condition's average over a cell.
@@ -101,7 +102,7 @@ pub(crate) fn fill<const N: usize>(
             for j in 0..N {
                 for i in 0..N {
                     let cell = state(mesh.centre(id, i, j), widths);
-                    let values = cell.state.to_conserved(mixture).into_iter().chain([cell.gas]);
+                    let values = cell.state.to_conserved(cell.gas, mixture).into_iter().chain([cell.gas]);
                     for (component, value) in values.take(components).enumerate() {
                         block[(component * N + j) * N + i] = value;
                     }
@@ -137,9 +138,17 @@ fn cell_in_field(
 
 /// A state brought to another pressure along its isentrope, (p + π)/ρ^γ = const.
 fn compressed(state: &PhaseState, mixture: &Mixture, pressure: f64) -> PhaseState {
-    let at = mixture.at(pure(*state).phi);
-    let ratio = (pressure + at.pi) / (state.pressure + at.pi);
-    PhaseState { density: state.density * ratio.powf(1.0 / at.gamma), pressure, ..*state }
+    let phi = pure(*state).phi;
+    let at = mixture.law_at(state.density, phi, phi);
+    let density = raised(&at, state.density, (pressure + at.pi) / (state.pressure + at.pi));
+    PhaseState { density, pressure, ..*state }
+}
+
+/// Density where p + π has become `ratio` times as large along an isentrope.
+fn raised(law: &NobleAbelStiffenedGas, density: f64, ratio: f64) -> f64 {
+    let ratio = ratio.powf(1.0 / law.gamma);
+    // Without a covolume to the last bit the stiffened gas's.
+    if law.covolume == 0.0 { density * ratio } else { law.density_of_free(law.free_density(density) * ratio) }
 }
 
 /// The average over one cell, without pulses, with `ambient` where no region is.
@@ -223,9 +232,11 @@ fn at_point<'a>(initial: &'a InitialCondition, ambient: &'a PhaseState, point: [
 fn add_pulse(pulse: &crate::Pulse, [z, r]: [f64; 2], mixture: &Mixture, state: &mut Primitive) {
     let (distance, direction) = distance(pulse, [z, r]);
     let excess = pulse.amplitude * (-(distance / pulse.width).powi(2)).exp();
-    let at = mixture.at(state.phi);
-    let impedance = (mixture.bulk_modulus(state.pressure, state.phi) * state.density).sqrt();
-    state.density *= ((state.pressure + excess + at.pi) / (state.pressure + at.pi)).powf(1.0 / at.gamma);
+    // Pulses are of one phase, whose part of the mass is φ.
+    let at = mixture.law_at(state.density, state.phi, state.phi);
+    let modulus = mixture.bulk_modulus(state.density, state.pressure, state.phi, state.phi);
+    let impedance = (modulus * state.density).sqrt();
+    state.density = raised(&at, state.density, (state.pressure + excess + at.pi) / (state.pressure + at.pi));
     state.pressure += excess;
     if let Some(n) = direction {
         state.v_z += excess / impedance * n[0];
@@ -302,7 +313,7 @@ mod tests {
         for slot in 0..64 {
             for k in 0..64 {
                 let u = std::array::from_fn(|c| field.component(slot, c)[k]);
-                let w = Primitive::from_conserved(u, &mixture);
+                let w = Primitive::from_conserved(u, 0.0, &mixture);
                 let expected = if w.phi > TRACE_GAS { 2118.0 } else { 5e7 };
                 assert!((w.pressure - expected).abs() < 1e-6 * 5e7, "{w:?}");
                 let density = w.phi * 0.0266 + (1.0 - w.phi) * 1000.0;
@@ -326,7 +337,7 @@ mod tests {
         for (slot, id) in mesh.tree().leaves().iter().enumerate() {
             for (j, i) in (0..8).flat_map(|j| (0..8).map(move |i| (j, i))) {
                 let u = std::array::from_fn(|c| state.component(slot, c)[j * 8 + i]);
-                let w = Primitive::from_conserved(u, &mixture);
+                let w = Primitive::from_conserved(u, 0.0, &mixture);
                 let liquid = w.phi == 0.0;
                 let pressure = if liquid { field.pressure(mesh.centre(*id, i, j)) } else { 2118.0 };
                 let density = w.phi * 0.0266 + (1.0 - w.phi) * isentrope(pressure);
@@ -352,7 +363,7 @@ mod tests {
         let (mesh, field, mixture) = filled(&initial);
         let (slot, i, j) = mesh.locate([0.5 + 1e-3, 0.3]).unwrap();
         let u = std::array::from_fn(|c| field.component(slot, c)[j * 8 + i]);
-        let w = Primitive::from_conserved(u, &mixture);
+        let w = Primitive::from_conserved(u, 0.0, &mixture);
         let impedance = 1000.0 * 1_581.929_201_955_64;
         assert!((w.pressure - 5e7 - 1e4).abs() < 70.0);
         assert!((w.v_z * impedance + (w.pressure - 5e7)).abs() < 1.0, "{w:?}");

@@ -4,7 +4,7 @@ use mesh::{Field, Mesh};
 
 use super::Rectangle;
 use crate::Mixture;
-use crate::state::primitive::{PHI, PRESSURE, V_R, V_Z};
+use crate::state::primitive::{GAS, PHI, PRESSURE, V_R, V_Z};
 use crate::state::{ConservedCell, primitive_of};
 
 /// Rise of the pressure from one cell to the next that makes a shock, relative to the lower one of the two or to the reference
@@ -45,9 +45,11 @@ pub(crate) fn steep_places<const N: usize>(
 
 /// The first and the last cell (i, j) of the smallest rectangle around what is steep in a block; `None` if nothing is.
 fn steep_cells<const N: usize>(block: &[f64], mixture: &Mixture, reference: f64) -> Option<[[usize; 2]; 2]> {
+    // Models whose phases have no masses of their own have no covolumes, either.
+    let gas = |cell: usize| if mixture.has_covolume() { block[GAS * N * N + cell] } else { 0.0 };
     let at = |i: usize, j: usize| {
         let cell: ConservedCell = std::array::from_fn(|c| block[c * N * N + j * N + i]);
-        primitive_of(cell, mixture)
+        primitive_of::<true>(cell, gas(j * N + i), mixture)
     };
     let mut found: Option<[[usize; 2]; 2]> = None;
     for j in 0..N {

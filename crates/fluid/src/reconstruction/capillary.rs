@@ -19,8 +19,9 @@ pub(crate) fn level_slopes<const N: usize>(
     inverse_h: [f64; 2],
     scratch: &mut BlockScratch<N>,
 ) {
-    let BlockScratch { cells, s_z, s_r, half, keep, inverse_r, capillary, .. } = scratch;
+    let BlockScratch { cells, s_z, s_r, half, keep, inverse_r, gas_shares, capillary, .. } = scratch;
     let Some(jumps) = capillary.jumps() else { return };
+    let mixture = &ctx.model.mixture;
     let limiter = ctx.model.scheme.limiter;
     for &k in capillary.cells() {
         let p = cells.component(PRESSURE);
@@ -34,8 +35,9 @@ pub(crate) fn level_slopes<const N: usize>(
         }
         let of = |rows: &Padded<N>| at(&rows.split(), k);
         let (w, along_z, along_r) = (of(cells), of(s_z), of(s_r));
-        let (state, kept) =
-            half_step(w, along_z, along_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, &ctx.model.mixture);
+        let bound = if mixture.has_covolume() { mixture.bound_beta1::<true>(gas_shares[k]) } else { 0.0 };
+        let half_dt = 0.5 * ctx.dt;
+        let (state, kept) = half_step(w, along_z, along_r, inverse_h, inverse_r[k], half_dt, bound, mixture);
         for (component, value) in state.into_iter().enumerate() {
             half.component_mut(component)[k] = value;
         }

@@ -64,13 +64,14 @@ pub(crate) fn predict_beside_mirrors<const N: usize>(
     inverse_h: [f64; 2],
     scratch: &mut BlockScratch<N>,
 ) {
-    let BlockScratch { cells, s_z, s_r, half, keep, inverse_r, .. } = scratch;
+    let BlockScratch { cells, s_z, s_r, half, keep, inverse_r, gas_shares, has_gas, .. } = scratch;
+    let mixture = &ctx.model.mixture;
     for side in mirrors(ctx, slot) {
         for [k, _] in along_mirror::<N>(side) {
             let of = |rows: &Padded<N>| at(&rows.split(), k);
             let (w, s_z, s_r) = (of(cells), of(s_z), of(s_r));
-            let (state, kept) =
-                half_step(w, s_z, s_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, &ctx.model.mixture);
+            let bound = mixture.bound_beta1::<true>(if *has_gas { gas_shares[k] } else { 0.0 });
+            let (state, kept) = half_step(w, s_z, s_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, bound, mixture);
             for (component, value) in state.into_iter().enumerate() {
                 half.component_mut(component)[k] = value;
             }

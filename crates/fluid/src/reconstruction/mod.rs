@@ -49,6 +49,8 @@ pub(crate) struct Reconstruction<'a> {
     pub keep: &'a [f64],
     /// The cells' sound speed at the beginning of the step, m/s.
     pub sound: &'a [f64],
+    /// m_g/ρ of the cells; read where there is gas and a covolume.
+    pub gas_shares: &'a [f64],
     /// Whether there is gas in any cell. Without it the rows of the gas fraction hold zeros.
     pub with_gas: bool,
     pub dispersion: Dispersion,
@@ -69,10 +71,17 @@ impl<'a> Reconstruction<'a> {
             differences: cut(&self.differences, at, n),
             keep: &self.keep[at..][..n],
             sound: &self.sound[at..][..n],
+            gas_shares: &self.gas_shares[at..][..n],
             with_gas: self.with_gas,
             dispersion: self.dispersion,
             along_faces: self.along_faces.cut(at, n),
         }
+    }
+
+    /// m_g/ρ on the faces of cell `k`.
+    #[inline(always)]
+    pub fn gas_share<const WITH_GAS: bool>(&self, k: usize) -> f64 {
+        if WITH_GAS { self.gas_shares[k] } else { 0.0 }
     }
 
     /// The state on the lower (`sign` = −1) or upper (+1) face of cell `k`.

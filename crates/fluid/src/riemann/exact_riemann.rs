@@ -1,4 +1,8 @@
-//! The exact Riemann problem between two stiffened gases.
+//! The exact Riemann problem between two stiffened gases, with covolumes or without.
+//!
+//! In the free volume v − b a Noble–Abel stiffened gas is a stiffened gas, and the jumps v_K − v* of its waves are those of the free
+//! volumes. So pressure and velocity of the star state are those of stiffened gases of the densities ρ/(1 − bρ), of which
+//! this file speaks; densities and the speeds of waves, which cross the whole volume, follow.
 //!
 //! In P = p + π each side is an ideal gas, so its shock and isentrope through (ρ_K, u_K, p_K) are those of
 //! Toro (2009) ch. 4. With x = (p − p_K)/P_K, R = P/P_K and c_K² = γP_K/ρ_K the velocity changes by
@@ -21,7 +25,8 @@ mod sample;
 
 pub use sample::sample;
 
-use crate::thermodynamics::eos::{StiffenedGas, ln_pressure_ratio};
+use crate::thermodynamics::eos::ln_pressure_ratio;
+use crate::thermodynamics::noble_abel::NobleAbelStiffenedGas;
 
 /// Iterations after which the solver returns what it has. Two million random states took 12 at most.
 pub const MAX_ITERATIONS: u32 = 40;
@@ -45,14 +50,28 @@ pub struct Side {
     pub gamma: f64,
     /// Stiffness π ≥ 0, Pa.
     pub pi: f64,
+    /// Covolume b ≥ 0, m³/kg, with bρ < 1.
+    pub covolume: f64,
 }
 
 impl Side {
     /// The equation of state.
     #[inline]
     #[must_use]
-    pub fn law(&self) -> StiffenedGas {
-        StiffenedGas { gamma: self.gamma, pi: self.pi }
+    pub fn law(&self) -> NobleAbelStiffenedGas {
+        NobleAbelStiffenedGas { gamma: self.gamma, pi: self.pi, covolume: self.covolume, heat: None }
+    }
+
+    /// Density where that in the free volume has grown by the factor `squeezing`: 1 gives back the side's own, to the last bit.
+    #[inline]
+    fn density_of(&self, squeezing: f64) -> f64 {
+        self.rho * (squeezing / (1.0 + (squeezing - 1.0) * (self.covolume * self.rho)))
+    }
+
+    /// The stiffened gas in the free volume.
+    #[inline]
+    fn free(&self) -> Self {
+        Self { rho: self.law().free_density(self.rho), covolume: 0.0, ..*self }
     }
 
     /// Sound speed, m/s.
@@ -126,7 +145,7 @@ struct Curve {
     curvature: f64,
 }
 
-/// The wave curve of one side, as the head of this file has it.
+/// The wave curve of one side in its free volume, as the head of this file has it.
 ///
 /// `p` with `shifted` = p + π − `offset` is where; `offset` = π_K − min(π_L, π_R) ≥ 0.
 #[inline]
@@ -158,7 +177,7 @@ fn curve(side: &Side, p: f64, shifted: f64, offset: f64) -> Curve {
     }
 }
 
-/// Density at pressure p on the wave curve of `side`, kg/m³: Toro (2009) eqs. 4.50 and 4.53.
+/// Density at pressure p on the wave curve of `side` in its free volume, kg/m³: Toro (2009) eqs. 4.50 and 4.53.
 #[inline]
 fn curve_density(side: &Side, p: f64, shifted: f64, offset: f64) -> f64 {
     let base = side.p + side.pi;
@@ -172,16 +191,16 @@ fn curve_density(side: &Side, p: f64, shifted: f64, offset: f64) -> f64 {
     }
 }
 
-/// The star state of the Riemann problem between two stiffened gases.
+/// The star state of the Riemann problem between two stiffened gases, each with a covolume or without.
 ///
-/// Toro (2009) ch. 4 in P = p + π; Menikoff & Plohr (1989); Saurel & Abgrall (1999). Paper: sect. 3.1, the
-/// exact solver of the Godunov flux. The iteration is at the head of this file.
+/// Toro (2009) ch. 4 in P = p + π; Menikoff & Plohr (1989); Saurel & Abgrall (1999); Le Métayer & Saurel (2016). Paper: sect.
+/// 3.1, the exact solver of the Godunov flux. The iteration is at the head of this file.
 ///
 /// - `left`, `right`: the two states, SI (rho kg/m³, u m/s, p and pi Pa).
 /// - returns: pressure, velocity, both densities. Equal pressures and velocities come back as they are,
 ///   bitwise, whatever densities and gases meet; exchanging the sides with the sign of u gives the mirror
 ///   image, bitwise.
-/// - valid for: rho > 0, gamma > 1, pi ≥ 0, p + pi > 0 (debug-asserted), and any velocities. p may be
+/// - valid for: rho > 0, gamma > 1, pi ≥ 0, p + pi > 0, bρ < 1 (debug-asserted), and any velocities. p may be
 ///   negative (tension). Otherwise NaN.
 /// - errors: none. If the sides move apart faster than both can expand (G(−min π) ≥ 0), `vacuum` is set, p is
 ///   −min(π_L, π_R) and `u_left`, `u_right` are the speeds at which the fluids recede from each other there.
@@ -196,6 +215,18 @@ fn curve_density(side: &Side, p: f64, shifted: f64, offset: f64) -> f64 {
 pub fn star_state(left: &Side, right: &Side) -> Star {
     debug_assert!(left.rho > 0.0 && left.gamma > 1.0 && left.p + left.pi > 0.0, "{left:?}");
     debug_assert!(right.rho > 0.0 && right.gamma > 1.0 && right.p + right.pi > 0.0, "{right:?}");
+    debug_assert!(left.covolume * left.rho < 1.0 && right.covolume * right.rho < 1.0, "{left:?} {right:?}");
+    let free = [left.free(), right.free()];
+    let star = free_star_state(&free[0], &free[1]);
+    Star {
+        rho_left: left.density_of(star.rho_left / free[0].rho),
+        rho_right: right.density_of(star.rho_right / free[1].rho),
+        ..star
+    }
+}
+
+/// [`star_state`] in free volumes.
+fn free_star_state(left: &Side, right: &Side) -> Star {
     let pi = left.pi.min(right.pi);
     let (offset_left, offset_right) = (left.pi - pi, right.pi - pi);
     let du = right.u - left.u;
@@ -322,15 +353,15 @@ fn newton_power_step(x: f64, theta: f64, shifted: f64, lowest: &mut f64, highest
 #[must_use]
 pub fn waves(left: &Side, right: &Side, star: &Star) -> [Wave; 2] {
     let pi = left.pi.min(right.pi);
-    let towards_left = wave(left, star, star.u_left, left.pi - pi);
+    let towards_left = wave(left, star, [star.u_left, star.rho_left], left.pi - pi);
     // A right wave is a left wave seen from behind.
-    let mirrored = wave(&right.mirrored(), star, -star.u_right, right.pi - pi);
+    let mirrored = wave(&right.mirrored(), star, [-star.u_right, star.rho_right], right.pi - pi);
     [towards_left, Wave { head: -mirrored.head, tail: -mirrored.tail, shock: mirrored.shock }]
 }
 
-/// The left wave of `side`, behind which the fluid moves at `u_star`.
+/// The left wave of `side`, behind which the fluid moves at `u_star` and has the density `rho_star`.
 #[inline]
-fn wave(side: &Side, star: &Star, u_star: f64, offset: f64) -> Wave {
+fn wave(side: &Side, star: &Star, [u_star, rho_star]: [f64; 2], offset: f64) -> Wave {
     let c = side.sound_speed();
     let increment = star.p - side.p;
     let base = side.p + side.pi;
@@ -340,7 +371,9 @@ fn wave(side: &Side, star: &Star, u_star: f64, offset: f64) -> Wave {
         Wave { head: speed, tail: speed, shock: true }
     } else {
         let m = (side.gamma - 1.0) / (2.0 * side.gamma);
-        let c_star = c * (m * ln_pressure_ratio(star.shifted + offset, increment, base)).exp();
+        // The sound speed in the free volume goes with the pressure; c is that over the free share.
+        let free = side.law().free_share(side.rho) / side.law().free_share(rho_star);
+        let c_star = c * (m * ln_pressure_ratio(star.shifted + offset, increment, base)).exp() * free;
         Wave { head: side.u - c, tail: u_star - c_star, shock: false }
     }
 }

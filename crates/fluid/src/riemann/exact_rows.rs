@@ -8,6 +8,7 @@
 mod listed;
 
 use std::hint::select_unpredictable;
+use std::ops::Range;
 
 use mesh::whole_lines;
 
@@ -47,7 +48,10 @@ struct Sides {
     v: Lane,
     p: Lane,
     phi: Lane,
-    /// Sound speed.
+    /// The gas's part of the mass, and the share of the volume that is free; used where there is a covolume.
+    gas_share: Lane,
+    free: Lane,
+    /// Sound speed in the free volume.
     c: Lane,
     /// (γ − 1)/(2γ); (γ + 1)/(2γ) is then 1 − m, and 1/γ is 1 − 2m.
     m: Lane,
@@ -85,6 +89,8 @@ impl Chunk {
             v: ZERO,
             p: ZERO,
             phi: ZERO,
+            gas_share: ZERO,
+            free: ZERO,
             c: ZERO,
             m: ZERO,
             inverse_base: ZERO,
@@ -121,17 +127,34 @@ pub(crate) fn exact_faces(
 ) {
     let mixture = *mixture;
     let range = whole_lines(range, cells.lines(step, stride));
+    if mixture.has_covolume() {
+        exact_rows::<true>(cells, step, range, used, &mixture, faces);
+    } else {
+        exact_rows::<false>(cells, step, range, used, &mixture, faces);
+    }
+}
+
+/// [`exact_faces`] of whole lines.
+#[inline(always)]
+fn exact_rows<const B: bool>(
+    cells: &Reconstruction<'_>,
+    step: usize,
+    range: Range<usize>,
+    used: fn(usize, usize) -> bool,
+    mixture: &Mixture,
+    faces: &mut FaceRows,
+) {
     let mut chunk = Chunk::zeros();
     let (mut compression, mut solved) = ([0.0; LANES], [0.0; LANES]);
     let mut first = range.start;
     while first < range.end {
         let n = LANES.min(range.end - first);
-        take(n, cells.cut(first, n), cells.cut(first + step, n), &mut chunk.left, &mut chunk.right);
-        solve(n, &mut chunk, &mixture);
-        fluxes(
+        take::<B>(n, cells.cut(first, n), cells.cut(first + step, n), &mut chunk.left, &mut chunk.right);
+        solve::<B>(n, &mut chunk, mixture);
+        fluxes::<B>(
             n,
             &chunk,
-            &mixture,
+            mixture,
             &mut faces.mass[first..][..n],
             &mut faces.velocity[first..][..n],
             &mut faces.pressure[first..][..n],
@@ -145,7 +168,8 @@ pub(crate) fn exact_faces(
             for k in 0..n {
                 if solved[k] == 0.0 && used(first + k, step) {
                     let at = |s: &Sides| [s.rho[k], s.u[k], s.v[k], s.p[k], s.phi[k]];
-                    faces.set(first + k, flux_exact(at(&chunk.left), at(&chunk.right), &mixture));
+                    let shares = [chunk.left.gas_share[k], chunk.right.gas_share[k]];
+                    faces.set(first + k, flux_exact(at(&chunk.left), at(&chunk.right), shares, mixture));
                 }
             }
         }
@@ -164,8 +188,18 @@ fn count(lane: &Lane, n: usize) -> usize {
 }
 
 #[inline(always)]
-fn take(n: usize, lower: Reconstruction<'_>, upper: Reconstruction<'_>, left: &mut Sides, right: &mut Sides) {
+fn take<const B: bool>(
+    n: usize,
+    lower: Reconstruction<'_>,
+    upper: Reconstruction<'_>,
+    left: &mut Sides,
+    right: &mut Sides,
+) {
     for k in 0..n.min(LANES) {
+        if B {
+            let share = |cells: &Reconstruction<'_>| if cells.with_gas { cells.gas_shares[k] } else { 0.0 };
+            (left.gas_share[k], right.gas_share[k]) = (share(&lower), share(&upper));
+        }
         let [l, r] = states_at_face::<true>(&lower, &upper, k);
         [left.rho[k], left.u[k], left.v[k], left.p[k], left.phi[k]] = l;
         [right.rho[k], right.u[k], right.v[k], right.p[k], right.phi[k]] = r;
@@ -174,8 +208,8 @@ fn take(n: usize, lower: Reconstruction<'_>, upper: Reconstruction<'_>, left: &m
 
 /// From the states in a chunk to the pressures and velocity changes of its faces.
 #[inline(always)]
-fn solve(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
-    prepare(n, chunk, mixture);
+fn solve<const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
+    prepare::<B>(n, chunk, mixture);
     for _ in 0..MOST_STEPS {
         advance(n, chunk);
         if count(&chunk.done, n) == n {
@@ -186,21 +220,30 @@ fn solve(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
 
 /// The wave curves and the first guess, see `first_guess` of the scalar solver.
 #[inline(always)]
-fn prepare(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
+fn prepare<const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
     let Chunk { left, right, pi, p, shifted, done, .. } = chunk;
     for k in 0..n.min(LANES) {
-        // (m, π, c) of one side: γ = (1 + β₁)/β₁, π = β₂/(1 + β₁).
-        let law = |rho: f64, p: f64, phi: f64| {
-            let (b1, b2) = (mixture.beta1(phi), mixture.beta2(phi));
+        // (m, π, c) of one side: γ = (1 + β₁)/β₁, π = β₂/(1 + β₁), with a covolume of what is in the free volume.
+        let law = |rho: f64, p: f64, phi: f64, share: f64| {
+            let free = mixture.free_share::<B>(rho, share);
+            let [b1, b2] = mixture.free_betas::<B>(phi, rho, rho * share);
+            let per_free = if B { 1.0 / free } else { 1.0 };
+            let (rho, b1, b2) =
+                if B { (rho * per_free, b1 * per_free, b2 * per_free) } else { (rho, b1, b2) };
             let above = 1.0 + b1;
             let inverse = 1.0 / (rho * (b1 * above));
             let inverse_above = inverse * (rho * b1);
             let pi = b2 * inverse_above;
             let squared = (above * above) * (inverse * (p + pi));
-            (b1, 0.5 * inverse_above, pi, (if squared > 0.0 { squared } else { 0.0 }).sqrt())
+            let c = (if squared > 0.0 { squared } else { 0.0 }).sqrt();
+            (b1, 0.5 * inverse_above, pi, c, rho * c, free)
         };
-        let (b1_l, m_l, pi_l, c_l) = law(left.rho[k], left.p[k], left.phi[k]);
-        let (b1_r, m_r, pi_r, c_r) = law(right.rho[k], right.p[k], right.phi[k]);
+        let of = |s: &Sides| law(s.rho[k], s.p[k], s.phi[k], s.gas_share[k]);
+        let (b1_l, m_l, pi_l, c_l, z_l, free_l) = of(left);
+        let (b1_r, m_r, pi_r, c_r, z_r, free_r) = of(right);
+        if B {
+            (left.free[k], right.free[k]) = (free_l, free_r);
+        }
         let (base_l, base_r) = (left.p[k] + pi_l, right.p[k] + pi_r);
         let inverse = 1.0 / (base_l * base_r);
         let lowest_pi = if pi_l < pi_r { pi_l } else { pi_r };
@@ -210,7 +253,6 @@ fn prepare(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
         (right.escape[k], right.offset[k]) = (2.0 * b1_r * c_r, pi_r - lowest_pi);
 
         let du = right.u[k] - left.u[k];
-        let (z_l, z_r) = (left.rho[k] * c_l, right.rho[k] * c_r);
         let right_is_lower = right.p[k] < left.p[k];
         let low = if right_is_lower { right.p[k] } else { left.p[k] };
         let high = if right_is_lower { left.p[k] } else { right.p[k] };
@@ -220,6 +262,7 @@ fn prepare(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
         let guess = if acoustic + lowest_pi > 0.1 * (fallback + lowest_pi) { acoustic } else { fallback };
         let state =
             (left.rho[k] > 0.0) & (right.rho[k] > 0.0) & (base_l > 0.0) & (base_r > 0.0) & (guess < f64::MAX);
+        let state = if B { state & (free_l > 0.0) & (free_r > 0.0) } else { state };
         pi[k] = lowest_pi;
         p[k] = guess;
         shifted[k] = guess + lowest_pi;
@@ -301,7 +344,7 @@ fn advance(n: usize, chunk: &mut Chunk) {
 // A flat list of what is written, as in `step/rows.rs`.
 #[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
-fn fluxes(
+fn fluxes<const B: bool>(
     n: usize,
     chunk: &Chunk,
     mixture: &Mixture,
@@ -333,23 +376,35 @@ fn fluxes(
         let x = (p_star - p_side) * pick(&left.inverse_base, &right.inverse_base);
         let phi_side = pick(&left.phi, &right.phi);
         let (b1, b2) = (mixture.beta1(phi_side), mixture.beta2(phi_side));
+        // Waves cross the whole volume.
+        let free = if B { pick(&left.free, &right.free) } else { 1.0 };
+        let speed = if B { c / free } else { c };
 
         let shock = x > 0.0;
         let squeezed = 1.0 + (1.0 - m) * x;
-        let head = u_side - if shock { c * squeezed.sqrt() } else { c };
+        let head = u_side - if shock { speed * squeezed.sqrt() } else { speed };
         let undisturbed = head >= 0.0;
         // Behind a rarefaction the sound speed is (γ − 1)/2 (escape + f) and ρ* = ρR/(c*/c)².
-        let fan = !shock & !undisturbed & (2.0 * b1 * u_contact > behind);
         let ratio_side = if from_left { ratio_l } else { ratio_r };
         let over = if shock { squeezed } else { ratio_side * (escape * escape) };
         let under = if shock { 1.0 + m * x } else { behind * behind };
         let unchanged = undisturbed | (x == 0.0);
-        compression[k] = if unchanged { 1.0 } else { over / under };
+        let squeezing = if unchanged { 1.0 } else { over / under };
+        // 1 − bρ* is the free share over this.
+        let whole = 1.0 + (squeezing - 1.0) * (1.0 - free);
+        let faster = if B { (1.0 - 2.0 * m) / m * (free / whole) } else { 2.0 * b1 };
+        let fan = !shock & !undisturbed & (faster * u_contact > behind);
+        compression[k] = if B & !unchanged { squeezing / whole } else { squeezing };
         let rho = rho_side * compression[k];
         let u = if undisturbed { pick(&left.u, &right.u) } else { u_star };
         let p = if undisturbed { p_side } else { p_star };
         let v = pick(&left.v, &right.v);
 
+        let [b1, b2] = if B {
+            mixture.free_betas::<B>(phi_side, rho, rho * pick(&left.gas_share, &right.gas_share))
+        } else {
+            [b1, b2]
+        };
         let total = b1 * p + b2 + 0.5 * rho * (u * u + v * v);
         mass[k] = rho * u;
         velocity[k] = u;

@@ -2,6 +2,7 @@
 
 use crate::Mixture;
 use crate::state::PrimitiveCell;
+use crate::state::primitive::PHI;
 
 /// What one face passes on, per unit area. Normal velocity, pressure and gas fraction stand beside the
 /// fluxes because the geometric source and the gas fraction's update need them by themselves.
@@ -30,27 +31,38 @@ pub struct Face {
 /// sides plus a difference, so that equal velocities and pressures give exactly themselves and mirrored
 /// states give exactly zero.
 ///
-/// - `left`, `right`: (ρ kg/m³, u normal m/s, v tangential m/s, p Pa, φ) on the two sides of the face.
+/// - `left`, `right`: (ρ kg/m³, u normal m/s, v tangential m/s, p Pa, φ) on the two sides of the face. Where a phase has a covolume
+///   they are of one phase, whose part of the mass is φ.
 /// - returns: the [`Face`] per unit area.
 /// - valid for: ρ > 0 and ρc² > 0 on both sides, otherwise not finite. errors: none.
 /// - exact for isolated contacts; tested by: consistency, mirror symmetry, supersonic upwinding, contact at rest.
 #[inline(always)]
 pub fn flux_hllc(left: PrimitiveCell, right: PrimitiveCell, mixture: &Mixture) -> Face {
-    flux_and_roots(left, right, mixture).0
+    flux_and_roots::<true>(left, right, [left[PHI], right[PHI]], mixture).0
 }
 
 /// [`flux_hllc`], and whether both sides have a sound speed; one that has none counts as if it were 0. Of what has no density
 /// either, as beyond the corners of a block, that is not said.
+///
+/// - `B`: whether there may be a covolume; `shares`: the gas's part of the mass on both sides, without a say if not.
 #[inline(always)]
-pub(crate) fn flux_and_roots(left: PrimitiveCell, right: PrimitiveCell, mixture: &Mixture) -> (Face, bool) {
+pub(crate) fn flux_and_roots<const B: bool>(
+    left: PrimitiveCell,
+    right: PrimitiveCell,
+    [share_l, share_r]: [f64; 2],
+    mixture: &Mixture,
+) -> (Face, bool) {
     let [rho_l, u_l, v_l, p_l, phi_l] = left;
     let [rho_r, u_r, v_r, p_r, phi_r] = right;
-    // c² = ((1 + β₁) p + β₂)/(β₁ρ): one division serves both sides, and two square roots wait for it.
-    let law = |rho: f64, p: f64, phi: f64| {
+    // c² = ((1 + β₁) p + β₂)/(β₁ρ), below the line with β₁ of the free volume: one division serves both sides, and two square
+    // roots wait for it.
+    let law = |rho: f64, p: f64, phi: f64, share: f64| {
         let beta1 = mixture.beta1(phi);
-        ((1.0 + beta1) * p + mixture.beta2(phi), beta1 * rho)
+        let [free, _] = mixture.free_betas::<B>(phi, rho, rho * share);
+        ((1.0 + beta1) * p + mixture.beta2(phi), free * rho)
     };
-    let ((over_l, under_l), (over_r, under_r)) = (law(rho_l, p_l, phi_l), law(rho_r, p_r, phi_r));
+    let (over_l, under_l) = law(rho_l, p_l, phi_l, share_l);
+    let (over_r, under_r) = law(rho_r, p_r, phi_r, share_r);
     let inverse = 1.0 / (under_l * under_r);
     let root = |squared: f64| (if squared > 0.0 { squared } else { 0.0 }).sqrt();
     let (squared_l, squared_r) = ((over_l * under_r) * inverse, (over_r * under_l) * inverse);
@@ -71,7 +83,8 @@ pub(crate) fn flux_and_roots(left: PrimitiveCell, right: PrimitiveCell, mixture:
     let s = pick(s_l, s_r);
     let supersonic = if from_left { s_l >= 0.0 } else { s_r <= 0.0 };
 
-    let energy = mixture.beta1(phi) * p + mixture.beta2(phi) + 0.5 * rho * (u * u + v * v);
+    let [beta1, beta2] = mixture.free_betas::<B>(phi, rho, rho * pick(share_l, share_r));
+    let energy = beta1 * p + beta2 + 0.5 * rho * (u * u + v * v);
     let inverse = 1.0 / (s - s_m);
     let compression = (s - u) * inverse;
     let energy_star = compression * (energy + (s_m - u) * (rho * s_m)) + (s_m - u) * p * inverse;
@@ -110,7 +123,7 @@ fn larger(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::StiffenedGas;
-    use crate::state::primitive::{PHI, PRESSURE, RHO, V_N, V_T};
+    use crate::state::primitive::{PRESSURE, RHO, V_N, V_T};
 
     fn mixture() -> Mixture {
         Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
@@ -175,7 +188,7 @@ mod tests {
     fn a_side_without_a_sound_speed_is_told() {
         let (state, no_state) = ([1000.0, 1.0, 0.0, 1e5, 0.0], [1000.0, 1.0, 0.0, -3.1e8, 0.0]);
         for (left, right, is) in [(state, state, true), (no_state, state, false), (state, no_state, false)] {
-            let (face, has_roots) = flux_and_roots(left, right, &mixture());
+            let (face, has_roots) = flux_and_roots::<false>(left, right, [0.0; 2], &mixture());
             assert_eq!(has_roots, is);
             assert!(face.energy.is_finite(), "{face:?}");
         }

@@ -74,28 +74,38 @@ impl Primitive {
         Self { density, v_z, v_r, pressure, phi }
     }
 
-    /// (ρ, ρv_z, ρv_r, ρE, φ) with ρE = β₁p + β₂ + ρv²/2, paper eqs. (8), (10).
+    /// (ρ, ρv_z, ρv_r, ρE, φ) with ρE = β₁p + β₂ + ρv²/2, paper eqs. (8), (10), β₁ and β₂ of the free volumes.
+    ///
+    /// - `gas`: m_g, kg/m³; without a say where no phase has a covolume.
     #[inline]
-    pub fn to_conserved(self, mixture: &Mixture) -> ConservedCell {
+    pub fn to_conserved(self, gas: f64, mixture: &Mixture) -> ConservedCell {
         let kinetic = 0.5 * self.density * (self.v_z * self.v_z + self.v_r * self.v_r);
-        let internal = mixture.beta1(self.phi) * self.pressure + mixture.beta2(self.phi);
+        let [beta1, beta2] = mixture.free_betas::<true>(self.phi, self.density, gas);
+        let internal = beta1 * self.pressure + beta2;
         [self.density, self.density * self.v_z, self.density * self.v_r, internal + kinetic, self.phi]
     }
 
     /// The inverse of [`Primitive::to_conserved`]; valid for ρ > 0.
     #[inline]
-    pub fn from_conserved(u: ConservedCell, mixture: &Mixture) -> Self {
-        Self::from_array(primitive_of(u, mixture))
+    pub fn from_conserved(u: ConservedCell, gas: f64, mixture: &Mixture) -> Self {
+        Self::from_array(primitive_of::<true>(u, gas, mixture))
     }
 }
 
 /// Primitive from conserved variables, for kernels.
+///
+/// - `B`: whether there may be a covolume; `gas`: m_g, kg/m³, without a say if not.
 #[inline(always)]
-pub(crate) fn primitive_of([rho, mz, mr, energy, phi]: ConservedCell, mixture: &Mixture) -> PrimitiveCell {
+pub(crate) fn primitive_of<const B: bool>(
+    [rho, mz, mr, energy, phi]: ConservedCell,
+    gas: f64,
+    mixture: &Mixture,
+) -> PrimitiveCell {
     let inverse = 1.0 / rho;
     let (v_z, v_r) = (mz * inverse, mr * inverse);
     let internal = energy - 0.5 * (mz * v_z + mr * v_r);
-    [rho, v_z, v_r, (internal - mixture.beta2(phi)) / mixture.beta1(phi), phi]
+    let [beta1, beta2] = mixture.free_betas::<B>(phi, rho, gas);
+    [rho, v_z, v_r, (internal - beta2) / beta1, phi]
 }
 
 /// What a cell holds at t = 0: the mixture, and the gas's part of its mass per volume.

@@ -151,7 +151,7 @@ mod tests {
             Analysis { mixture, boundaries: [Boundary::Wall; 4], scales, has_phases: false, carried: 5..5 };
         let counted = CountedAnalysis::new(&analysis);
         let liquid = Primitive { density: 1000.0, v_z: 0.0, v_r: 0.0, pressure: 5e7, phi: 0.0 };
-        let mean = liquid.to_conserved(&mixture);
+        let mean = liquid.to_conserved(0.0, &mixture);
         let deviations = |share: f64| {
             [-1.0, 1.0, -1.0, 1.0].map(|sign| {
                 let mut of_child = [0.0; MOST_COMPONENTS];

@@ -25,8 +25,9 @@ impl<const N: usize> BlockStep<'_, N> {
     pub(super) fn solve_faces(&mut self, scratch: &mut BlockScratch<N>) {
         let ctx = self.ctx;
         let stride = Padded::<N>::STRIDE;
-        let BlockScratch { half, s_z, s_r, keep, sound, inverse_r, gas, capillary, z_faces, r_faces, .. } =
-            scratch;
+        let BlockScratch {
+            half, s_z, s_r, keep, sound, gas_shares, inverse_r, gas, capillary, z_faces, r_faces, ..
+        } = scratch;
         let [rho, v_z, v_r, p, phi] = half.split::<COUNT>();
         let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_z.split::<COUNT>();
         let along_z = Reconstruction {
@@ -34,6 +35,7 @@ impl<const N: usize> BlockStep<'_, N> {
             differences: [d_rho, d_v_z, d_v_r, d_p, d_phi],
             keep,
             sound,
+            gas_shares,
             with_gas: self.gas.is_present(),
             dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
             along_faces: AlongFaces::new([V_Z, PRESSURE].map(|c| s_r.component(c)), stride),
@@ -63,7 +65,7 @@ impl<const N: usize> BlockStep<'_, N> {
         self.clipped_roots += faces(ctx, &along_r, stride, r_range, None, r_faces);
         if let Some(block) = self.gas.phases() {
             block.solve_faces(1, &along_r, inverse_r, capillary.along::<N>(1), gas, r_faces);
-            block.gas_fluxes(gas, [z_faces, r_faces]);
+            block.gas_fluxes(gas, gas_shares, [z_faces, r_faces]);
         } else if let Some(jumps) = capillary.along::<N>(1) {
             faces_with_jumps::<N>(ctx, &along_r, jumps, r_faces);
         }
@@ -107,7 +109,8 @@ fn faces<const N: usize>(
     }
 }
 
-/// Solves the faces again that a jump of pressure lies on, where the kernels serve mixed cells, too.
+/// Solves the faces again that a jump of pressure lies on, where the kernels serve mixed cells, too: in the paper's mixture, which has no
+/// covolumes.
 fn faces_with_jumps<const N: usize>(
     ctx: &FluidStep<'_, N>,
     cells: &Reconstruction<'_>,
@@ -115,15 +118,15 @@ fn faces_with_jumps<const N: usize>(
     faces: &mut FaceRows,
 ) {
     let mixture = &ctx.model.mixture;
-    let solve = match ctx.model.scheme.riemann {
-        RiemannSolver::Hllc => flux_hllc,
-        RiemannSolver::Exact => flux_exact,
+    let solve = |lower: FaceState, upper: FaceState| match ctx.model.scheme.riemann {
+        RiemannSolver::Hllc => flux_hllc(lower.w, upper.w, mixture),
+        RiemannSolver::Exact => flux_exact(lower.w, upper.w, [0.0; 2], mixture),
     };
     let step = jumps.step;
     for k in (0..Padded::<N>::LEN - step).filter(|k| jumps.has(*k) && used_face::<N>(*k, step)) {
         let states = [cells.face_state(k, 1.0), cells.face_state(k + step, -1.0)]
-            .map(|w| FaceState { w, gas_share: f64::NAN });
+            .map(|w| FaceState { w, gas_share: 0.0 });
         let [lower, upper] = jumps.level(k, states, mixture);
-        faces.set(k, jumps.settle(k, &states, solve(lower.w, upper.w, mixture), mixture));
+        faces.set(k, jumps.settle(k, &states, solve(lower, upper), mixture));
     }
 }

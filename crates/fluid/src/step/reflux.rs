@@ -74,7 +74,9 @@ pub(crate) fn correct<const N: usize>(
         let [mass, carried, pressure, shear, energy, velocity, velocity_phi, gas] = difference;
         let cell = |c: usize| (c * N + j) * N + i;
         let old = std::array::from_fn(|c| ctx.old.block(slot)[cell(c)]);
-        let phi = velocity_phi - velocity * (old[PHI] + phases.expansion(old, &ctx.model.mixture));
+        let gas_of = |block: &[f64]| phases.gas_component().map_or(0.0, |gas| block[cell(gas)]);
+        let old_gas = gas_of(ctx.old.block(slot));
+        let phi = velocity_phi - velocity * (old[PHI] + phases.expansion(old, old_gas, &ctx.model.mixture));
         let changes = if matches!(side, Side::ZMin | Side::ZMax) {
             [mass, carried + pressure, shear, energy, phi, gas].map(|change| outward * dt_z * change)
         } else {
@@ -85,7 +87,8 @@ pub(crate) fn correct<const N: usize>(
                 .map(|change| outward * dt_r * change)
         };
         let u = std::array::from_fn(|c| new[cell(c)] - changes[c]);
-        let finished = phases.finish(u, old, &ctx.model.mixture);
+        let new_gas = gas_of(new) - changes[GAS];
+        let finished = phases.finish((u, new_gas), (old, old_gas), &ctx.model.mixture);
         report.extremes.add(&finished);
         if finished.floor > 0.0 {
             report.lift_pressure(finished.floor, ctx.mesh.volume(id, j));

@@ -19,7 +19,8 @@ use crate::step::face_rows::FaceRows;
 ///
 /// Paper eqs. (7)–(9) in primitive form, with the geometric term of the axisymmetric divergence.
 ///
-/// - `w`: ρ, v_z, v_r, p, φ; `d_z`, `d_r`: their derivatives, per m; `inverse_r`: 1/r, or 0 in planar geometry.
+/// - `w`: ρ, v_z, v_r, p, φ; `share`: the gas's part of the mass; `d_z`, `d_r`: derivatives of `w`, per m; `inverse_r`: 1/r, or 0 in
+///   planar geometry.
 /// - returns: ∂w/∂t.  valid for ρ > 0.  errors: none.
 #[inline(always)]
 pub(crate) fn rates(
@@ -27,9 +28,11 @@ pub(crate) fn rates(
     d_z: PrimitiveCell,
     d_r: PrimitiveCell,
     inverse_r: f64,
+    share: f64,
     mixture: &Mixture,
 ) -> PrimitiveCell {
-    rates_of(w, d_z, d_r, inverse_r, 1.0 / w[RHO], mixture.bulk_modulus(w[PRESSURE], w[PHI]))
+    let bulk_modulus = mixture.bulk_modulus(w[RHO], w[PRESSURE], w[PHI], share);
+    rates_of(w, d_z, d_r, inverse_r, 1.0 / w[RHO], bulk_modulus)
 }
 
 /// [`rates`] with 1/ρ and ρc² at hand.
@@ -66,10 +69,11 @@ struct CellLaw {
 }
 
 impl CellLaw {
+    /// - `bound`: what covolumes take of β₁; 0, a constant, where there is none.
     #[inline(always)]
-    fn at(rho: f64, p: f64, phi: f64, mixture: &Mixture) -> Self {
-        let (b1, b2) = (mixture.beta1(phi), mixture.beta2(phi));
-        let above = 1.0 + b1;
+    fn at(rho: f64, p: f64, phi: f64, bound: f64, mixture: &Mixture) -> Self {
+        let (all, b2) = (mixture.beta1(phi), mixture.beta2(phi));
+        let (above, b1) = (1.0 + all, all - bound);
         let inverse = 1.0 / (rho * (b1 * above));
         let per_law = inverse * rho;
         Self {
@@ -90,16 +94,19 @@ impl CellLaw {
 ///
 /// `ratio` is Δt/h along the narrower width.
 #[inline(always)]
-fn admissible(
+fn admissible<const B: bool>(
     w: PrimitiveCell,
     law: CellLaw,
     half: PrimitiveCell,
     reach: PrimitiveCell,
     ratio: f64,
+    bound_per_mass: f64,
     mixture: &Mixture,
 ) -> bool {
     let lowest_density = half[RHO] - reach[RHO];
-    let face = CellLaw::at(1.0, half[PRESSURE] - reach[PRESSURE], half[PHI] + reach[PHI], mixture);
+    // Of a face with more gas than the cell the gas's part of the mass is not known; without a covolume it is softer.
+    let bound = if B && reach[PHI] == 0.0 { lowest_density * bound_per_mass } else { 0.0 };
+    let face = CellLaw::at(1.0, half[PRESSURE] - reach[PRESSURE], half[PHI] + reach[PHI], bound, mixture);
     let carried = ratio * law.bulk_modulus;
     let impedance_squared = lowest_density * face.bulk_modulus;
     (lowest_density > 1e-3 * w[RHO])
@@ -113,7 +120,7 @@ fn scaled([a, b, c, d, e]: PrimitiveCell, factor: f64) -> PrimitiveCell {
 }
 
 /// The predictor of one cell, ready to move by all of a half step or a share of it.
-struct Prediction<'a> {
+struct Prediction<'a, const B: bool> {
     w: PrimitiveCell,
     law: CellLaw,
     /// ∂w/∂t times half the time step.
@@ -122,10 +129,12 @@ struct Prediction<'a> {
     reach: PrimitiveCell,
     /// Δt/h along the narrower width.
     ratio: f64,
+    /// What covolumes take of β₁ per mass.
+    bound_per_mass: f64,
     mixture: &'a Mixture,
 }
 
-impl<'a> Prediction<'a> {
+impl<'a, const B: bool> Prediction<'a, B> {
     #[inline(always)]
     fn new(
         w: PrimitiveCell,
@@ -134,9 +143,11 @@ impl<'a> Prediction<'a> {
         inverse_h: [f64; 2],
         inverse_r: f64,
         half_dt: f64,
+        bound_per_mass: f64,
         mixture: &'a Mixture,
     ) -> Self {
-        let law = CellLaw::at(w[RHO], w[PRESSURE], w[PHI], mixture);
+        let bound = if B { w[RHO] * bound_per_mass } else { 0.0 };
+        let law = CellLaw::at(w[RHO], w[PRESSURE], w[PHI], bound, mixture);
         let (d_z, d_r) = (scaled(s_z, inverse_h[0]), scaled(s_r, inverse_h[1]));
         let rate = rates_of(w, d_z, d_r, inverse_r, law.inverse_rho, law.bulk_modulus);
         let reach = |k: usize| {
@@ -150,6 +161,7 @@ impl<'a> Prediction<'a> {
             change: scaled(rate, half_dt),
             reach: [reach(RHO), 0.0, 0.0, reach(PRESSURE), reach(PHI)],
             ratio: 2.0 * half_dt * if inverse_hz > inverse_hr { inverse_hz } else { inverse_hr },
+            bound_per_mass,
             mixture,
         }
     }
@@ -169,12 +181,15 @@ impl<'a> Prediction<'a> {
     #[inline(always)]
     fn admissible(&self, share: f64) -> bool {
         let reach = scaled(self.reach, share);
-        admissible(self.w, self.law, self.at(share), reach, self.ratio, self.mixture)
+        let half = self.at(share);
+        admissible::<B>(self.w, self.law, half, reach, self.ratio, self.bound_per_mass, self.mixture)
     }
 }
 
 /// The state at mid-step, and the share of its slopes that the cell keeps: all (1), or half of them (MC slopes
 /// are then no steeper than minmod's), or none (0, first order), whichever gives admissible face states.
+///
+/// - `bound_per_mass`: what covolumes take of β₁ per mass, see [`Mixture::bound_beta1`].
 #[inline(always)]
 pub(crate) fn half_step(
     w: PrimitiveCell,
@@ -183,9 +198,11 @@ pub(crate) fn half_step(
     inverse_h: [f64; 2],
     inverse_r: f64,
     half_dt: f64,
+    bound_per_mass: f64,
     mixture: &Mixture,
 ) -> (PrimitiveCell, f64) {
-    let prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
+    let prediction =
+        Prediction::<true>::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, bound_per_mass, mixture);
     let fallback = if prediction.admissible(0.5) { 0.5 } else { 0.0 };
     let keep = if prediction.admissible(1.0) { 1.0 } else { fallback };
     (prediction.at(keep), keep)
@@ -194,45 +211,55 @@ pub(crate) fn half_step(
 /// [`half_step`] where all slopes are kept, and the cell's sound speed; where they are not, 0 tells so and the state counts for
 /// nothing.
 #[inline(always)]
-pub(crate) fn whole_half_step<const WITH_GAS: bool>(
+pub(crate) fn whole_half_step<const WITH_GAS: bool, const B: bool>(
     w: PrimitiveCell,
     s_z: PrimitiveCell,
     s_r: PrimitiveCell,
     inverse_h: [f64; 2],
     inverse_r: f64,
     half_dt: f64,
+    bound_per_mass: f64,
     mixture: &Mixture,
 ) -> (PrimitiveCell, f64, f64) {
-    let mut prediction = Prediction::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, mixture);
+    let mut prediction =
+        Prediction::<B>::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, bound_per_mass, mixture);
     prediction.change[PHI] = fraction::<WITH_GAS>(prediction.change[PHI]);
     (prediction.at(1.0), if prediction.admissible(1.0) { 1.0 } else { 0.0 }, prediction.sound_speed())
 }
 
 /// Conserved to primitive variables, in place of rows of equal length; without gas the last row is left alone.
+///
+/// - `gas`: m_g, where there is a covolume and gas.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn to_primitive(rows: RowsMut<'_>, with_gas: bool, mixture: &Mixture) {
+pub(crate) fn to_primitive(rows: RowsMut<'_>, with_gas: bool, gas: Option<&[f64]>, mixture: &Mixture) {
     let [rho, a, b, c, phi] = rows;
     let n = rho.len();
     let (rho, phi) = (&rho[..n], &phi[..n]);
-    if with_gas {
-        to_primitive_body::<true>(n, rho, &mut a[..n], &mut b[..n], &mut c[..n], phi, mixture);
-    } else {
-        to_primitive_body::<false>(n, rho, &mut a[..n], &mut b[..n], &mut c[..n], phi, mixture);
+    let (a, b, c) = (&mut a[..n], &mut b[..n], &mut c[..n]);
+    match (with_gas, gas, mixture.has_covolume()) {
+        (true, Some(gas), true) => to_primitive_body::<true, true>(n, rho, a, b, c, phi, &gas[..n], mixture),
+        (false, _, true) => to_primitive_body::<false, true>(n, rho, a, b, c, phi, rho, mixture),
+        (true, ..) => to_primitive_body::<true, false>(n, rho, a, b, c, phi, rho, mixture),
+        (false, ..) => to_primitive_body::<false, false>(n, rho, a, b, c, phi, rho, mixture),
     }
 }
 
+// A flat list of rows, as below.
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
-fn to_primitive_body<const WITH_GAS: bool>(
+fn to_primitive_body<const WITH_GAS: bool, const B: bool>(
     n: usize,
     rho: &[f64],
     a: &mut [f64],
     b: &mut [f64],
     c: &mut [f64],
     phi: &[f64],
+    gas: &[f64],
     mixture: &Mixture,
 ) {
     for k in 0..n {
-        let w = primitive_of([rho[k], a[k], b[k], c[k], fraction::<WITH_GAS>(phi[k])], mixture);
+        let gas = if WITH_GAS && B { gas[k] } else { 0.0 };
+        let w = primitive_of::<B>([rho[k], a[k], b[k], c[k], fraction::<WITH_GAS>(phi[k])], gas, mixture);
         (a[k], b[k], c[k]) = (w[V_Z], w[V_R], w[PRESSURE]);
     }
 }
@@ -258,10 +285,21 @@ pub(crate) fn hllc_faces(
     let (mass, velocity, pressure) =
         (&mut mass[first..][..n], &mut velocity[first..][..n], &mut pressure[first..][..n]);
     let (shear, energy, phi) = (&mut shear[first..][..n], &mut energy[first..][..n], &mut phi[first..][..n]);
-    if cells.with_gas {
-        hllc_body::<true>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi)
-    } else {
-        hllc_body::<false>(n, lower, upper, &mixture, mass, velocity, pressure, shear, energy, phi)
+    let m = &mixture;
+    // Called by name: a pointer to one of them would not be inlined.
+    match (cells.with_gas, mixture.has_covolume()) {
+        (true, true) => {
+            hllc_body::<true, true>(n, lower, upper, m, mass, velocity, pressure, shear, energy, phi)
+        }
+        (true, false) => {
+            hllc_body::<true, false>(n, lower, upper, m, mass, velocity, pressure, shear, energy, phi)
+        }
+        (false, true) => {
+            hllc_body::<false, true>(n, lower, upper, m, mass, velocity, pressure, shear, energy, phi)
+        }
+        (false, false) => {
+            hllc_body::<false, false>(n, lower, upper, m, mass, velocity, pressure, shear, energy, phi)
+        }
     }
 }
 
@@ -269,7 +307,7 @@ pub(crate) fn hllc_faces(
 // an array here a step of 512 x 512 cells takes 114 instead of 43 ns per cell (2.7 times).
 #[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
-fn hllc_body<const WITH_GAS: bool>(
+fn hllc_body<const WITH_GAS: bool, const B: bool>(
     n: usize,
     lower: Reconstruction<'_>,
     upper: Reconstruction<'_>,
@@ -284,7 +322,9 @@ fn hllc_body<const WITH_GAS: bool>(
     let mut without = 0;
     for k in 0..n {
         let [left, right] = states_at_face::<WITH_GAS>(&lower, &upper, k);
-        let (face, has_roots) = flux_and_roots(left, right, mixture);
+        let shares =
+            if B { [lower.gas_share::<WITH_GAS>(k), upper.gas_share::<WITH_GAS>(k)] } else { [0.0; 2] };
+        let (face, has_roots) = flux_and_roots::<B>(left, right, shares, mixture);
         without |= u64::from(!has_roots);
         mass[k] = face.mass;
         velocity[k] = face.velocity;
@@ -300,8 +340,10 @@ fn hllc_body<const WITH_GAS: bool>(
 
 /// Whether both sides of the face above cell `k` have a sound speed, see [`flux_and_roots`].
 pub(crate) fn has_roots(cells: &Reconstruction<'_>, k: usize, step: usize, mixture: &Mixture) -> bool {
-    let [left, right] = states_at_face::<true>(&cells.cut(k, 1), &cells.cut(k + step, 1), 0);
-    flux_and_roots(left, right, mixture).1
+    let (lower, upper) = (cells.cut(k, 1), cells.cut(k + step, 1));
+    let [left, right] = states_at_face::<true>(&lower, &upper, 0);
+    let share = |side: &Reconstruction<'_>| if cells.with_gas { side.gas_shares[0] } else { 0.0 };
+    flux_and_roots::<true>(left, right, [share(&lower), share(&upper)], mixture).1
 }
 
 #[cfg(test)]

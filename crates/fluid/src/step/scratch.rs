@@ -19,6 +19,8 @@ pub struct BlockScratch<const N: usize> {
     pub(crate) keep: AlignedRow,
     /// Sound speeds at the beginning of the step.
     pub(super) sound: AlignedRow,
+    /// m_g/ρ of the padded cells, where phases have masses of their own and there is gas.
+    pub(crate) gas_shares: AlignedRow,
     pub(crate) inverse_r: Vec<f64>,
     pub(super) z_faces: FaceRows,
     pub(super) r_faces: FaceRows,
@@ -33,7 +35,7 @@ pub struct BlockScratch<const N: usize> {
     /// The jumps of pressure across interfaces, where there is surface tension.
     pub(crate) capillary: CapillaryRows,
     /// Whether the rows of the gas fraction may hold anything but zeros.
-    pub(super) has_gas: bool,
+    pub(crate) has_gas: bool,
 }
 
 impl<const N: usize> BlockScratch<N> {
@@ -48,6 +50,7 @@ impl<const N: usize> BlockScratch<N> {
             half: Padded::zeros(COUNT),
             keep: AlignedRow::zeros(len, Padded::<N>::STRIDE),
             sound: AlignedRow::zeros(len, Padded::<N>::STRIDE),
+            gas_shares: AlignedRow::zeros(len, Padded::<N>::STRIDE),
             inverse_r: vec![0.0; len],
             z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
             r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),

@@ -43,11 +43,22 @@ fn assemble<const N: usize>(
     for component in carried.clone() {
         cells.divide(component, RHO);
     }
-    rows::to_primitive(cells.split_mut(), with_gas, &ctx.model.mixture);
+    to_primitive(ctx, with_gas, cells);
     ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, carried.start, cells);
     let id = ctx.mesh.tree().leaves()[slot];
     ctx.mesh.inverse_radii(id, inverse_r);
     analysis.limited()
+}
+
+/// Conserved to primitive variables; m_g stays what it is.
+fn to_primitive<const N: usize>(ctx: &FluidStep<'_, N>, with_gas: bool, cells: &mut Padded<N>) {
+    let mixture = &ctx.model.mixture;
+    if mixture.has_covolume() && with_gas {
+        let [rho, a, b, c, phi, gas] = cells.split_mut::<{ COUNT + 1 }>();
+        rows::to_primitive([rho, a, b, c, phi], with_gas, Some(gas), mixture);
+    } else {
+        rows::to_primitive(cells.split_mut(), with_gas, None, mixture);
+    }
 }
 
 /// Assembles a block with its ghosts and reconstructs it: primitive variables in `cells`, limited
@@ -90,6 +101,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if !gas.is_present() {
             scratch.without_gas();
         }
+        if let Some(gas) = gas.phases() {
+            gas.shares(scratch);
+        }
         if let Some(tension) = ctx.model.terms.surface_tension() {
             find_jumps(ctx, slot, tension, gas.is_present(), scratch);
         }
@@ -117,6 +131,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             stride: Padded::<N>::STRIDE,
             inverse_h: self.inverse_h,
             inverse_r: &scratch.inverse_r,
+            gas_shares: &scratch.gas_shares,
             half_dt: 0.5 * self.ctx.dt,
             mixture: self.ctx.model.mixture,
             with_gas: self.gas.is_present(),
@@ -208,9 +223,15 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         let old_rows: [&[f64]; COUNT] = std::array::from_fn(|c| &old[c * N * N..(c + 1) * N * N]);
         let faces = [&*z_faces, &*r_faces];
         let mut speeds = speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
+        let (state, more) = new.split_at_mut(COUNT * N * N);
+        // The pressure of the new cells asks for the gas's mass.
+        let gas_after = self.gas.phases().map(|block| {
+            block.advance_gas(old, faces, &metric, &mut more[..N * N]);
+            &more[..N * N]
+        });
         let rows =
-            NewCells { conserved: split_block::<N>(new), speeds: speeds.each_mut().map(|row| &mut **row) };
-        update::<N>(old_rows, faces, &metric, self.gas.is_present(), &ctx.model.mixture, rows);
+            NewCells { conserved: split_block::<N>(state), speeds: speeds.each_mut().map(|row| &mut **row) };
+        update::<N>(old_rows, faces, &metric, (self.gas.is_present(), gas_after), &ctx.model.mixture, rows);
         if let Some(block) = self.gas.phases() {
             let before = Before { old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
             block.update(gas, before, faces, new, speeds, report);
@@ -276,7 +297,7 @@ fn find_jumps<const N: usize>(
     has_gas: bool,
     scratch: &mut BlockScratch<N>,
 ) {
-    let BlockScratch { cells, capillary, .. } = scratch;
+    let BlockScratch { cells, gas_shares, capillary, .. } = scratch;
     if !has_gas {
         capillary.clear();
         return;
@@ -290,7 +311,7 @@ fn find_jumps<const N: usize>(
         tension,
         has_phases: ctx.model.analysis.has_phases,
     };
-    capillary.find(&block, cells.component(PRESSURE), cells.component(PHI));
+    capillary.find(&block, cells.split(), gas_shares);
 }
 
 /// Takes the marked cells' means for the states on their faces.

@@ -87,28 +87,31 @@ pub(crate) struct NewCells<'a> {
 /// pressure exerts exactly no radial force.
 ///
 /// - `old`: conserved variables `[component][j][i]` without ghosts; `faces`: along z and r.
-/// - `with_gas`: whether gas is in or comes into any cell; without it the gas fraction's rows are neither read nor written.
+/// - `with_gas`: whether gas is in or comes into any cell; without it the gas fraction's rows are neither read nor written. `gas`: its
+///   mass m_g after the step, where phases have masses of their own.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn update<const N: usize>(
     old: Rows<'_>,
     faces: [&FaceRows; 2],
     metric: &Metric<'_>,
-    with_gas: bool,
+    (with_gas, gas): (bool, Option<&[f64]>),
     mixture: &Mixture,
     new: NewCells<'_>,
 ) {
-    if with_gas {
-        update_rows::<N, true>(old, faces, metric, mixture, new);
-    } else {
-        update_rows::<N, false>(old, faces, metric, mixture, new);
+    match (with_gas, gas, mixture.has_covolume()) {
+        (true, Some(gas), true) => update_rows::<N, true, true>(old, faces, metric, gas, mixture, new),
+        (true, ..) => update_rows::<N, true, false>(old, faces, metric, &[], mixture, new),
+        (false, _, true) => update_rows::<N, false, true>(old, faces, metric, &[], mixture, new),
+        (false, ..) => update_rows::<N, false, false>(old, faces, metric, &[], mixture, new),
     }
 }
 
 #[inline(always)]
-fn update_rows<const N: usize, const WITH_GAS: bool>(
+fn update_rows<const N: usize, const WITH_GAS: bool, const B: bool>(
     old: Rows<'_>,
     faces: [&FaceRows; 2],
     metric: &Metric<'_>,
+    gas: &[f64],
     mixture: &Mixture,
     new: NewCells<'_>,
 ) {
@@ -117,13 +120,14 @@ fn update_rows<const N: usize, const WITH_GAS: bool>(
     for j in 0..N {
         let at = j * N;
         let k = metric.origin + j * metric.stride;
-        update_row::<N, WITH_GAS>(
+        update_row::<N, WITH_GAS, B>(
             [row(old[0], at), row(old[1], at), row(old[2], at), row(old[3], at), row(old[4], at)],
             FaceSlices::cut(z_faces, k - 1),
             FaceSlices::cut(z_faces, k),
             FaceSlices::cut(r_faces, k - metric.stride),
             FaceSlices::cut(r_faces, k),
             metric.row(j),
+            if WITH_GAS && B { row(gas, at) } else { &[0.0; N] },
             *mixture,
             row_mut(rho, at),
             row_mut(mz, at),
@@ -249,13 +253,14 @@ pub(crate) fn balance(
 // two arrays here a step of 512 x 512 cells takes 57 instead of 43 ns per cell (1.3 times).
 #[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
-fn update_row<const N: usize, const WITH_GAS: bool>(
+fn update_row<const N: usize, const WITH_GAS: bool, const B: bool>(
     old: [&[f64; N]; COUNT],
     west: FaceSlices<'_, N>,
     east: FaceSlices<'_, N>,
     south: FaceSlices<'_, N>,
     north: FaceSlices<'_, N>,
     metric: RowMetric,
+    gas: &[f64; N],
     mixture: Mixture,
     rho: &mut [f64; N],
     mz: &mut [f64; N],
@@ -272,7 +277,8 @@ fn update_row<const N: usize, const WITH_GAS: bool>(
         let before = [rho_0[k], mz_0[k], mr_0[k], energy_0[k], phi_0[k]];
         let mut after = balance(before, faces, metric);
         after[PHI] = fraction::<WITH_GAS>(after[PHI]);
-        let cell = finish_cell(after, &mixture);
+        let gas = if WITH_GAS && B { gas[k] } else { 0.0 };
+        let cell = finish_cell::<B>(after, gas, &mixture);
         [rho[k], mz[k], mr[k], energy[k], _] = cell.conserved;
         if WITH_GAS {
             phi[k] = cell.conserved[PHI];

@@ -1,6 +1,6 @@
 //! The paper's mixture of two stiffened gases, as kernels use it.
 
-use crate::StiffenedGas;
+use crate::{NobleAbelStiffenedGas, StiffenedGas};
 
 /// β₁ = 1/(γ − 1) and β₂ = γπ/(γ − 1) as linear functions of the gas fraction φ, paper eq. (10).
 ///
@@ -12,22 +12,25 @@ pub struct Mixture {
     beta1_difference: f64,
     beta2_liquid: f64,
     beta2_difference: f64,
+    covolumes: Covolumes,
     /// The liquid (φ = 0).
-    pub liquid: StiffenedGas,
+    pub liquid: NobleAbelStiffenedGas,
     /// The gas (φ = 1).
-    pub gas: StiffenedGas,
+    pub gas: NobleAbelStiffenedGas,
 }
 
 impl Mixture {
     /// The mixture of a liquid (φ = 0) and a gas (φ = 1).
-    pub fn new(liquid: StiffenedGas, gas: StiffenedGas) -> Self {
-        let beta1 = |s: StiffenedGas| 1.0 / (s.gamma - 1.0);
-        let beta2 = |s: StiffenedGas| s.gamma * s.pi / (s.gamma - 1.0);
+    pub fn new(liquid: impl Into<NobleAbelStiffenedGas>, gas: impl Into<NobleAbelStiffenedGas>) -> Self {
+        let (liquid, gas) = (liquid.into(), gas.into());
+        let beta1 = |s: NobleAbelStiffenedGas| 1.0 / (s.gamma - 1.0);
+        let beta2 = |s: NobleAbelStiffenedGas| s.gamma * s.pi / (s.gamma - 1.0);
         Self {
             beta1_liquid: beta1(liquid),
             beta1_difference: beta1(gas) - beta1(liquid),
             beta2_liquid: beta2(liquid),
             beta2_difference: beta2(gas) - beta2(liquid),
+            covolumes: Covolumes::of([liquid, gas].map(|law| [law.covolume, beta1(law), beta2(law)])),
             liquid,
             gas,
         }
@@ -45,24 +48,104 @@ impl Mixture {
         self.beta2_liquid + phi * self.beta2_difference
     }
 
-    /// ρc² = γ(φ)(p + π(φ)) = ((1 + β₁) p + β₂)/β₁ of the frozen mixture, Pa.
+    /// Whether a phase has a covolume.
     #[inline(always)]
-    pub fn bulk_modulus(&self, pressure: f64, phi: f64) -> f64 {
-        let beta1 = self.beta1(phi);
-        ((1.0 + beta1) * pressure + self.beta2(phi)) / beta1
+    pub(crate) fn has_covolume(&self) -> bool {
+        self.covolumes.is_any
     }
 
-    /// The stiffened gas that the mixture behaves as, paper eq. (11).
+    /// β₁ and β₂ of the free volumes, Σ ψ_k β_k with ψ_k = α_k − b_k m_k: ρe = β₁p + β₂ of the mixture without reference energies.
+    ///
+    /// Le Métayer & Saurel (2016) for each phase, at one pressure. They are linear in φ, ρ and m_g, so that what is said above
+    /// of averages holds with covolumes, too. Without them β₁(φ) and β₂(φ), to the last bit.
+    ///
+    /// - `B`: whether there may be a covolume. `rho`: ρ; `gas`: m_g, kg/m³.
+    #[inline(always)]
+    pub(crate) fn free_betas<const B: bool>(&self, phi: f64, rho: f64, gas: f64) -> [f64; 2] {
+        let (beta1, beta2) = (self.beta1(phi), self.beta2(phi));
+        if B {
+            let Covolumes { bound1: [l1, g1], bound2: [l2, g2], .. } = self.covolumes;
+            let liquid = rho - gas;
+            [beta1 - (liquid * l1 + gas * g1), beta2 - (liquid * l2 + gas * g2)]
+        } else {
+            [beta1, beta2]
+        }
+    }
+
+    /// Σ b_k m_k (β₁_k p + β₂_k), J/m³: what covolumes keep of the internal energy at a pressure.
+    #[inline(always)]
+    pub(crate) fn bound_energy(&self, pressure: f64, rho: f64, gas: f64) -> f64 {
+        let Covolumes { bound1: [l1, g1], bound2: [l2, g2], .. } = self.covolumes;
+        let liquid = rho - gas;
+        pressure * (liquid * l1 + gas * g1) + (liquid * l2 + gas * g2)
+    }
+
+    /// How much of β₁ covolumes take per mass, Σ y_k b_k β₁_k, kg⁻¹ m³, at the gas's part of the mass `share`.
+    #[inline(always)]
+    pub(crate) fn bound_beta1<const B: bool>(&self, share: f64) -> f64 {
+        if B { mean(self.covolumes.bound1, share) } else { 0.0 }
+    }
+
+    /// The share of the volume that is free, 1 − Σ b_k m_k.
+    #[inline(always)]
+    pub(crate) fn free_share<const B: bool>(&self, rho: f64, share: f64) -> f64 {
+        if B { 1.0 - rho * mean(self.covolumes.covolume, share) } else { 1.0 }
+    }
+
+    /// The share of each phase's volume (gas, liquid) that is free, 1 − b_k ρ_k.
+    ///
+    /// - `densities`: ρ_g, ρ_l.
+    #[inline(always)]
+    pub(crate) fn free_shares(&self, densities: [f64; 2]) -> [f64; 2] {
+        [1.0 - self.gas.covolume * densities[0], 1.0 - self.liquid.covolume * densities[1]]
+    }
+
+    /// ρc² = ((1 + β₁(φ)) p + β₂(φ))/β₁ of the frozen mixture with β₁ of the free volumes, Pa; γ(p + π)/(1 − bρ) of one phase.
+    ///
+    /// - `rho`: kg/m³; `share`: the gas's part of the mass.
+    #[inline(always)]
+    pub fn bulk_modulus(&self, rho: f64, pressure: f64, phi: f64, share: f64) -> f64 {
+        let beta1 = self.beta1(phi);
+        ((1.0 + beta1) * pressure + self.beta2(phi)) / (beta1 - rho * self.bound_beta1::<true>(share))
+    }
+
+    /// The stiffened gas that the mixture behaves as without covolumes, paper eq. (11).
     #[inline]
     pub fn at(&self, phi: f64) -> StiffenedGas {
         let (beta1, beta2) = (self.beta1(phi), self.beta2(phi));
         StiffenedGas { gamma: 1.0 + 1.0 / beta1, pi: beta2 / (1.0 + beta1) }
     }
 
-    /// φ of a mixture with the internal energy ρe (J/m³) at a pressure: ρe = β₁(φ) p + β₂(φ) is linear in φ.
-    pub(crate) fn fraction_of(&self, internal: f64, pressure: f64) -> f64 {
-        (internal - self.beta1_liquid * pressure - self.beta2_liquid)
-            / (self.beta1_difference * pressure + self.beta2_difference)
+    /// The Noble–Abel stiffened gas that the mixture behaves as under compression that keeps mass fractions, volume fractions and one
+    /// pressure. Its heat is left out.
+    ///
+    /// In the free volume its β₁ and β₂ are those of [`Self::free_betas`] over the free share; of one phase it is that phase's law.
+    #[inline]
+    pub fn law_at(&self, rho: f64, phi: f64, share: f64) -> NobleAbelStiffenedGas {
+        if !self.has_covolume() {
+            return self.at(phi).into();
+        }
+        let free = self.free_share::<true>(rho, share);
+        let [beta1, beta2] = self.free_betas::<true>(phi, rho, rho * share).map(|beta| beta / free);
+        NobleAbelStiffenedGas {
+            gamma: 1.0 + 1.0 / beta1,
+            pi: beta2 / (1.0 + beta1),
+            covolume: mean(self.covolumes.covolume, share),
+            heat: None,
+        }
+    }
+
+    /// φ of a mixture with the internal energy ρe (J/m³) at a pressure: ρe of [`Self::free_betas`] is linear in φ.
+    ///
+    /// - `rho`, `gas`: ρ and m_g, kg/m³.
+    pub(crate) fn fraction_of(&self, internal: f64, pressure: f64, rho: f64, gas: f64) -> f64 {
+        let [beta1, beta2] = self.free_betas::<true>(0.0, rho, gas);
+        (internal - beta1 * pressure - beta2) / (self.beta1_difference * pressure + self.beta2_difference)
+    }
+
+    /// Whether one of the phases has temperatures.
+    pub(crate) fn has_temperature(&self) -> bool {
+        self.liquid.heat.is_some() || self.gas.heat.is_some()
     }
 
     /// Whether a cell of this gas fraction cannot bear tension.
@@ -75,6 +158,35 @@ impl Mixture {
     #[inline(always)]
     pub fn pressure_floor(&self, phi: f64) -> f64 {
         if phi > GAS_FLOOR_FRACTION { 1e-4 - self.gas.pi } else { 1e-6 - 0.9 * self.liquid.pi }
+    }
+}
+
+/// The mean of a number for liquid and one for gas; with one phase to the last bit its own.
+#[inline(always)]
+fn mean([liquid, gas]: [f64; 2], share: f64) -> f64 {
+    (1.0 - share) * liquid + share * gas
+}
+
+/// What covolumes make of β₁ and β₂, for liquid and gas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Covolumes {
+    is_any: bool,
+    /// b, m³/kg.
+    covolume: [f64; 2],
+    /// bβ₁ and bβ₂.
+    bound1: [f64; 2],
+    bound2: [f64; 2],
+}
+
+impl Covolumes {
+    /// - `laws`: b, β₁, β₂ of liquid and gas.
+    fn of([[b_l, beta1_l, beta2_l], [b_g, beta1_g, beta2_g]]: [[f64; 3]; 2]) -> Self {
+        Self {
+            is_any: b_l != 0.0 || b_g != 0.0,
+            covolume: [b_l, b_g],
+            bound1: [b_l * beta1_l, b_g * beta1_g],
+            bound2: [b_l * beta2_l, b_g * beta2_g],
+        }
     }
 }
 
@@ -98,7 +210,7 @@ mod tests {
         for phi in [0.0, 0.3, 1.0] {
             let at = mixture.at(phi);
             approx::assert_relative_eq!(
-                mixture.bulk_modulus(5e6, phi),
+                mixture.bulk_modulus(900.0, 5e6, phi, 0.2),
                 at.gamma * (5e6 + at.pi),
                 max_relative = 1e-13
             );

@@ -25,17 +25,24 @@ const SAME_MODULUS: f64 = 1e-2;
 ///
 /// Traces that interfaces leave behind make up more than half of the cells that hold both phases. Where they change the
 /// bulk modulus by less than a hundredth, |K_frozen/K − 1| with the K of [`Compression`], the cell is served as a pure one.
-/// At lower pressures the same trace of gas makes liquid soft, and then it counts. No branches, for rows of cells.
+/// At lower pressures the same trace of gas makes liquid soft, and then it counts. No branches, for rows of cells. Covolumes, which
+/// make both phases stiffer by factors of order one, are left out.
 #[inline(always)]
 pub(crate) fn is_compliant(p: f64, phi: f64, mixture: &Mixture) -> bool {
     let (k_gas, k_liquid) = moduli(p, mixture);
-    let softened = mixture.bulk_modulus(p, phi) * (phi * k_liquid + (1.0 - phi) * k_gas);
+    let softened = frozen_modulus(p, phi, mixture) * (phi * k_liquid + (1.0 - phi) * k_gas);
     let both = k_gas * k_liquid;
     let is_thin = phi.min(1.0 - phi) < THIN;
     is_mixed(phi) & (!is_thin | !((softened - both).abs() < SAME_MODULUS * both))
 }
 
-/// K_k = γ_k (p + π_k) of the gas and the liquid, Pa.
+/// ρc² of the frozen mixture without covolumes.
+#[inline(always)]
+fn frozen_modulus(p: f64, phi: f64, mixture: &Mixture) -> f64 {
+    mixture.bulk_modulus(0.0, p, phi, 0.0)
+}
+
+/// K_k = γ_k (p + π_k) of the gas and the liquid in their free volumes, Pa.
 #[inline(always)]
 fn moduli(p: f64, mixture: &Mixture) -> (f64, f64) {
     let (gas, liquid) = (mixture.gas, mixture.liquid);
@@ -55,9 +62,21 @@ pub(crate) fn is_bound(phi: f64) -> bool {
     (phi == -PURE) | (phi == 1.0 + PURE)
 }
 
+/// ρ_g and ρ_l of a cell or a face, where a closure asks for them: without a covolume they have no say, and are 0.
+///
+/// - `share`: the gas's part of the mass.
+#[inline(always)]
+pub(crate) fn phase_densities(rho: f64, share: f64, phi: f64, mixture: &Mixture) -> [f64; 2] {
+    if !mixture.has_covolume() {
+        return [0.0; 2];
+    }
+    let within = |volume: f64| if volume > PURE { volume } else { PURE };
+    [rho * share / within(phi), rho * (1.0 - share) / within(1.0 - phi)]
+}
+
 /// What the phases of a mixture at one pressure do under compression.
 ///
-/// Kapila et al. (2001); the mixture's bulk modulus is Wood's (1930): 1/K = φ/K_g + (1 − φ)/K_l with K_k = γ_k (p + π_k).
+/// Kapila et al. (2001); the mixture's bulk modulus is Wood's (1930): 1/K = φ/K_g + (1 − φ)/K_l with K_k = γ_k (p + π_k)/(1 − b_k ρ_k).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Compression {
     /// K, Pa.
@@ -70,14 +89,20 @@ pub(crate) struct Compression {
 impl Compression {
     /// At pressure `p` and gas fraction `phi`. With the closure off both phases take the same compression, and the
     /// modulus is that of the frozen mixture (Allaire, Clerc & Kokh 2002).
+    ///
+    /// - `densities`: ρ_g, ρ_l, kg/m³; without a say where there is no covolume.
     #[inline(always)]
-    pub fn at(p: f64, phi: f64, mixture: &Mixture, is_on: bool) -> Self {
+    pub fn at(p: f64, phi: f64, densities: [f64; 2], mixture: &Mixture, is_on: bool) -> Self {
         if !is_on {
-            return Self { modulus: mixture.bulk_modulus(p, phi), gas: 1.0, liquid: 1.0 };
+            let gas = phi * densities[0];
+            let rho = gas + (1.0 - phi) * densities[1];
+            let share = if rho > 0.0 { gas / rho } else { 0.0 };
+            return Self { modulus: mixture.bulk_modulus(rho, p, phi, share), gas: 1.0, liquid: 1.0 };
         }
         let (k_gas, k_liquid) = moduli(p, mixture);
-        let modulus = k_gas * k_liquid / (phi * k_liquid + (1.0 - phi) * k_gas);
-        Self { modulus, gas: modulus / k_gas, liquid: modulus / k_liquid }
+        let [free_g, free_l] = mixture.free_shares(densities);
+        let modulus = k_gas * k_liquid / (phi * free_g * k_liquid + (1.0 - phi) * free_l * k_gas);
+        Self { modulus, gas: modulus * free_g / k_gas, liquid: modulus * free_l / k_liquid }
     }
 
     /// (1 − φ)(1 − K/K_l) per unit of divergence: how much faster than the mixture the gas expands.
@@ -109,7 +134,7 @@ mod tests {
     #[test]
     fn the_modulus_is_woods() {
         let (p, phi) = (1e5, 0.3);
-        let c = Compression::at(p, phi, &mixture(), true);
+        let c = Compression::at(p, phi, [0.0; 2], &mixture(), true);
         approx::assert_relative_eq!(
             1.0 / c.modulus,
             0.3 / 1.4e5 + 0.7 / (7.15 * (1e5 + 3e8)),
@@ -122,9 +147,9 @@ mod tests {
 
     #[test]
     fn off_it_is_the_frozen_mixture() {
-        let c = Compression::at(1e5, 0.3, &mixture(), false);
+        let c = Compression::at(1e5, 0.3, [1.0, 1e3], &mixture(), false);
         assert_eq!((c.gas, c.liquid, c.expansion(0.3)), (1.0, 1.0, 0.0));
-        assert_eq!(c.modulus, mixture().bulk_modulus(1e5, 0.3));
+        assert_eq!(c.modulus, mixture().bulk_modulus(1e3, 1e5, 0.3, 0.0));
         approx::assert_relative_eq!(c.star_fraction(0.3, 1.7), 0.3, max_relative = 1e-15);
     }
 
@@ -145,14 +170,15 @@ mod tests {
             (f64::NAN, 2e-6, true),
         ] {
             assert_eq!(is_compliant(p, phi, &m), is, "{p} {phi}");
-            let share = m.bulk_modulus(p, phi) / Compression::at(p, phi, &m, true).modulus - 1.0;
+            let share =
+                m.bulk_modulus(1e3, p, phi, 0.0) / Compression::at(p, phi, [0.0; 2], &m, true).modulus - 1.0;
             assert!(is || !is_mixed(phi) || share.abs() < SAME_MODULUS, "{p} {phi}: {share}");
         }
     }
 
     #[test]
     fn the_star_fraction_follows_the_density_and_stays_below_one() {
-        let c = Compression::at(1e5, 0.5, &mixture(), true);
+        let c = Compression::at(1e5, 0.5, [0.0; 2], &mixture(), true);
         approx::assert_relative_eq!(c.star_fraction(0.5, 1.0), 0.5, max_relative = 1e-15);
         assert!(c.star_fraction(0.5, 1.5) < 0.26);
         assert_eq!(c.star_fraction(0.5, 5.0), 0.0);

@@ -3,7 +3,7 @@
 use mesh::{Padded, Side};
 
 use super::cells::Cells;
-use super::expansion::expanded;
+use super::expansion::{Gas, expanded};
 use super::mixed::Outer;
 use super::phase_model::PhaseModel;
 use super::reconstruction::CellRule;
@@ -105,12 +105,17 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         self.ctx.model.rule_with(self.options, self.inverse_h, inverse_r, self.ctx.dt)
     }
 
+    /// The gas's part of the mass in the padded cells of the assembled block, and beyond its sides.
+    pub fn shares(&self, scratch: &mut BlockScratch<N>) {
+        let BlockScratch { cells, gas_shares: shares, .. } = scratch;
+        gas_shares(cells.component(GAS), cells.component(RHO), shares);
+        self.impose_outer_shares(shares);
+    }
+
     /// Finds and reconstructs the mixed cells; `scratch` holds the assembled block and its predicted states.
     pub fn collect(&self, scratch: &mut BlockScratch<N>) {
         let BlockScratch { cells, gas, half, keep, inverse_r, capillary, .. } = scratch;
         let rows = cells.split::<{ COUNT + 1 }>();
-        gas_shares(rows[GAS], rows[RHO], &mut gas.shares);
-        self.impose_outer_shares(&mut gas.shares);
         gas.mixed.clear();
         gas.mixed.collect::<N>(
             &Cells { rows, stride: Padded::<N>::STRIDE },
@@ -175,14 +180,23 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     }
 
     /// Makes the gas's mass fluxes from those of the mass, which must be final.
-    pub fn gas_fluxes(&self, gas: &mut GasScratch, faces: [&mut FaceRows; 2]) {
+    pub fn gas_fluxes(&self, gas: &GasScratch, shares: &[f64], faces: [&mut FaceRows; 2]) {
         for (axis, faces) in faces.into_iter().enumerate() {
-            gas_fluxes(&gas.shares, if axis == 0 { 1 } else { Padded::<N>::STRIDE }, faces);
+            gas_fluxes(shares, if axis == 0 { 1 } else { Padded::<N>::STRIDE }, faces);
             gas.mixed.put_gas_fluxes(axis, faces);
         }
     }
 
-    /// Advances the gas's mass and does the mixed cells' update again, with the closure.
+    /// Advances the gas's mass.
+    ///
+    /// - `old`: conserved components without ghosts; `new`: m_g after the step, written.
+    pub fn advance_gas(&self, old: &[f64], faces: [&FaceRows; 2], metric: &Metric<'_>, new: &mut [f64]) {
+        update_gas::<N>(&old[GAS * N * N..(GAS + 1) * N * N], faces, metric, new);
+    }
+
+    /// Does the mixed cells' update again, with the closure.
+    ///
+    /// - `new`: the new components, the gas's mass among them.
     pub fn update(
         &self,
         gas: &mut GasScratch,
@@ -196,14 +210,13 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
-        update_gas::<N>(old_gas, faces, metric, new_gas);
         let mut cells = NewCells { conserved: split_block::<N>(first), speeds };
         let old = OldCells { conserved: old_rows, pressure, gas: [old_gas, new_gas] };
         let (windows, rule) = (gas.mixed.mixed(), &self.rule(inverse_r));
         let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
         if self.options.has_closure {
-            self.expand(pressure, metric, row(PHI), &mut cells, report);
+            self.expand(pressure, metric, [row(PHI), old_gas], new_gas, &mut cells, report);
         }
         let [density, _, _, _, phi] = cells.conserved;
         let bounded = bound_gas(phi, density, new_gas);
@@ -219,12 +232,13 @@ impl<'a, const N: usize> GasBlock<'a, N> {
 
     /// Lets the gas of mixed cells expand that the floor would have to lift; these, too, are done again at first order first.
     ///
-    /// - `pressure`: of the padded cells before the step; `phi`: gas fractions then.
+    /// - `pressure`: of the padded cells before the step; `before`: φ and m_g then; `gas`: m_g after it.
     fn expand(
         &self,
         pressure: &[f64],
         metric: &Metric<'_>,
-        phi: &[f64],
+        before: [&[f64]; 2],
+        gas: &[f64],
         cells: &mut NewCells<'_>,
         report: &mut BlockReport<N>,
     ) {
@@ -239,9 +253,9 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             }
             u[ENERGY] -= added;
             let k = metric.origin + cell / N * metric.stride + cell % N;
-            let Some(after) = expanded(u, [pressure[k], phi[cell]], &self.ctx.model.mixture) else {
-                continue;
-            };
+            let [phi, mass] = before.map(|row| row[cell]);
+            let old = Gas { pressure: pressure[k], phi, mass };
+            let Some(after) = expanded(u, gas[cell], old, &self.ctx.model.mixture) else { continue };
             for (row, value) in cells.conserved.iter_mut().zip(after.conserved) {
                 row[cell] = value;
             }

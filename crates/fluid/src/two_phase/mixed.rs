@@ -7,7 +7,7 @@ use crate::state::primitive::VELOCITY;
 use mesh::{GHOSTS, Padded, Side};
 
 use super::cells::{Cells, FaceState, RowKinds, find_interface};
-use super::closure::{Compression, is_mixed};
+use super::closure::{Compression, is_mixed, phase_densities};
 use super::face_states::FaceStates;
 use super::reconstruction::{CellRule, face_states};
 use super::windows::{LANES, Window, lanes, windows};
@@ -261,7 +261,10 @@ impl<const AXIS: usize> Along<'_, AXIS> {
     #[inline(always)]
     fn side(&self, index: u32, k: usize, side: usize) -> FaceState {
         if index == NONE {
-            return FaceState { w: self.cells.face_state(k, [-1.0, 1.0][side]), gas_share: f64::NAN };
+            return FaceState {
+                w: self.cells.face_state(k, [-1.0, 1.0][side]),
+                gas_share: self.cells.gas_shares[k],
+            };
         }
         normal_first(self.states.of(index as usize, 2 * AXIS + side), AXIS)
     }
@@ -286,9 +289,11 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
     }
 
     #[inline(always)]
-    fn star_fraction(&self, p: f64, phi: f64, compression: f64) -> f64 {
+    fn star_fraction(&self, [rho, p, phi]: [f64; 3], share: f64, compression: f64) -> f64 {
         let CellRule { mixture, options, .. } = self.rule;
-        let behind = Compression::at(p, phi, mixture, options.has_closure).star_fraction(phi, compression);
+        let densities = phase_densities(rho, share, phi, mixture);
+        let closure = Compression::at(p, phi, densities, mixture, options.has_closure);
+        let behind = closure.star_fraction(phi, compression);
         if is_mixed(phi) { behind } else { phi }
     }
 
@@ -300,8 +305,10 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
             solution = jumps.settle(face.face, &self.sides(face), solution, self.rule.mixture);
         }
         set_face(&mut self.fluxes, face.face, solution);
-        self.emptied += u64::from((solution.phi == 0.0) & (gas_share > 0.0));
-        if !gas_share.is_nan() {
+        let from = if solution.velocity < 0.0 { face.upper } else { face.lower };
+        // What comes from other cells has the gas's part that all of theirs has.
+        if from != NONE {
+            self.emptied += u64::from((solution.phi == 0.0) & (gas_share > 0.0));
             self.shares.push((face.face, gas_share));
         }
     }

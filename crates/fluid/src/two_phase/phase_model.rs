@@ -2,8 +2,8 @@
 
 use mesh::Limiter;
 
-use super::closure::{Compression, is_mixed};
-use super::expansion::expanded;
+use super::closure::{Compression, is_mixed, phase_densities};
+use super::expansion::{Gas, expanded};
 use super::reconstruction::CellRule;
 use crate::Mixture;
 use crate::options::{Model, Sharpening, TwoPhaseOptions};
@@ -57,11 +57,14 @@ impl PhaseModel {
 
     /// What the closure adds to the gas fraction of a mixed cell per change of its volume, see [`Compression::expansion`].
     /// (Where the interface is on the finest level, as adaptation keeps it, no such cell is corrected.)
-    pub fn expansion(self, u: ConservedCell, mixture: &Mixture) -> f64 {
+    ///
+    /// - `gas`: m_g, kg/m³.
+    pub fn expansion(self, u: ConservedCell, gas: f64, mixture: &Mixture) -> f64 {
         match self {
             Self::FiveEquation(options) if is_mixed(u[PHI]) => {
-                let [_, _, _, p, phi] = primitive_of(u, mixture);
-                Compression::at(p, phi, mixture, options.has_closure).expansion(phi)
+                let [rho, _, _, p, phi] = primitive_of::<true>(u, gas, mixture);
+                let densities = phase_densities(rho, gas / rho, phi, mixture);
+                Compression::at(p, phi, densities, mixture, options.has_closure).expansion(phi)
             }
             _ => 0.0,
         }
@@ -69,15 +72,21 @@ impl PhaseModel {
 
     /// A corrected cell at the end of a step: where its gas would be in tension it expands, what else is below the floor is lifted to it.
     ///
-    /// - `u`: the cell; `old`: the same before the step.
-    pub fn finish(self, u: ConservedCell, old: ConservedCell, mixture: &Mixture) -> FinishedCell {
-        let finished = finish_corrected(u, mixture);
+    /// - `u`: the cell; `old`: the same before the step, both with m_g, kg/m³.
+    pub fn finish(
+        self,
+        (u, gas): (ConservedCell, f64),
+        (old, old_gas): (ConservedCell, f64),
+        mixture: &Mixture,
+    ) -> FinishedCell {
+        let finished = finish_corrected(u, gas, mixture);
         match self {
             Self::FiveEquation(options)
                 if options.has_closure && finished.floor > 0.0 && Mixture::has_gas_floor(u[PHI]) =>
             {
-                let [_, _, _, pressure, phi] = primitive_of(old, mixture);
-                expanded(u, [pressure, phi], mixture).unwrap_or(finished)
+                let [_, _, _, pressure, phi] = primitive_of::<true>(old, old_gas, mixture);
+                let before = Gas { pressure, phi, mass: old_gas };
+                expanded(u, gas, before, mixture).unwrap_or(finished)
             }
             _ => finished,
         }

@@ -200,7 +200,8 @@ fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, rule: &Cell
         let cell = of(w);
         let (d_z, d_r) = (per_width(of(s_z), inverse_hz), per_width(of(s_r), inverse_hr));
         let phi = cell[PHI];
-        let c = Compression::at(cell[PRESSURE], phi, rule.mixture, rule.options.has_closure);
+        let densities = [cell[RHO_G], cell[RHO_L]];
+        let c = Compression::at(cell[PRESSURE], phi, densities, rule.mixture, rule.options.has_closure);
         let per_rho = 1.0 / (phi * cell[RHO_G] + (1.0 - phi) * cell[RHO_L]);
         let divergence = d_z[V_Z] + d_r[V_R] + cell[V_R] * inverse_r[k];
         let source = [
@@ -325,8 +326,10 @@ fn kept_share(cells: &Cells<'_>, k: usize, rule: &CellRule<'_>) -> f64 {
     };
     let (s_z, s_r) = (limited(west, east), limited(south, north));
     let half_dt = 0.5 * rule.dt;
+    let bound = rule.mixture.bound_beta1::<true>(cells.mean(k).gas_share);
+    let (inverse_h, inverse_r) = (rule.inverse_h, rule.inverse_r[k]);
     let (_, share) =
-        crate::step::rows::half_step(w, s_z, s_r, rule.inverse_h, rule.inverse_r[k], half_dt, rule.mixture);
+        crate::step::rows::half_step(w, s_z, s_r, inverse_h, inverse_r, half_dt, bound, rule.mixture);
     share
 }
 

@@ -19,12 +19,17 @@ pub(crate) struct Advected<const LANES: usize> {
     pub volume: [f64; LANES],
     /// f = Δt Σ A F_φ/V.
     pub gas: [f64; LANES],
+    /// ρ_g and ρ_l at the beginning of the step, kg/m³; zeros where there is no covolume.
+    pub densities: [[f64; LANES]; 2],
+    /// b_g m_g and b_l m_l at its end.
+    pub bound: [[f64; LANES]; 2],
 }
 
 impl<const LANES: usize> Advected<LANES> {
     pub const ZERO: Self = {
         let zero = [0.0; LANES];
-        Self { phi: zero, p: zero, fraction: zero, volume: zero, gas: zero }
+        let both = [zero; 2];
+        Self { phi: zero, p: zero, fraction: zero, volume: zero, gas: zero, densities: both, bound: both }
     };
 }
 
@@ -33,7 +38,9 @@ impl<const LANES: usize> Advected<LANES> {
 /// Both phases' volumes are flux balances: the cell takes in −f of gas and −(D − f) of liquid, which makes a_g + a_l =
 /// 1 − D of a cell of volume 1. They then relax isentropically to one pressure p' and the volume 1:
 ///
-/// a_g ((p + π_g)/(p' + π_g))^(1/γ_g) + a_l ((p + π_l)/(p' + π_l))^(1/γ_l) = 1.
+/// a_g ((p + π_g)/(p' + π_g))^(1/γ_g) + a_l ((p + π_l)/(p' + π_l))^(1/γ_l) = 1,
+///
+/// where of volumes with a covolume only what is free, a_k − b_k m_k, goes with the pressure.
 ///
 /// For small D by the linear rule φ − f + φD + (1 − φ)(1 − K/K_l)D, which keeps uniform flow uniform to round-off.
 ///
@@ -52,12 +59,17 @@ pub(crate) fn relaxed_fractions<const LANES: usize>(
         let (gas_left, liquid_left) = (phi - cells.gas[k], (1.0 - phi) - (volume - cells.gas[k]));
         let is_vanishing = ((phi < 0.5) & (gas_left < PURE)) | ((phi > 0.5) & (liquid_left < PURE));
         let is_linear = volume.abs() < LINEAR_BELOW;
-        let expansion = Compression::at(p, phi, mixture, true).expansion(phi) * volume;
+        let densities = [cells.densities[0][k], cells.densities[1][k]];
+        let expansion = Compression::at(p, phi, densities, mixture, true).expansion(phi) * volume;
         let change = if is_vanishing { 0.0 } else { expansion };
         fractions[k] = bounded(cells.fraction[k] + change);
         let is_done = is_vanishing | is_linear;
         relaxation.gas[k] = if is_done { 0.5 } else { gas_left };
         relaxation.liquid[k] = if is_done { 0.5 } else { liquid_left };
+        // Not more than is there: what covolumes take of next to nothing means nothing.
+        let bound = |bound: f64, volume: f64| if is_done { 0.0 } else { lesser(bound, MOST_BOUND * volume) };
+        relaxation.bound[0][k] = bound(cells.bound[0][k], gas_left);
+        relaxation.bound[1][k] = bound(cells.bound[1][k], liquid_left);
         relaxation.p[k] = p;
         relaxation.done[k] = if is_done { 1.0 } else { 0.0 };
         relaxation.fraction[k] = fractions[k];
@@ -75,6 +87,8 @@ struct Relaxation<const LANES: usize> {
     /// Volumes a_g and a_l at pressure `p`.
     gas: [f64; LANES],
     liquid: [f64; LANES],
+    /// What of them is bound in covolumes.
+    bound: [[f64; LANES]; 2],
     p: [f64; LANES],
     /// 1 where the iteration has ended, else 0; the gas fraction there.
     done: [f64; LANES],
@@ -84,7 +98,7 @@ struct Relaxation<const LANES: usize> {
 impl<const LANES: usize> Relaxation<LANES> {
     fn none() -> Self {
         let zero = [0.0; LANES];
-        Self { gas: zero, liquid: zero, p: zero, done: zero, fraction: zero }
+        Self { gas: zero, liquid: zero, bound: [zero; 2], p: zero, done: zero, fraction: zero }
     }
 
     /// Newton's iteration on ln(sum of the volumes) against x = ln((p' + π_g)/(p + π_g)), which is monotone and nearly
@@ -95,6 +109,7 @@ impl<const LANES: usize> Relaxation<LANES> {
         /// The next step would be of the order of its square, which is less than the flux balances keep.
         const LAST_STEP: f64 = 1e-6;
         let (g, l) = (mixture.gas, mixture.liquid);
+        let [bound_g, bound_l] = self.bound;
         let (over_g, over_l) = (1.0 / g.gamma, 1.0 / l.gamma);
         let one = [1.0; LANES];
         let mut softness = one;
@@ -114,13 +129,14 @@ impl<const LANES: usize> Relaxation<LANES> {
                 let is_low = excess > 0.0;
                 low[k] = if is_low { x[k] } else { low[k] };
                 high[k] = if is_low { high[k] } else { x[k] };
-                let yielding = gas_volume[k] * over_g
-                    + liquid_volume[k] * over_l * softness[k] * gas_ratio[k] / liquid_ratio[k];
+                let (gas_free, liquid_free) = (gas_volume[k] - bound_g[k], liquid_volume[k] - bound_l[k]);
+                let yielding =
+                    gas_free * over_g + liquid_free * over_l * softness[k] * gas_ratio[k] / liquid_ratio[k];
                 let step = excess * sum / yielding;
                 next[k] = x[k] + step;
                 let shrinks = step * over_g;
                 let converged = step.abs() <= LAST_STEP;
-                let relaxed = gas_volume[k] * (1.0 - shrinks * (1.0 - 0.5 * shrinks));
+                let relaxed = bound_g[k] + gas_free * (1.0 - shrinks * (1.0 - 0.5 * shrinks));
 
                 let was_done = self.done[k] != 0.0;
                 let is_done = was_done | converged;
@@ -138,9 +154,10 @@ impl<const LANES: usize> Relaxation<LANES> {
                 let (ratio, increment) = exp_and_less_one(x[k]);
                 let increment = softness[k] * increment;
                 (gas_ratio[k], liquid_ratio[k]) = (ratio, 1.0 + increment);
-                gas_volume[k] = self.gas[k] * exp_and_less_one(-x[k] * over_g).0;
-                liquid_volume[k] =
-                    self.liquid[k] * exp_and_less_one(-over_l * ln_of(liquid_ratio[k], increment)).0;
+                gas_volume[k] = bound_g[k] + (self.gas[k] - bound_g[k]) * exp_and_less_one(-x[k] * over_g).0;
+                liquid_volume[k] = bound_l[k]
+                    + (self.liquid[k] - bound_l[k])
+                        * exp_and_less_one(-over_l * ln_of(liquid_ratio[k], increment)).0;
             }
         }
         for k in 0..LANES {
@@ -149,6 +166,14 @@ impl<const LANES: usize> Relaxation<LANES> {
             }
         }
     }
+}
+
+/// The most of a volume that may be bound in its covolume.
+const MOST_BOUND: f64 = 0.999;
+
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 /// Bounds of ln((p' + π_g)/(p + π_g)): twenty orders of magnitude either way.
@@ -171,12 +196,20 @@ mod tests {
             fraction: [phi - gas + phi * volume],
             volume: [volume],
             gas: [gas],
+            ..Advected::ZERO
         };
         relaxed_fractions(&cell, &mixture())[0]
     }
 
     fn isentropic_fraction(gas: f64, liquid: f64, p: f64) -> f64 {
-        let mut cell = Relaxation { gas: [gas], liquid: [liquid], p: [p], done: [0.0], fraction: [f64::NAN] };
+        let mut cell = Relaxation {
+            gas: [gas],
+            liquid: [liquid],
+            bound: [[0.0]; 2],
+            p: [p],
+            done: [0.0],
+            fraction: [f64::NAN],
+        };
         cell.run(&mixture());
         cell.fraction[0]
     }
@@ -244,7 +277,8 @@ mod tests {
         let at = |c: usize| std::array::from_fn::<f64, 8, _>(|k| cells[k][c]);
         let [phi, p, volume, gas] = [at(0), at(1), at(2), at(3)];
         let fraction = std::array::from_fn(|k| phi[k] - gas[k] + phi[k] * volume[k]);
-        let together = relaxed_fractions(&Advected { phi, p, fraction, volume, gas }, &mixture());
+        let together =
+            relaxed_fractions(&Advected { phi, p, fraction, volume, gas, ..Advected::ZERO }, &mixture());
         for (k, [phi, p, volume, gas]) in cells.into_iter().enumerate() {
             assert_eq!(together[k], relaxed_fraction(phi, p, volume, gas));
         }

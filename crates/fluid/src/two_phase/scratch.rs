@@ -1,14 +1,12 @@
 //! What a thread works in where there is gas.
 
-use mesh::{AlignedRow, Marks, Mesh, Padded};
+use mesh::{Marks, Mesh, Padded};
 
 use super::mixed::MixedCells;
 
 /// Scratch of one thread.
 pub(crate) struct GasScratch {
     pub(super) mixed: MixedCells,
-    /// m_g/ρ of the padded cells.
-    pub(super) shares: AlignedRow,
     /// Which padded cells fall back in this step, and which cells of the block should.
     pub(super) is_marked: Vec<bool>,
     pub(super) marked: Vec<usize>,
@@ -17,12 +15,7 @@ pub(crate) struct GasScratch {
 impl GasScratch {
     pub fn new<const N: usize>() -> Self {
         let len = Padded::<N>::LEN;
-        Self {
-            mixed: MixedCells::new::<N>(),
-            shares: AlignedRow::zeros(len, 0),
-            is_marked: vec![false; len],
-            marked: Vec::with_capacity(len),
-        }
+        Self { mixed: MixedCells::new::<N>(), is_marked: vec![false; len], marked: Vec::with_capacity(len) }
     }
 
     /// Takes notice of the cells of a block that fall back in this step, and tells their padded places.

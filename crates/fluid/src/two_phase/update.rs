@@ -2,7 +2,7 @@
 
 use std::hint::select_unpredictable;
 
-use super::closure::{bounded, is_bound};
+use super::closure::{bounded, is_bound, phase_densities};
 use super::reconstruction::CellRule;
 use super::relaxation::{Advected, relaxed_fractions};
 use super::windows::{LANES, Lane, Window, bits, lanes};
@@ -195,13 +195,16 @@ pub(crate) fn update_mixed<const N: usize>(
                 widths.axial(carried(east), carried(west)) + widths.radial(carried(north), carried(south));
         }
         (cells.phi, cells.p, cells.fraction) = (*before[PHI], *row::<LANES>(old.pressure, k), u[PHI]);
+        if mixture.has_covolume() {
+            take_covolumes(mixture, [before[RHO], gas_before], [&u[RHO], gas_after], &mut cells);
+        }
         u[PHI] = if options.has_closure {
             relaxed_fractions(&cells, mixture)
         } else {
             cells.fraction.map(bounded)
         };
         let mut after = [[0.0; LANES]; COUNT + 3];
-        finish_lanes(batch, &u, mixture, &mut after);
+        finish_lanes(batch, &u, gas_after, mixture, &mut after);
         let (mut is_marked, mut is_clipped) = ([false; LANES], [false; LANES]);
         for k in 0..LANES {
             // No other cell ends just there.
@@ -233,6 +236,24 @@ pub(crate) fn update_mixed<const N: usize>(
     clipped
 }
 
+/// What covolumes make of the closure: the phases' densities before the step, and what they bind after it.
+///
+/// - `before`, `after`: ρ and m_g.
+#[inline(always)]
+fn take_covolumes(
+    mixture: &Mixture,
+    [rho, gas]: [&Lane; 2],
+    [rho_after, gas_after]: [&Lane; 2],
+    cells: &mut Advected<LANES>,
+) {
+    for k in 0..LANES {
+        let [rho_g, rho_l] = phase_densities(rho[k], gas[k] / rho[k], cells.phi[k], mixture);
+        (cells.densities[0][k], cells.densities[1][k]) = (rho_g, rho_l);
+        cells.bound[0][k] = mixture.gas.covolume * gas_after[k];
+        cells.bound[1][k] = mixture.liquid.covolume * (rho_after[k] - gas_after[k]);
+    }
+}
+
 /// The variables of one lane.
 #[inline(always)]
 fn lane([rho, mz, mr, energy, phi]: &[&Lane; COUNT], k: usize) -> ConservedCell {
@@ -241,10 +262,10 @@ fn lane([rho, mz, mr, energy, phi]: &[&Lane; COUNT], k: usize) -> ConservedCell 
 
 /// [`finish_cell`] of the first `n` lanes: what is conserved, and the two speeds and the floor's energy.
 #[inline(always)]
-fn finish_lanes(n: usize, u: &[Lane; COUNT], mixture: &Mixture, after: &mut [Lane; COUNT + 3]) {
+fn finish_lanes(n: usize, u: &[Lane; COUNT], gas: &Lane, mixture: &Mixture, after: &mut [Lane; COUNT + 3]) {
     let [rho, mz, mr, energy, phi, speed_z, speed_r, floor] = after;
     for k in 0..n.min(LANES) {
-        let cell = finish_cell(lane(&u.each_ref(), k), mixture);
+        let cell = finish_cell::<true>(lane(&u.each_ref(), k), gas[k], mixture);
         [rho[k], mz[k], mr[k], energy[k], phi[k]] = cell.conserved;
         (speed_z[k], speed_r[k], floor[k]) = (cell.speed_z, cell.speed_r, cell.floor);
     }

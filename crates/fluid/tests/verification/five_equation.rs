@@ -135,7 +135,7 @@ fn an_interface_finds_its_star_state_without_overshoot() {
         let row = &global(&fluid)[0];
         let row: Vec<Primitive> = row
             .iter()
-            .map(|u| Primitive::from_conserved(std::array::from_fn(|c| u[c]), fluid.mixture()))
+            .map(|u| Primitive::from_conserved(std::array::from_fn(|c| u[c]), 0.0, fluid.mixture()))
             .collect();
         let mixed = row.iter().filter(|w| w.phi > 1e-6 && w.phi < 1.0 - 1e-6);
         for w in mixed.clone() {

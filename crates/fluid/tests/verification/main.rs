@@ -8,6 +8,7 @@ mod beside_fast_gas;
 mod boundaries;
 mod bubble;
 mod contact;
+mod covolumes;
 mod far_field;
 mod five_equation;
 mod gravity;

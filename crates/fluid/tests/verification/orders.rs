@@ -164,7 +164,7 @@ fn a_standing_mode_in_a_mixture() {
     let wood = 1.0
         / (rest.phi / (GAS.gamma * (rest.pressure + GAS.pi))
             + (1.0 - rest.phi) / (LIQUID.gamma * (rest.pressure + LIQUID.pi)));
-    let one = fluid::Mixture::new(LIQUID, GAS).bulk_modulus(rest.pressure, rest.phi);
+    let one = fluid::Mixture::new(LIQUID, GAS).bulk_modulus(rest.density, rest.pressure, rest.phi, 0.0);
     let default = (Model::FiveEquation, Sharpening::None);
     for (kind, grids, bulk_modulus) in [(default, &[16, 32][..], wood), (MIXTURE, &GRIDS, one)] {
         let sound = (bulk_modulus / rest.density).sqrt();

@@ -19,22 +19,22 @@ struct Tube {
 }
 
 fn sod() -> Tube {
-    let side = |rho, p| Side { rho, u: 0.0, p, gamma: 1.4, pi: 0.0 };
+    let side = |rho, p| Side { rho, u: 0.0, p, gamma: 1.4, pi: 0.0, covolume: 0.0 };
     let (left, right) = (side(1.0, 1.0), side(0.125, 0.1));
     Tube { name: "Sod", left, right, length: 1.0, at: 0.5, end: 0.2, phi: [1.0, 1.0] }
 }
 
 /// Water of 1e9 Pa against dense gas of 1e5 Pa (Saurel & Abgrall 1999).
 fn water_on_dense_gas() -> Tube {
-    let left = Side { rho: 1000.0, u: 0.0, p: 1e9, gamma: 4.4, pi: 6e8 };
-    let right = Side { rho: 50.0, u: 0.0, p: 1e5, gamma: 1.4, pi: 0.0 };
+    let left = Side { rho: 1000.0, u: 0.0, p: 1e9, gamma: 4.4, pi: 6e8, covolume: 0.0 };
+    let right = Side { rho: 50.0, u: 0.0, p: 1e5, gamma: 1.4, pi: 0.0, covolume: 0.0 };
     Tube { name: "Saurel-Abgrall", left, right, length: 1.0, at: 0.7, end: 2.29e-4, phi: [0.0, 1.0] }
 }
 
 /// The bubble's wall at the start: water of 5e7 Pa against gas of 2118 Pa.
 fn water_on_thin_gas() -> Tube {
-    let left = Side { rho: 1000.0, u: 0.0, p: 5e7, gamma: LIQUID.gamma, pi: LIQUID.pi };
-    let right = Side { rho: 0.0266, u: 0.0, p: 2118.0, gamma: 1.4, pi: 0.0 };
+    let left = Side { rho: 1000.0, u: 0.0, p: 5e7, gamma: LIQUID.gamma, pi: LIQUID.pi, covolume: 0.0 };
+    let right = Side { rho: 0.0266, u: 0.0, p: 2118.0, gamma: 1.4, pi: 0.0, covolume: 0.0 };
     Tube { name: "water 5e7 | gas 2118", left, right, length: 1e-3, at: 5e-4, end: 2e-7, phi: [0.0, 1.0] }
 }
 
@@ -48,8 +48,8 @@ fn run(tube: &Tube, cells: usize, riemann: RiemannSolver) -> FluidSolver<8> {
             z: [0.0, tube.length],
             r: [0.0, tube.length * 8.0 / cells as f64],
         },
-        liquid,
-        gas: eos(&tube.right),
+        liquid: liquid.into(),
+        gas: eos(&tube.right).into(),
         riemann,
         ..setup(PLANAR, [cells, 8], boundaries)
     };

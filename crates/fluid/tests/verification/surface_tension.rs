@@ -25,7 +25,7 @@ fn ball(kind: Kind, geometry: Geometry, inside: Phase, cells: usize, centre: [f6
     let count = |range: [f64; 2]| ((range[1] - range[0]) * cells as f64).round() as usize;
     let setup = FluidSetup {
         domain: Domain { geometry, z, r },
-        liquid: SOFT,
+        liquid: SOFT.into(),
         surface_tension: Some(SurfaceTension { coefficient: TENSION, density: 1000.0 }),
         scales: Scales { pressure: 1e4, density: 1e3 },
         ..setup_of(kind, geometry, [count(z), count(r)], if geometry == AXIAL { CYLINDER } else { WALLS })

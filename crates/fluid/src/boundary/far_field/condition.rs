@@ -48,7 +48,7 @@ impl FarField {
     ) -> Outer {
         let Moment { middle, dt, history } = moment;
         let Inner([rho, v_z, v_r, p]) = inner;
-        let c = (mixture.bulk_modulus(p, 0.0) / rho).sqrt();
+        let c = (mixture.bulk_modulus(rho, p, 0.0, 0.0) / rho).sqrt();
         let impedance = rho * c;
         let admittance = self.admittance(face, side, middle, history);
         let incident = self.incident.at(face, middle);
@@ -88,7 +88,7 @@ impl FarField {
     /// - `state`: ρ, v_z, v_r, p of the liquid there.
     pub(crate) fn initial_impulse(&self, side: Side, face: [f64; 2], state: Inner, mixture: &Mixture) -> f64 {
         let Inner([rho, v_z, v_r, p]) = state;
-        let c = (mixture.bulk_modulus(p, 0.0) / rho).sqrt();
+        let c = (mixture.bulk_modulus(rho, p, 0.0, 0.0) / rho).sqrt();
         let admittance = self.admittance(face, side, 0.0, &SourceHistory::default());
         if !(admittance.flow > 0.0) {
             return 0.0;

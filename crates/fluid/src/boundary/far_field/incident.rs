@@ -2,7 +2,7 @@
 
 use mesh::{Domain, Side};
 
-use crate::{Boundary, InitialCondition, PressureHistory, Pulse, PulseShape, StiffenedGas};
+use crate::{Boundary, InitialCondition, NobleAbelStiffenedGas, PressureHistory, Pulse, PulseShape};
 
 /// What waves have at a point: pressure above the ambient one, Pa, and velocity (z, r), m/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,7 +40,7 @@ impl Incident {
     /// - `wall`: where waves are reflected, m, and how much of their pressure.
     pub fn of(
         initial: &InitialCondition,
-        liquid: StiffenedGas,
+        liquid: NobleAbelStiffenedGas,
         domain: &Domain,
         boundaries: [Boundary; 4],
         inflow: Option<&PressureHistory>,

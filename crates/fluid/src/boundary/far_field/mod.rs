@@ -154,8 +154,8 @@ impl FarField {
             Incident::of(initial, mixture.liquid, domain, boundaries, inflow, wall.zip(Some(reflection)));
         let PhaseState { density, pressure, velocity: [v_z, v_r], .. } = initial.ambient;
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
-        let ambient = Primitive { density, v_z, v_r, pressure, phi: 0.0 }.to_conserved(mixture);
-        let Primitive { pressure, v_z, v_r, .. } = Primitive::from_conserved(ambient, mixture);
+        let ambient = Primitive { density, v_z, v_r, pressure, phi: 0.0 }.to_conserved(0.0, mixture);
+        let Primitive { pressure, v_z, v_r, .. } = Primitive::from_conserved(ambient, 0.0, mixture);
         let cuts = BubbleCuts::of(initial);
         Ok(Self { pressure, velocity: [v_z, v_r], bubbles, cuts, wall, incident })
     }

@@ -214,7 +214,7 @@ fn incident_waves_are_those_of_the_pulses() {
         let mut start = initial(&[[0.0, 1e-3]], InitialPressure::Uniform);
         start.pulses = pulses;
         let wall = Some((DOMAIN.z[0], 1.0));
-        let incident = Incident::of(&start, LIQUID, &DOMAIN, boundaries, inflow, wall);
+        let incident = Incident::of(&start, LIQUID.into(), &DOMAIN, boundaries, inflow, wall);
         let at = |z: f64, r: f64, t: f64| incident.at([z, r], t);
         for (z, r, t) in [(0.4e-3, 0.8e-3, 0.3e-6), (2.1e-3, 2e-3, 1.1e-6), (-3e-3, 0.3e-3, 3.4e-6)] {
             let (d, dt) = (1e-7, 1e-7 / sound());

@@ -31,17 +31,21 @@ pub fn sample(left: &Side, right: &Side, star: &Star, xi: f64) -> Sample {
 /// The solution left of the contact.
 #[inline]
 fn sample_left(side: &Side, star: &Star, u_star: f64, rho_star: f64, offset: f64, xi: f64) -> Sample {
-    let wave = wave(side, star, u_star, offset);
+    let wave = wave(side, star, [u_star, rho_star], offset);
     if xi <= wave.head {
         Sample { rho: side.rho, u: side.u, p: side.p, of_left: true, in_fan: false }
     } else if xi >= wave.tail {
         Sample { rho: rho_star, u: u_star, p: star.p, of_left: true, in_fan: false }
     } else {
-        // Toro (2009) eq. 4.56: behind the head the sound speed falls by (gamma - 1)/(gamma + 1) of xi -
-        // head.
         let gamma = side.gamma;
         let ahead = xi - wave.head;
-        let ln_c = (-(gamma - 1.0) / (gamma + 1.0) * ahead / side.sound_speed()).ln_1p();
+        let (ln_c, faster) = if side.covolume == 0.0 {
+            // Toro (2009) eq. 4.56: behind the head the sound speed falls by (gamma - 1)/(gamma + 1) of xi - head.
+            let ln_c = (-(gamma - 1.0) / (gamma + 1.0) * ahead / side.sound_speed()).ln_1p();
+            (ln_c, 2.0 / (gamma + 1.0) * ahead)
+        } else {
+            fan_with_covolume(side, ahead)
+        };
         let base = side.p + side.pi;
         let exponent = 2.0 * gamma / (gamma - 1.0) * ln_c;
         let shifted = base * exponent.exp();
@@ -49,11 +53,43 @@ fn sample_left(side: &Side, star: &Star, u_star: f64, rho_star: f64, offset: f64
         // p from the head or from P: whichever sum has the smaller terms.
         let from_head = side.p.abs() + increment.abs() < shifted + side.pi;
         Sample {
-            rho: side.rho * (2.0 / (gamma - 1.0) * ln_c).exp(),
-            u: side.u + 2.0 / (gamma + 1.0) * ahead,
+            rho: if side.covolume == 0.0 {
+                side.rho * (2.0 / (gamma - 1.0) * ln_c).exp()
+            } else {
+                let law = side.law();
+                law.density_of_free(law.free_density(side.rho) * (2.0 / (gamma - 1.0) * ln_c).exp())
+            },
+            u: side.u + faster,
             p: if from_head { side.p + increment } else { shifted - side.pi },
             of_left: true,
             in_fan: true,
         }
     }
+}
+
+/// Inside the fan of a left wave: ln of the sound speed in the free volume over that at the head, and by how much the fluid is faster.
+///
+/// With x = c̃/c̃_K of the free volume u − u_K = 2c̃_K/(γ − 1) (1 − x) and c = x c̃_K (1 + bρ̃_K x^(2/(γ − 1))), of which u − c is
+/// ξ. Newton's steps from the head, x = 1: F(x) = u − c − ξ falls with x and is concave, so they do not pass the root twice.
+///
+/// - `ahead`: ξ − (u_K − c_K) > 0, m/s.
+fn fan_with_covolume(side: &Side, ahead: f64) -> (f64, f64) {
+    const STEPS: usize = 50;
+    let law = side.law();
+    let free = law.free_share(side.rho);
+    let (sound, power) = (side.sound_speed() * free, 2.0 / (side.gamma - 1.0));
+    let bound = law.covolume * law.free_density(side.rho);
+    let mut x = 1.0_f64;
+    for _ in 0..STEPS {
+        let taken = bound * x.powf(power);
+        let excess = sound * (power * (1.0 - x) + (1.0 + bound) - x * (1.0 + taken)) - ahead;
+        let slope = -sound * (power + 1.0 + taken * (1.0 + power));
+        let next = (x - excess / slope).max(0.5 * x);
+        let is_done = (next - x).abs() <= 2.0 * f64::EPSILON * x;
+        x = next;
+        if is_done {
+            break;
+        }
+    }
+    (x.ln(), sound * power * (1.0 - x))
 }

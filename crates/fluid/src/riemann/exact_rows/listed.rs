@@ -16,9 +16,9 @@ pub(crate) trait ListedFaces {
     /// The states on both sides; their velocities are the normal and the tangential one.
     fn states(&self, face: &Self::Face) -> [FaceState; 2];
 
-    /// The gas fraction behind the wave, from the pressure and the gas fraction of the side that the fluid comes from and
+    /// The gas fraction behind the wave, from ρ, p, φ and the gas's part of the mass of the side that the fluid comes from and
     /// ρ*/ρ.
-    fn star_fraction(&self, p: f64, phi: f64, compression: f64) -> f64;
+    fn star_fraction(&self, side: [f64; 3], gas_share: f64, compression: f64) -> f64;
 
     /// Takes the solution, and the gas's part of the mass on the side that the fluid comes from.
     fn put(&mut self, face: &Self::Face, solution: Face, gas_share: f64);
@@ -29,6 +29,15 @@ pub(crate) trait ListedFaces {
 /// - tested by: [`flux_exact`] over random states.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn exact_fluxes<L: ListedFaces>(list: &[L::Face], faces: &mut L, mixture: &Mixture) {
+    if mixture.has_covolume() {
+        listed_fluxes::<L, true>(list, faces, mixture);
+    } else {
+        listed_fluxes::<L, false>(list, faces, mixture);
+    }
+}
+
+#[inline(always)]
+fn listed_fluxes<L: ListedFaces, const B: bool>(list: &[L::Face], faces: &mut L, mixture: &Mixture) {
     let mixture = *mixture;
     let mut chunk = Chunk::zeros();
     let mut rows = [[0.0; LANES]; 8];
@@ -41,9 +50,12 @@ pub(crate) fn exact_fluxes<L: ListedFaces>(list: &[L::Face], faces: &mut L, mixt
             take(&mut chunk.right, k, upper.w);
             (gas_shares[0][k], gas_shares[1][k]) = (lower.gas_share, upper.gas_share);
         }
-        solve(n, &mut chunk, &mixture);
+        if B {
+            (chunk.left.gas_share, chunk.right.gas_share) = (gas_shares[0], gas_shares[1]);
+        }
+        solve::<B>(n, &mut chunk, &mixture);
         let [mass, velocity, pressure, shear, energy, phi, compression, solved] = &mut rows;
-        fluxes(n, &chunk, &mixture, mass, velocity, pressure, shear, energy, phi, compression, solved);
+        fluxes::<B>(n, &chunk, &mixture, mass, velocity, pressure, shear, energy, phi, compression, solved);
         behind(n, &chunk, faces, velocity, compression, phi, &mut gas_shares);
         let are_solved = count(solved, n) == n;
         for (k, face) in list.iter().enumerate() {
@@ -70,10 +82,10 @@ pub(crate) fn exact_fluxes<L: ListedFaces>(list: &[L::Face], faces: &mut L, mixt
 #[inline(never)]
 fn scalar_flux<L: ListedFaces>(face: &L::Face, faces: &L, mixture: &Mixture) -> (Face, f64) {
     let [lower, upper] = faces.states(face);
-    let mut solution = flux_exact(lower.w, upper.w, mixture);
+    let mut solution = flux_exact(lower.w, upper.w, [lower.gas_share, upper.gas_share], mixture);
     let from = if solution.velocity < 0.0 { upper } else { lower };
-    let [_, _, _, p, phi] = from.w;
-    solution.phi = faces.star_fraction(p, phi, solution.compression);
+    let [rho, _, _, p, phi] = from.w;
+    solution.phi = faces.star_fraction([rho, p, phi], from.gas_share, solution.compression);
     (solution, from.gas_share)
 }
 
@@ -96,8 +108,10 @@ fn behind<L: ListedFaces>(
 ) {
     for k in 0..n.min(LANES) {
         let is_from_upper = velocity[k] < 0.0;
-        let p = select_unpredictable(is_from_upper, chunk.right.p[k], chunk.left.p[k]);
-        phi[k] = faces.star_fraction(p, phi[k], compression[k]);
-        lower[k] = select_unpredictable(is_from_upper, upper[k], lower[k]);
+        let pick = |upper: &Lane, lower: &Lane| select_unpredictable(is_from_upper, upper[k], lower[k]);
+        let p = pick(&chunk.right.p, &chunk.left.p);
+        let rho = pick(&chunk.right.rho, &chunk.left.rho);
+        lower[k] = pick(upper, lower);
+        phi[k] = faces.star_fraction([rho, p, phi[k]], lower[k], compression[k]);
     }
 }

@@ -37,7 +37,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
     };
     let old: [Vec<f64>; COUNT] = std::array::from_fn(own);
 
-    to_primitive(cells.split_mut(), with_gas, &mixture);
+    to_primitive(cells.split_mut(), with_gas, None, &mixture);
     let [mut s_z, mut s_r, mut half] = std::array::from_fn(|_| Padded::<N>::zeros(COUNT));
     let (mut keep, mut sound, inverse_r) = (vec![0.0; LEN], vec![0.0; LEN], vec![40.0; LEN]);
     let inverse_h = [3e4, 5e4];
@@ -47,6 +47,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
         stride: STRIDE,
         inverse_h,
         inverse_r: &inverse_r,
+        gas_shares: &inverse_r,
         half_dt: 2e-9,
         mixture,
         with_gas,
@@ -79,6 +80,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
             differences,
             keep: &keep,
             sound: &sound,
+            gas_shares: &sound,
             with_gas,
             dispersion: Dispersion { per_speed: 1e-4, aspect: 0.6, liquid_pi: 3e8 },
             along_faces: AlongFaces::new([VELOCITY[axis], PRESSURE].map(|c| across.component(c)), along),
@@ -102,7 +104,7 @@ fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
         old.each_ref().map(|row| &row[..]),
         faces.each_ref(),
         &metric,
-        with_gas,
+        (with_gas, None),
         &mixture,
         NewCells {
             conserved: std::array::from_fn(|_| rows.next().unwrap()),

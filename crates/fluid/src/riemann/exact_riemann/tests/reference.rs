@@ -11,7 +11,7 @@ pub(crate) struct Case {
 }
 
 pub(crate) const fn side(rho: f64, u: f64, p: f64, gamma: f64, pi: f64) -> Side {
-    Side { rho, u, p, gamma, pi }
+    Side { rho, u, p, gamma, pi, covolume: 0.0 }
 }
 
 /// Problems of all kinds.

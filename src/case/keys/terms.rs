@@ -1,0 +1,41 @@
+//! `[fluid.terms]`: viscosity, surface tension.
+
+use super::declared::{Key, Preset, Section, Values};
+
+pub(super) static TERMS: [Section; 2] = [
+    Section {
+        path: "fluid.terms",
+        repeated: false,
+        title: "Terms",
+        about: "What acts on the fluid besides the waves of two-phase flow; each is off where it is absent.",
+        keys: &[Key {
+            name: "surface_tension",
+            unit: "N/m",
+            values: Values::Words("≥ 0"),
+            default: Preset::Number(0.0),
+            about: "Surface tension σ between liquid and gas; 0.0728 for water and air at 20 °C.",
+        }],
+    },
+    Section {
+        path: "fluid.terms.viscosity",
+        repeated: false,
+        title: "Viscosity",
+        about: "As `viscosity = { liquid = 1.0e-3, gas = 1.8e-5 }` in `[fluid.terms]`.",
+        keys: &[
+            Key {
+                name: "liquid",
+                unit: "Pa s",
+                values: Values::Words("≥ 0"),
+                default: Preset::Required,
+                about: "Dynamic viscosity of the liquid; 1.0e-3 for water at 20 °C.",
+            },
+            Key {
+                name: "gas",
+                unit: "Pa s",
+                values: Values::Words("≥ 0"),
+                default: Preset::Required,
+                about: "Dynamic viscosity of the gas; 1.8e-5 for air.",
+            },
+        ],
+    },
+];
