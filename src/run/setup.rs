@@ -2,11 +2,12 @@
 
 use fluid::{
     Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory, RayleighField,
+    SurfaceTension,
 };
 use mesh::{BLOCK, Domain};
 use solid::{ElasticState, InitialStress, PotentialPulse, SolidSetup, SolidSolver, WaveSpeeds};
 
-use crate::case::{Case, FluidCase, GridCase, LoadCase, SolidCase};
+use crate::case::{Case, FluidCase, GridCase, LoadCase, SolidCase, TermsCase};
 use crate::run::RunError;
 use crate::run::wall::Wall;
 
@@ -51,8 +52,18 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         near_wall: fluid.near_wall,
         scales: scales(fluid),
         gravity: fluid.gravity,
+        surface_tension: surface_tension(fluid),
         tracer: fluid.tracer,
     }
+}
+
+fn surface_tension(fluid: &FluidCase) -> Option<SurfaceTension> {
+    let TermsCase { surface_tension, contact_angle, .. } = fluid.terms;
+    surface_tension.map(|coefficient| SurfaceTension {
+        coefficient,
+        density: fluid.scale_density,
+        may_touch_walls: contact_angle.is_some(),
+    })
 }
 
 /// The fluid's reference values, with those of waves such that the threshold of interfaces, applied to them, is their own.

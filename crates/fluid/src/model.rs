@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::far_field::FarFieldMemory;
+use crate::capillarity::cell_at_wall;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
 use crate::state::finished::{FinishedCell, measure_cell};
@@ -99,7 +100,11 @@ impl<const N: usize> Model<N> for Fluid {
         reflux::correct(step, finer, slot, new, report);
     }
 
-    fn measure(&self, _: &Mesh<N>, _: usize, block: &[f64], report: &mut BlockReport<N>) {
+    fn measure(&self, mesh: &Mesh<N>, slot: usize, block: &[f64], report: &mut BlockReport<N>) {
+        if self.terms.forbids_contact() {
+            let found = cell_at_wall(mesh, slot, self.analysis.boundaries, block);
+            report.contact = found.map(|cell| cell as u32);
+        }
         let mut extremes = Extremes::default();
         (0..N * N).for_each(|cell| extremes.add(&self.measured::<N>(block, cell)));
         report.extremes = extremes;
@@ -116,12 +121,15 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn inadmissible_cell(&self, report: &BlockReport<N>, block: &[f64]) -> Option<usize> {
         if is_sane(report) {
-            return None;
+            return report.contact.map(|cell| cell as usize);
         }
         self.failed_cells::<N>(block).next()
     }
 
     fn error(&self, block: &[f64], cell: usize, Place { z, r, time, step }: Place) -> FluidError {
+        if self.measured::<N>(block, cell).is_admissible() {
+            return FluidError::Contact { z, r, time };
+        }
         let [density, _, _, energy, phi] = std::array::from_fn(|c| block[c * N * N + cell]);
         FluidError::NonPhysical { z, r, time, step, density, energy, phi }
     }

@@ -60,7 +60,8 @@ impl FaceJumps<'_> {
     fn gauge(&self, k: usize, [lower, upper]: &[FaceState; 2], mixture: &Mixture) -> Gauge {
         let [below, above] = [lower, upper].map(|side| share_beside(side, mixture));
         let across = self.tension[k] * (above - below);
-        let own = [below - self.share[k], above - self.share[k + self.step]].map(|part| self.tension[k] * part);
+        let own =
+            [below - self.share[k], above - self.share[k + self.step]].map(|part| self.tension[k] * part);
         // The side of more gas keeps its pressure: to the liquid's stiffness the jump is nothing.
         let shifts = if below >= above { [own[0], own[1] - across] } else { [own[0] + across, own[1]] };
         Gauge { shifts, own }

@@ -5,8 +5,8 @@ use mesh::{Field, Mesh, Neighbour, Offset, Padded, Side};
 use crate::Boundary;
 use crate::state::conserved::PHI;
 
-/// Cells along a column from its middle to each end: a step two cells wide whose middle is three cells away lies within.
-pub(super) const REACH: usize = 5;
+/// Cells along a column from its middle to each end: a step two cells wide whose middle is four cells away lies within.
+pub(super) const REACH: usize = 6;
 
 /// Layers around a block: a column of the second ghost layer lies within.
 pub(super) const RIM: usize = REACH + mesh::GHOSTS;
@@ -53,7 +53,8 @@ impl WidePatch {
                 for i in rim_span(n, offset.i) {
                     let phi = match same {
                         Some(other) => {
-                            let [i, j] = [(i, offset.i), (j, offset.j)].map(|(x, by)| x - isize::from(by) * n);
+                            let [i, j] =
+                                [(i, offset.i), (j, offset.j)].map(|(x, by)| x - isize::from(by) * n);
                             field.component(other, PHI)[j as usize * N + i as usize]
                         }
                         None => phi_beyond(mesh, field, slot, kinds, [i, j]),

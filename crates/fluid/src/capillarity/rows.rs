@@ -41,7 +41,7 @@ pub(crate) struct CapillaryRows {
     /// J and J Δψ on the faces along z and r, Pa.
     tension: [Vec<f64>; 2],
     jump: [Vec<f64>; 2],
-    /// Cells of the block, and of the ghosts that share a face with it, that have a face with a jump.
+    /// Cells of the block and of the first layer around it that have a face with a jump.
     cells: Vec<usize>,
     is_present: bool,
 }
@@ -107,7 +107,8 @@ impl CapillaryRows {
             row.resize(len, 0.0);
         }
         self.share.clear();
-        let shares = (0..len).map(|k| share_of_jump(phi[k], density[k], density[k] * gas_shares[k], block.mixture));
+        let shares =
+            (0..len).map(|k| share_of_jump(phi[k], density[k], density[k] * gas_shares[k], block.mixture));
         self.share.extend(shares);
         self.patch.fill(block.mesh, block.field, block.slot, block.kinds, phi);
         let id = block.mesh.tree().leaves()[block.slot];
@@ -140,10 +141,9 @@ impl CapillaryRows {
         let n = N as isize;
         for j in -1..=n {
             for i in -1..=n {
-                let is_inside = |x: isize| (0..n).contains(&x);
                 let k = Padded::<N>::index(i, j);
                 let around = [(0, k), (0, k - 1), (1, k), (1, k - Padded::<N>::STRIDE)];
-                if (is_inside(i) || is_inside(j)) && around.iter().any(|(axis, k)| self.jump[*axis][*k] != 0.0) {
+                if around.iter().any(|(axis, k)| self.jump[*axis][*k] != 0.0) {
                     self.cells.push(k);
                 }
             }

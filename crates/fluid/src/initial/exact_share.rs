@@ -110,9 +110,11 @@ mod tests {
     fn shares_are_those_of_samples_and_add_up_to_the_whole() {
         let (radius, n) = (0.37, 16);
         let h = [1.0 / n as f64, 1.25 / n as f64];
-        for (geometry, middle) in
-            [(Geometry::Axisymmetric, [0.48, 0.0]), (Geometry::Planar, [0.48, 0.0]), (Geometry::Planar, [0.51, 0.63])]
-        {
+        for (geometry, middle) in [
+            (Geometry::Axisymmetric, [0.48, 0.0]),
+            (Geometry::Planar, [0.48, 0.0]),
+            (Geometry::Planar, [0.51, 0.63]),
+        ] {
             let ball = Shape::Sphere { centre: middle, radius };
             let mut whole = 0.0;
             for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
@@ -129,7 +131,9 @@ mod tests {
             }
             let exact = match geometry {
                 Geometry::Axisymmetric => 2.0 / 3.0 * radius.powi(3),
-                Geometry::Planar => std::f64::consts::PI * radius * radius * if middle[1] == 0.0 { 0.5 } else { 1.0 },
+                Geometry::Planar => {
+                    std::f64::consts::PI * radius * radius * if middle[1] == 0.0 { 0.5 } else { 1.0 }
+                }
             };
             approx::assert_relative_eq!(whole, exact, max_relative = 1e-12);
         }

@@ -26,7 +26,18 @@ impl<const N: usize> BlockStep<'_, N> {
         let ctx = self.ctx;
         let stride = Padded::<N>::STRIDE;
         let BlockScratch {
-            half, s_z, s_r, keep, sound, gas_shares, inverse_r, gas, capillary, z_faces, r_faces, ..
+            half,
+            s_z,
+            s_r,
+            keep,
+            sound,
+            gas_shares,
+            inverse_r,
+            gas,
+            capillary,
+            z_faces,
+            r_faces,
+            ..
         } = scratch;
         let [rho, v_z, v_r, p, phi] = half.split::<COUNT>();
         let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_z.split::<COUNT>();

@@ -4,7 +4,7 @@ use mesh::{Padded, Side, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
-use crate::capillarity::Interfaces;
+use crate::capillarity::{Interfaces, cell_at_wall};
 use crate::components::carried::CarriedCells;
 use crate::physics::FluidStep;
 use crate::reconstruction::capillary::level_slopes;
@@ -176,7 +176,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     /// What terms add to fluxes and cells, and what the mass carries with it: the fluxes are final then.
     pub(super) fn add_terms(&self, scratch: &mut BlockScratch<N>) {
         let ctx = self.ctx;
-        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, capillary, .. } = scratch;
+        let BlockScratch {
+            z_faces, r_faces, face_weight, inverse_weight, half, with_sources, capillary, ..
+        } = scratch;
         if !ctx.model.terms.is_empty() {
             let metric = &self.metric(face_weight, inverse_weight);
             let block = TermBlock { cells: N, metric, half: half.split(), capillary };
@@ -277,7 +279,13 @@ impl<'a, const N: usize> BlockStep<'a, N> {
                 report.lift_pressure(*added, ctx.mesh.volume(self.id, cell / N));
             }
         }
-        report.tension = self.tension_gains(scratch);
+        if scratch.capillary.is_present() {
+            report.tension = self.tension_gains(scratch);
+            if ctx.model.terms.forbids_contact() {
+                let found = cell_at_wall(ctx.mesh, self.slot, ctx.model.analysis.boundaries, new);
+                report.contact = found.map(|cell| cell as u32);
+            }
+        }
         let BlockScratch { z_faces, r_faces, face_weight, half, .. } = &*scratch;
         if ctx.mesh.touches(self.slot, Side::ZMin) {
             for (j, pressure) in report.wall_pressure.iter_mut().enumerate() {

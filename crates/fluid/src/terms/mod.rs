@@ -37,6 +37,11 @@ pub(crate) trait Term: Send + Sync {
         None
     }
 
+    /// Whether interfaces must stay away from walls.
+    fn forbids_contact(&self) -> bool {
+        false
+    }
+
     /// Adds to the fluxes through the faces of a block along z and r, before they are registered.
     fn add_fluxes(&self, _block: &TermBlock<'_>, _faces: [&mut FaceRows; 2]) {}
 
@@ -88,6 +93,11 @@ impl Terms {
     /// The tension of interfaces, N/m; `None` without any.
     pub fn surface_tension(&self) -> Option<f64> {
         self.surface_tension
+    }
+
+    /// Whether interfaces must stay away from walls.
+    pub fn forbids_contact(&self) -> bool {
+        self.surface_tension.is_some() && self.list.iter().any(|term| term.forbids_contact())
     }
 
     /// The acceleration over a time, m/s; `None` without any.

@@ -16,11 +16,17 @@ pub struct SurfaceTension {
     pub coefficient: f64,
     /// ρ of the denser phase, kg/m³, for the limit on the step.
     pub density: f64,
+    /// Whether interfaces may meet walls; at right angles then.
+    pub may_touch_walls: bool,
 }
 
 impl Term for SurfaceTension {
     fn surface_tension(&self) -> Option<f64> {
         Some(self.coefficient)
+    }
+
+    fn forbids_contact(&self) -> bool {
+        !self.may_touch_walls
     }
 
     fn add_sources(&self, block: &TermBlock<'_>, [z_faces, r_faces]: [&FaceRows; 2], block_rows: &mut [f64]) {
