@@ -17,7 +17,7 @@ source_suffix = {".md": "myst-nb"}
 
 # Headings have the anchors that GitHub gives them, so links are the same here and there.
 myst_heading_anchors = 4
-myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "html_image"]
 myst_dmath_allow_space = False
 myst_dmath_allow_digits = False
 

@@ -50,8 +50,8 @@ enum Commands {
     /// Check a case: cells, memory, time steps, impedances, run time.
     ///
     /// Nothing is run. Besides it says cells per radius, the Rayleigh time, and warnings. Of an adaptive grid it names levels and
-    /// thresholds; memory and time are then upper bounds, with a tenth of them as a guess. What begins with more memory than the
-    /// machine has available is refused by every command that runs it.
+    /// thresholds; memory and time are then upper bounds, with a guess beside them. What begins with more memory than the machine has
+    /// available is refused by every command that runs it.
     Check(check::CheckArgs),
     /// Show the keys of a case file: values, units, defaults.
     Keys(keys::KeysArgs),

@@ -46,7 +46,7 @@ impl Workshop {
 
     /// When each grid's run was finished.
     fn stamps(&self, out: &str, grids: usize) -> Vec<SystemTime> {
-        let stamp = |grid| fs::metadata(self.path(out).join(format!("grid-{grid}/summary.json"))).unwrap();
+        let stamp = |grid| fs::metadata(self.path(out).join(format!("grid-{grid}/history.h5"))).unwrap();
         (0..grids).map(|grid| stamp(grid).modified().unwrap()).collect()
     }
 }
@@ -73,6 +73,15 @@ fn three_grids_leave_their_runs_their_numbers_and_a_table() {
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let record = json(&workshop.path("study/convergence.json"));
     let summaries = [0, 1, 2].map(|grid| json(&workshop.path(&format!("study/grid-{grid}/summary.json"))));
+    // Each run's answer says how sure it is by the study.
+    for (number, summary) in summaries.iter().enumerate() {
+        let told = summary["answer"].as_array().unwrap().last().unwrap().as_str().unwrap();
+        assert!(
+            told.contains(&format!("By grid {number} of 0 to 2 of a study: the mean wall pressure")),
+            "{told}"
+        );
+        assert!(summary["look_next"].as_str().unwrap().starts_with("Look next: "));
+    }
     for (number, grid) in record["grids"].as_array().unwrap().iter().enumerate() {
         let cells = 3.2 * f64::from(1 << number);
         assert_eq!(grid["levels"], serde_json::json!({ "fluid": 2 + number, "solid": 2 + number }));

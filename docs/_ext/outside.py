@@ -12,6 +12,8 @@ from sphinx.application import Sphinx
 
 PAGES = {"README.md": "about/readme", "CONTRIBUTING.md": "about/contributing", "CHANGELOG.md": "about/changelog"}
 LINK = re.compile(r"(\]\()([^)\s#:]+)((?:#[^)\s]*)?\))")
+# A picture with a width, which Markdown has no words for.
+PICTURE = re.compile(r'(<img src=")([^"\s#:]+)(")')
 
 
 def moved(text: str, at: str, to: str) -> str:
@@ -22,7 +24,7 @@ def moved(text: str, at: str, to: str) -> str:
         target = f"docs/{PAGES[target]}.md" if target in PAGES else target
         return f"{match[1]}{posixpath.relpath(target, posixpath.dirname(to))}{match[3]}"
 
-    return LINK.sub(link, text)
+    return PICTURE.sub(link, LINK.sub(link, text))
 
 
 def _read(app: Sphinx, page: str, source: list[str]) -> None:

@@ -4,6 +4,7 @@
 """
 
 import re
+import sys
 from functools import cache
 from pathlib import Path
 
@@ -52,6 +53,15 @@ def test_links_of_a_page_lead_somewhere(path: Path) -> None:
         if why := problem((path.parent / file).resolve() if file else path, anchor):
             wrong.append(f"{link}: {why}")
     assert not wrong, "\n".join(wrong)
+
+
+def test_pictures_with_a_width_move_into_the_book_as_links_do() -> None:
+    sys.path.insert(0, str(DOCS / "_ext"))
+    from outside import moved
+
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    pictures = re.findall(r'<img src="([^"]+)"', moved(text, "README.md", "docs/about/readme.md"))
+    assert pictures and all((DOCS / "about" / picture).resolve().exists() for picture in pictures), pictures
 
 
 def test_pages_that_files_name_are_there() -> None:

@@ -10,20 +10,11 @@ use solid::Material;
 use super::format::{duration, hex, mebibytes, plain, si};
 use super::materials::law_in_words;
 use super::memory::{Memory, available_memory};
+use super::run_time::{self, guessed_share};
+use super::scales::RAYLEIGH_FACTOR;
 use super::steps::first_steps;
 use super::warnings::SAFE_CFL;
 use super::{Case, FluidCase, GridCase, SolidCase};
-
-/// Wall time per cell and step of the fluid on one core, ns: an estimate for the release build.
-const FLUID_NS: f64 = 60.0;
-/// The same of the solid.
-const SOLID_NS: f64 = 30.0;
-/// Share of the finest grid's cells that an adaptive one is guessed to have.
-const GUESSED_SHARE: f64 = 0.1;
-/// Threads the estimate of the run time assumes.
-const THREADS: f64 = 2.0;
-/// Rayleigh's collapse time over R √(ρ/Δp): 0.91468… (Rayleigh 1917).
-const RAYLEIGH: f64 = 0.915;
 
 /// What a case means: cells, memory, time steps, collapse time, impedances, run time, warnings.
 pub fn report(case: &Case) -> String {
@@ -95,8 +86,9 @@ fn side(text: &mut String, name: &str, grid: &GridCase, memory: Memory) {
     );
     line(text, name, &cells);
     let bounds = format!(
-        "{count} cells and {} if all cells were on the finest level; a tenth of them is a guess: {}",
+        "{count} cells and {} if all cells were on the finest level; {:.0} % of them are a guess: {}",
         mebibytes(memory.most),
+        100.0 * guessed_share(grid),
         mebibytes(guessed_memory(memory, grid))
     );
     line(text, "  at most", &bounds);
@@ -184,11 +176,11 @@ fn sides(text: &mut String, fluid: &FluidCase) {
     line(text, "  sides", &sides.join(", "));
 }
 
-/// 0.915 R √(ρ/(p∞ − p_gas)) of a gas bubble in a liquid of higher pressure, s.
+/// 0.91468 R √(ρ/(p∞ − p_gas)) of a gas bubble in a liquid of higher pressure, s.
 fn rayleigh_time(ambient: &PhaseState, bubble: &PhaseState, radius: f64) -> Option<f64> {
     let driving = ambient.pressure - bubble.pressure;
     let collapses = ambient.phase == Phase::Liquid && bubble.phase == Phase::Gas && driving > 0.0;
-    collapses.then(|| RAYLEIGH * radius * (ambient.density / driving).sqrt())
+    collapses.then(|| RAYLEIGH_FACTOR * radius * (ambient.density / driving).sqrt())
 }
 
 fn material(text: &mut String, material: &Material) {
@@ -251,23 +243,15 @@ fn steps(text: &mut String, case: &Case) {
         ),
     );
     let count = |step: Option<f64>| step.map_or(0.0, |step| (case.time.end / step).ceil());
-    let grids = [
-        (case.fluid.as_ref().map(|side| &side.grid), FLUID_NS * count(fluid)),
-        (case.solid.as_ref().map(|side| &side.grid), SOLID_NS * count(solid)),
-    ];
-    let seconds = |cells: fn(&GridCase) -> f64| {
-        let all_steps: f64 = grids.iter().filter_map(|(grid, ns)| grid.map(|grid| cells(grid) * ns)).sum();
-        all_steps * 1e-9 / THREADS
-    };
     let most = count(fluid).max(count(solid));
     line(text, "steps", &format!("about {most:.0} of the first one's size; a collapse shortens them"));
-    let most = duration(seconds(|grid| grid.cell_count() as f64));
-    let assumed = format!("with {THREADS:.0} threads, release build, output aside");
-    if grids.iter().any(|(grid, _)| grid.is_some_and(|grid| grid.adaptation.is_some())) {
-        let guess = duration(seconds(guessed_cells));
-        let words = format!(
-            "at most {most} if all cells were on the finest level; a tenth of them is a guess: {guess}"
-        );
+    let [most, guess] = run_time::estimate(case, [count(fluid), count(solid)]).map(duration);
+    let assumed = format!("with {:.0} threads, release build", run_time::THREADS);
+    let adapts = |grid: Option<&GridCase>| grid.is_some_and(|grid| grid.adaptation.is_some());
+    if adapts(case.fluid.as_ref().map(|side| &side.grid))
+        || adapts(case.solid.as_ref().map(|side| &side.grid))
+    {
+        let words = format!("{most} if all cells were on the finest level; a guess: {guess}");
         line(text, "run time", &format!("{words}; {assumed}"));
     } else {
         line(text, "run time", &format!("about {most} {assumed}"));
@@ -275,16 +259,9 @@ fn steps(text: &mut String, case: &Case) {
     line(text, "snapshots", &case.time.snapshots.len().to_string());
 }
 
-/// Cells that a grid is expected to have: all of a uniform one, of an adaptive one a guess.
-fn guessed_cells(grid: &GridCase) -> f64 {
-    let share = if grid.adaptation.is_some() { GUESSED_SHARE } else { 1.0 };
-    share * grid.cell_count() as f64
-}
-
 /// The memory that a side is expected to take: of a uniform grid all, of an adaptive one a guess.
 fn guessed_memory(memory: Memory, grid: &GridCase) -> f64 {
-    let share = if grid.adaptation.is_some() { GUESSED_SHARE } else { 1.0 };
-    memory.at_start.max(share * memory.most)
+    memory.at_start.max(guessed_share(grid) * memory.most)
 }
 
 fn memory_warning(case: &Case) -> Option<String> {

@@ -29,6 +29,7 @@ mod reader;
 mod recorded_load;
 mod refined;
 mod resolution;
+mod run_time;
 mod scales;
 mod set;
 mod shared;

@@ -6,6 +6,9 @@ use solid::{Material, PotentialPulse};
 use super::reader::{LARGEST, SMALLEST};
 use super::{Inflow, LoadCase};
 
+/// Rayleigh's collapse time of an empty bubble over R √(ρ/Δp), Γ(5/6) Γ(1/2)/(√6 Γ(4/3)) (Rayleigh 1917, Phil. Mag. 34, 94).
+pub(super) const RAYLEIGH_FACTOR: f64 = 0.914_681_36;
+
 /// Stress scale of a solid on which nothing acts, Pa.
 const QUIET_STRESS: f64 = 1e6;
 

@@ -16,8 +16,10 @@ const ROUND_OFF: f64 = 1e-12;
 /// How a number behaves on the finest grids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// Differences of one sign that become smaller.
+    /// Differences of one sign that become smaller, by an order of [`ORDERS`]'s lower bound or more.
     Monotone,
+    /// The same by a lower order: the grids are not yet those on which an order means anything, and nothing is extrapolated.
+    Slow,
     /// Differences of changing sign that become smaller.
     Oscillatory,
     /// Differences of one sign that do not become smaller.
@@ -39,6 +41,7 @@ impl Convergence {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Monotone => "monotone",
+            Self::Slow => "slow",
             Self::Oscillatory => "oscillatory",
             Self::Divergent => "divergent",
             Self::OscillatoryDivergent => "oscillatory-divergent",
@@ -57,9 +60,9 @@ pub struct Analysis {
     pub convergence: Convergence,
     /// The grids that this is said of, the coarsest first.
     pub grids: Vec<usize>,
-    /// Observed order, where it converges monotonically.
+    /// Observed order, where differences of one sign become smaller.
     pub order: Option<f64>,
-    /// Richardson's value by that order.
+    /// Richardson's value by that order, where it is no lower than [`ORDERS`] say.
     pub richardson: Option<f64>,
     /// The order in the index: the observed one within [`ORDERS`], or the assumed one.
     pub order_used: Option<f64>,
@@ -83,7 +86,8 @@ pub struct Analysis {
 ///
 /// The three finest grids with a value count if they are equally far apart (r is then that of one to the next of them), else the two
 /// finest. An order needs differences of one sign that become smaller; without them there is neither an order nor an index, and
-/// [`Analysis::spread`] says how far apart the values are.
+/// [`Analysis::spread`] says how far apart the values are. Below an order of a half there is no Richardson's value: 1/(r^p − 1)
+/// would extrapolate any difference as far as one likes.
 ///
 /// - `values`: of a grid without one `None`; what is not finite counts as such. errors: none.
 pub fn analyse(values: &[Option<f64>]) -> Analysis {
@@ -144,9 +148,13 @@ impl Analysis {
                 let halvings = (grids[2] - grids[1]) as f64;
                 let order = -shrink.ln() / (halvings * RATIO.ln());
                 self.order = Some(order);
-                // 1/(r^p − 1) with r^p = 1/shrink.
-                let richardson = fine + last * shrink / (1.0 - shrink);
-                self.richardson = Some(richardson).filter(|value| value.is_finite());
+                if order < ORDERS[0] * (1.0 - ROUND_OFF.sqrt()) {
+                    self.convergence = Convergence::Slow;
+                } else {
+                    // 1/(r^p − 1) with r^p = 1/shrink.
+                    let richardson = fine + last * shrink / (1.0 - shrink);
+                    self.richardson = Some(richardson).filter(|value| value.is_finite());
+                }
                 let used = order.clamp(ORDERS[0], ORDERS[1]);
                 self.index(grids[2], halvings, [middle, fine], used, SAFETY_OBSERVED);
             }

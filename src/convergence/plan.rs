@@ -6,16 +6,13 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use crate::case::{Case, CaseErrors};
-use crate::output::run_directory::{CASE, SUMMARY};
+use crate::output::run_directory::{CASE, CONVERGENCE_SUFFIX, SUMMARY};
 use crate::output::{OutputError, summary};
 use crate::run::process::launch::directory_of;
 use crate::run::{RunError, wall};
 
 /// How many grids a study may have.
 pub const GRIDS: std::ops::RangeInclusive<usize> = 2..=5;
-
-/// What is behind the case's own run directory where a study is not told of one.
-const SUFFIX: &str = "-convergence";
 
 /// What a case is read from.
 #[derive(Clone, Debug)]
@@ -150,7 +147,7 @@ pub fn plan(
     let root = out.map_or_else(
         || {
             let mut own = directory_of(&case, None).into_os_string();
-            own.push(SUFFIX);
+            own.push(CONVERGENCE_SUFFIX);
             PathBuf::from(own)
         },
         Path::to_path_buf,

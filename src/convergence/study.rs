@@ -6,10 +6,11 @@ use serde_json::{Map, Value};
 
 use crate::convergence::plan::{End, Found, Grid, Source, plan};
 use crate::convergence::record;
-use crate::output::run_directory::SUMMARY;
+use crate::output::run_directory::{CONVERGENCE, SUMMARY};
 use crate::output::{OutputError, Progress, safe_file, summary};
 use crate::run::process::launch_options::Options;
 use crate::run::process::stop::Stop;
+use crate::run::record::conclusion;
 use crate::run::{RunError, resume, run};
 
 /// What a study came to.
@@ -24,9 +25,6 @@ pub struct Study {
     /// The first error of a grid, if any failed.
     pub failure: Option<RunError>,
 }
-
-/// File of a study's numbers in its directory.
-pub const RECORD: &str = "convergence.json";
 
 /// Runs a case on finer and finer grids, the coarsest first, each in its run directory within the study's, and writes what its numbers
 /// come to after each of them.
@@ -85,6 +83,7 @@ pub fn study(
         };
         study.write()?;
     }
+    study.tell()?;
     Ok(study)
 }
 
@@ -118,8 +117,18 @@ fn make(
 impl Study {
     /// Writes the record.
     fn write(&self) -> Result<(), RunError> {
-        let path = self.directory.join(RECORD);
+        let path = self.directory.join(CONVERGENCE);
         Ok(safe_file::write(&path, self.text().as_bytes())?)
+    }
+
+    /// Lets the answers of all its runs say how sure they are.
+    fn tell(&self) -> Result<(), RunError> {
+        for (grid, end) in self.grids.iter().zip(&self.ends) {
+            if matches!(end, End::Completed(_)) {
+                conclusion::answer_anew(&grid.directory)?;
+            }
+        }
+        Ok(())
     }
 
     /// The record as text.

@@ -40,6 +40,11 @@ pub fn table(grids: &[Grid], ends: &[End]) -> String {
             "Two grids say nothing of an order: GCI with order 2 assumed and a safety factor of 3.\n",
         );
     }
+    if found.iter().any(|(_, analysis)| analysis.convergence == Convergence::Slow) {
+        text.push_str(
+            "slow: an order below 0.5 is no order yet, so nothing is extrapolated; coarser grids count too much: add a finer one.\n",
+        );
+    }
     text.push_str(
         "GCI: of the finest grid, safety factor 1.25, order within 0.5 to 2; in brackets the spread of the values where there is none.\n",
     );
@@ -49,8 +54,11 @@ pub fn table(grids: &[Grid], ends: &[End]) -> String {
 fn row(number: &KeyNumber, analysis: &Analysis) -> Vec<String> {
     let value =
         |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.DIGITS$e}"));
-    let order =
-        analysis.order.map_or_else(|| analysis.convergence.name().to_owned(), |order| format!("{order:.2}"));
+    let order = match analysis.order {
+        Some(order) if analysis.convergence == Convergence::Slow => format!("slow {order:.2}"),
+        Some(order) => format!("{order:.2}"),
+        None => analysis.convergence.name().to_owned(),
+    };
     let last = number.values.iter().rev().flatten().next().copied();
     let percent = |share: f64| {
         if share.abs() < 0.0995 {
@@ -106,6 +114,10 @@ mod tests {
         assert_eq!(
             row(&[Some(4.0), Some(3.0), Some(2.5)]),
             "peak Pa 4.0000e0 3.0000e0 2.5000e0 1.00 2.0000e0 25 %"
+        );
+        assert_eq!(
+            row(&[Some(4.0), Some(3.0), Some(2.2)]),
+            "peak Pa 4.0000e0 3.0000e0 2.2000e0 slow 0.32 - 110 %"
         );
         assert_eq!(
             row(&[Some(4.0), Some(3.0), Some(3.5)]),

@@ -1,7 +1,9 @@
 //! Text attributes of HDF5 objects.
 
-use hdf5::Location;
+use std::path::Path;
+
 use hdf5::types::VarLenUnicode;
+use hdf5::{File, Location};
 
 /// Attaches `value` to an object as the text attribute `name`; one that exists is overwritten.
 pub(super) fn set_text(location: &Location, name: &str, value: &str) -> hdf5::Result<()> {
@@ -22,4 +24,10 @@ pub(super) fn set_texts(location: &Location, attributes: &[(&str, &str)]) -> hdf
 pub(super) fn text(location: &Location, name: &str) -> Option<String> {
     let value: VarLenUnicode = location.attr(name).ok()?.read_scalar().ok()?;
     Some(value.as_str().to_owned())
+}
+
+/// The text attribute `name` of a file as a whole, or `None` where there is none or no such file.
+pub fn root_attribute(path: &Path, name: &str) -> Option<String> {
+    let file = File::open(path).ok()?;
+    text(&file, name)
 }

@@ -38,6 +38,7 @@ pub mod vtkhdf;
 
 pub use background::{BackgroundWriter, OwnedQuadMesh, Snapshot};
 pub use error::OutputError;
+pub use hdf5_attributes::root_attribute;
 pub use history::{BufferedColumn, Column, HistoryFile, SeriesId};
 pub use join::{Join, dataset_if_there, join_histories};
 pub use progress::Progress;

@@ -34,6 +34,10 @@ pub const CASE: &str = "case.toml";
 pub const WALL: &str = "wall.state";
 /// The checkpoints of both sides, while the run is not finished.
 pub const CHECKPOINTS: &str = "checkpoints";
+/// What a study of grid convergence came to, in the study's directory.
+pub const CONVERGENCE: &str = "convergence.json";
+/// What the directory of a case's study is called behind the name of its run directory.
+pub const CONVERGENCE_SUFFIX: &str = "-convergence";
 /// How far the run is, for whoever looks at it; until it is finished.
 pub const PROGRESS: &str = "progress.json";
 /// The log.

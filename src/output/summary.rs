@@ -9,11 +9,15 @@ use super::{OutputError, RunDirectory};
 
 /// Writes `summary` as the file `name` of a run directory, in one act.
 pub fn write(directory: &RunDirectory, name: &str, summary: &Map<String, Value>) -> Result<(), OutputError> {
-    let path = directory.file(name);
-    let mut text =
-        serde_json::to_string_pretty(summary).map_err(|source| OutputError::Json { path, source })?;
+    directory.write_atomic(name, text(&directory.file(name), summary)?.as_bytes())
+}
+
+/// A summary as it is written; `path` is where, for an error.
+pub fn text(path: &Path, summary: &Map<String, Value>) -> Result<String, OutputError> {
+    let text = serde_json::to_string_pretty(summary);
+    let mut text = text.map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
     text.push('\n');
-    directory.write_atomic(name, text.as_bytes())
+    Ok(text)
 }
 
 /// Reads a summary, or a part of one.

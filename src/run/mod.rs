@@ -12,6 +12,7 @@
 //! | [`wall`] | what stays in a wall, for the run that hits it next |
 //! | [`error`] | what can go wrong, and the exit code it means |
 
+mod carried;
 pub mod checkpoints;
 pub mod error;
 pub mod memory;

@@ -1,14 +1,14 @@
 //! A case made into solvers.
 
 use fluid::{
-    Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory, RayleighField,
-    SurfaceTension,
+    Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory, SurfaceTension,
 };
 use mesh::{BLOCK, Domain};
 use solid::{ElasticState, InitialStress, PotentialPulse, SolidSetup, SolidSolver, WaveSpeeds};
 
-use crate::case::{Case, FluidCase, GridCase, LoadCase, SolidCase, TermsCase};
+use crate::case::{Case, FluidCase, GridCase, SolidCase, TermsCase};
 use crate::run::RunError;
+use crate::run::carried::Carried;
 use crate::run::wall::Wall;
 
 fn domain(case: &Case, grid: &GridCase) -> Domain {
@@ -99,17 +99,9 @@ pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
     }
 }
 
-/// The pressure with which a case's fluid begins above the wall, where it is not uniform.
-fn rayleigh_field(case: &Case) -> Option<RayleighField> {
-    let fluid = case.fluid.as_ref()?;
-    // A case is refused in reading if it has not the field that it asks for.
-    RayleighField::of(&fluid.initial, &domain(case, &fluid.grid), fluid.boundary).ok().flatten()
-}
-
 /// A case's solid: the stress that carries the fluid's pressure on the wall, and its pulses.
 ///
-/// Where that pressure varies along the wall, σ_zz does so throughout the depth, and what is across stays as it is under
-/// the ambient pressure: div σ = 0, so nothing moves before the fluid does.
+/// Where that pressure varies along the wall it is the stress of a half-space at rest: nothing moves before the fluid does.
 pub fn solid_solver(case: &Case, solid: &SolidCase) -> Result<SolidSolver<BLOCK>, RunError> {
     Ok(solid_and_displacement(case, solid)?.0)
 }
@@ -123,29 +115,20 @@ pub fn solid_and_displacement(
     solid: &SolidCase,
 ) -> Result<(SolidSolver<BLOCK>, Option<SurfaceProfile>), RunError> {
     let pressure = case.ambient_pressure();
-    let field = rayleigh_field(case);
-    let surface = solid.grid.z[1];
-    let recorded = match &case.coupling.load {
-        Some(LoadCase::Recorded(load)) => Some(load.at_start()),
-        _ => None,
-    };
-    let on_wall = |r: f64| match (&field, &recorded) {
-        (Some(field), _) => field.pressure([surface, r]),
-        (None, Some(start)) => start(r),
-        (None, None) => pressure,
-    };
+    let carried = Carried::of(case, solid)?;
     let setup = solid_setup(case, solid);
     let (lambda, mu) = (solid.material.lambda(), solid.material.mu());
     let wall = Wall::of(case, solid)?;
     // A wall that has been hit before carries its weight already.
     let weight = solid.weight.filter(|_| wall.is_none());
     let initial = |point: [f64; 2]| {
-        let mut state = ElasticState { stress_zz: -on_wall(point[1]), ..ElasticState::default() };
+        let mut state = carried.stress(point);
         if let Some(weight) = weight {
             state.stress_zz += weight.stress(solid.material.density(), point[0]);
         }
         if solid.initial_stress == InitialStress::Hydrostatic {
-            (state.stress_rr, state.stress_phiphi) = (-pressure, -pressure);
+            state.stress_rr -= pressure;
+            state.stress_phiphi -= pressure;
         }
         for pulse in &solid.pulses {
             add_pulse(pulse, point, lambda, mu, &mut state);
@@ -157,7 +140,7 @@ pub fn solid_and_displacement(
             let displacement = wall.displacement().to_vec();
             Ok((wall.solver(setup, initial)?, Some(displacement)))
         }
-        None => Ok((SolidSolver::new(setup, initial)?, None)),
+        None => Ok((SolidSolver::under_load(setup, initial, |point| carried.stress(point))?, None)),
     }
 }
 

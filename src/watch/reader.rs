@@ -67,6 +67,7 @@ impl Reader {
             end,
             error: summary.get("error").filter(|_| is_over).and_then(text),
             answer: (summary.get("answer").and_then(Value::as_array).into_iter().flatten())
+                .chain(summary.get("look_next"))
                 .filter(|_| is_over)
                 .filter_map(text)
                 .collect(),

@@ -328,7 +328,7 @@ fn the_report_knows_the_papers_case() {
             "256 blocks of 16 x 16",
             "51.2 cells per radius",
             "stand-off d/R = 2.000",
-            "Rayleigh collapse time 40.92 µs",
+            "Rayleigh collapse time 40.91 µs",
             "reflection coefficient of pressure 0.934501",
             "4 in one of the fluid's",
         ],

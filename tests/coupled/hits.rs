@@ -35,7 +35,7 @@ fn from(run: &Path) -> String {
     format!("initial = {:?}\n", run.display().to_string())
 }
 
-fn run(case: &Case, at: &Path) -> Map<String, Value> {
+pub fn run(case: &Case, at: &Path) -> Map<String, Value> {
     let directory = RunDirectory::prepare(at, false).expect("a directory");
     directory.write_atomic("case.toml", case.effective_toml().as_bytes()).expect("its case");
     in_process(case, &directory, Keeping::default(), &Stop::default(), &mut |_| {}).expect("a run");

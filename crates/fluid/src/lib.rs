@@ -32,7 +32,7 @@ pub use diagnostics::bubble_cuts::{BubbleCuts, TRACE_GAS};
 pub use diagnostics::ledger::{BoundaryLedger, Fixups};
 pub use diagnostics::{AxisState, Bubble, CELL_FIELDS, Snapshot, Totals, WallPressures};
 pub use error::FluidError;
-pub use initial::rayleigh::{RayleighError, RayleighField};
+pub use initial::rayleigh::{Beneath, HarmonicBeneath, RayleighError, RayleighField};
 pub use initial::{InitialCondition, InitialPressure, Phase, PhaseState, Pulse, PulseShape, Region, Shape};
 pub use near_wall::NearWall;
 pub use near_wall::film::Film;

@@ -91,7 +91,7 @@ impl<const N: usize> FluidSolver<N> {
             level_mixed_cells(&mesh, &mixture, kinds, (tension.coefficient, has_phases), &mut state);
         }
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
-        let sides = SideStates::new(&mesh, |centre, widths| {
+        let sides = SideStates::new(&mesh, |_, centre, widths| {
             let Contents { state, gas } = initial(centre, widths);
             (Primitive::from_conserved(state.to_conserved(gas, &mixture), gas, &mixture), gas / state.density)
         });

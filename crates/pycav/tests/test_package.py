@@ -27,6 +27,14 @@ def environment(tmp_path_factory):
     return {**os.environ, "MYPY_CACHE_DIR": str(tmp_path_factory.mktemp("mypy"))}
 
 
+def test_the_package_brings_the_program_under_both_names():
+    for name in ("cav", "pycav"):
+        script = Path(sys.executable).with_name(name)
+        done = subprocess.run([script, "--version"], capture_output=True, text=True, check=True)
+        assert done.stdout.split() == [name, pycav.__version__], done.stdout
+
+
+
 def test_types_are_strict(environment):
     source = CONFIGURATION.parent / "python" / "pycav"
     told = run("-m", "mypy", "--config-file", CONFIGURATION, source, env=environment)

@@ -168,8 +168,8 @@ def test_a_report_opens_with_the_answer(result, tmp_path):
     run = shutil.copytree(result.directory, tmp_path / "run")
     summary = json.loads((run / "summary.json").read_text())
     assert 'id="answer"' not in _report.page(pycav.open(run)) or "answer" in summary
-    (run / "summary.json").write_text(json.dumps(summary | {"answer": ["The wall bears 1 < 2.", "</script><b>Nothing</b> yields.",
-                                                                      "Look next: pycav report makes a page of it."]}))
+    (run / "summary.json").write_text(json.dumps(summary | {"answer": ["The wall bears 1 < 2.", "</script><b>Nothing</b> yields."],
+                                                           "look_next": "Look next: pycav report makes a page of it."}))
     text = _report.page(pycav.open(run))
     page = Page(text)
     assert page.text.index("The wall bears 1 < 2.") < page.text.index("</script><b>Nothing</b> yields.") < page.text.index("Key numbers")

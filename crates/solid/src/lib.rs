@@ -28,6 +28,7 @@ pub use diagnostics::ledger::{BoundaryLedger, PlasticLedger};
 pub use diagnostics::plastic::{PlasticZone, StrainPeak};
 pub use diagnostics::{CELL_FIELDS, MisesPeak, Snapshot, Totals};
 pub use error::SolidError;
+pub use initial::half_space::{Harmonic, half_space_stress};
 pub use material::yield_criterion::{von_mises, yield_function};
 pub use material::{Material, MaterialError};
 pub use options::{Boundary, InitialStress, PotentialPulse};

@@ -7,6 +7,7 @@ use mesh::{BlockId, BlockSolver, Field, Mesh, SavedBlocks, SideStates};
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::absorbing::SideMemory;
+use crate::boundary::held::Held;
 use crate::components::{self, Component};
 use crate::model::SolidMemory;
 use crate::physics::Solid;
@@ -35,11 +36,24 @@ impl<const N: usize> SolidSolver<N> {
         setup: SolidSetup,
         initial: impl Fn([f64; 2]) -> ElasticState + Sync,
     ) -> Result<Self, SolidError> {
+        Self::under_load(setup, initial, |_| ElasticState::default())
+    }
+
+    /// The same under what presses on its surface from the start.
+    ///
+    /// - `at_rest`: what of `initial` is in equilibrium with that, besides what is uniform and the setup's weight: open sides hold it as it is
+    ///   in each cell.
+    /// - errors: as [`SolidSolver::new`].
+    pub fn under_load(
+        setup: SolidSetup,
+        initial: impl Fn([f64; 2]) -> ElasticState + Sync,
+        at_rest: impl Fn([f64; 2]) -> ElasticState,
+    ) -> Result<Self, SolidError> {
         let plasticity = plasticity(&setup);
         let components = components::of(plasticity.as_ref(), setup.speeds);
         let analysis = analysis(&setup, &components);
         let (mesh, state) = crate::initial::initial_mesh(&setup, &analysis, &components, &initial)?;
-        let beyond = SideStates::new(&mesh, |centre, _| initial(centre));
+        let beyond = Held::along_sides(&mesh, &initial, &with_weight(&setup, at_rest));
         Self::with(setup, plasticity, (components, analysis), (mesh, state), beyond)
     }
 
@@ -62,7 +76,7 @@ impl<const N: usize> SolidSolver<N> {
             let (slot, i, j) = mesh.locate(point).expect("cells along the sides are in the domain");
             ElasticState::from_array(std::array::from_fn(|c| state.component(slot, c)[j * N + i]))
         };
-        let beyond = SideStates::new(&mesh, |centre, _| at(centre));
+        let beyond = Held::along_sides(&mesh, &at, &with_weight(&setup, change));
         Self::with(setup, plasticity, (components, analysis), (mesh, state), beyond)
     }
 
@@ -71,7 +85,7 @@ impl<const N: usize> SolidSolver<N> {
         plasticity: Option<Plasticity>,
         (components, analysis): (Vec<Component>, Analysis),
         (mesh, state): (Mesh<N>, Field),
-        beyond: SideStates<ElasticState>,
+        beyond: SideStates<Held>,
     ) -> Result<Self, SolidError> {
         let kinds = setup.boundaries;
         let adaptation = setup.adaptation.clone();
@@ -104,6 +118,19 @@ impl<const N: usize> SolidSolver<N> {
     /// What crossed the domain's sides so far.
     pub fn ledger(&self) -> &BoundaryLedger {
         &self.model().ledger
+    }
+}
+
+/// Stresses and those of the setup's weight, if it has one.
+fn with_weight(
+    setup: &SolidSetup,
+    stress: impl Fn([f64; 2]) -> ElasticState,
+) -> impl Fn([f64; 2]) -> ElasticState {
+    let (weight, density) = (setup.weight, setup.speeds.density);
+    move |point| {
+        let mut state = stress(point);
+        state.stress_zz += weight.map_or(0.0, |weight| weight.stress(density, point[0]));
+        state
     }
 }
 

@@ -2,12 +2,12 @@
 
 use fluid::StiffenedGas;
 
+use super::super::scales::RAYLEIGH_FACTOR;
+
 /// Water, with π in Pa.
 const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 /// Water: kg/m³.
 pub(super) const DENSITY: f64 = 1000.0;
-/// Rayleigh's collapse time over R √(ρ/Δp) (Rayleigh 1917).
-const RAYLEIGH: f64 = 0.91468;
 /// By how much of R/d a rigid wall at the distance d lengthens the collapse (the image bubble's first-order term).
 const WALL_LENGTHENS: f64 = 0.205;
 /// By how much of √(Δp/ρ)/c the liquid's compressibility does: from 0.6 to 0.8 in this program's runs.
@@ -44,9 +44,9 @@ pub(super) struct Bubble {
 }
 
 impl Bubble {
-    /// Rayleigh's collapse time 0.915 R √(ρ/Δp), s.
+    /// Rayleigh's collapse time 0.91468 R √(ρ/Δp), s.
     pub fn rayleigh_time(&self) -> f64 {
-        RAYLEIGH * self.radius * (DENSITY / (self.pressure - self.gas_pressure)).sqrt()
+        RAYLEIGH_FACTOR * self.radius * (DENSITY / (self.pressure - self.gas_pressure)).sqrt()
     }
 
     /// About when it collapses at so many radii from a wall (∞: none), s.
@@ -140,7 +140,7 @@ mod tests {
         }
         // Without gas or sound: Rayleigh's.
         let slow = Bubble { radius: 1e-3, pressure: 1e5, gas_pressure: 1e-3 };
-        assert!((slow.rayleigh_time() / 91.468e-6 - 1.0).abs() < 1e-6);
+        assert!((slow.rayleigh_time() / 91.468136e-6 - 1.0).abs() < 1e-6);
         assert!((slow.collapse_time(f64::INFINITY) / slow.rayleigh_time() - 1.0).abs() < 0.01);
     }
 }

@@ -40,10 +40,16 @@ fn a_power_of_the_cells_width_gives_its_order_and_its_limit() {
 }
 
 #[test]
-fn the_order_in_the_index_is_no_less_than_a_half() {
-    let found = of(&series(1.0, 0.1, 0.1, 3));
-    assert_eq!(found.order_used, Some(0.5));
-    assert!(found.order.is_some_and(|order| (order - 0.1).abs() < 1e-9));
+fn below_an_order_of_a_half_nothing_is_extrapolated_and_the_index_takes_a_half() {
+    for order in [0.1, 0.45, 0.499] {
+        let values = series(1.0, 0.1, order, 3);
+        let found = of(&values);
+        assert_eq!((found.convergence, found.richardson), (Convergence::Slow, None), "{order}");
+        assert_eq!(found.order_used, Some(0.5));
+        assert!(found.order.is_some_and(|own| (own - order).abs() < 1e-9));
+        let want = 1.25 * (values[2] - values[1]).abs() / (2.0_f64.sqrt() - 1.0);
+        assert!(found.uncertainties[2].is_some_and(|own| (own / want - 1.0).abs() < 1e-12));
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The answer in words: what hit the wall, what yields, how deep, how sure, where to look next.
+//! The answer in words: what hit the wall, what yields, how deep, how sure; and where to look next.
 
 use serde_json::{Map, Value};
 
@@ -10,11 +10,27 @@ const ALMOST_STILL: f64 = 0.1;
 const ELSEWHERE: f64 = 1.05;
 
 /// The sentences that `summary.json` keeps as `answer`, from its other keys.
-pub fn answer(whole: &Map<String, Value>) -> Vec<String> {
+///
+/// - `study`: what a study of grid convergence says of the run's numbers, if there is one.
+pub fn answer(whole: &Map<String, Value>, study: Option<&str>) -> Vec<String> {
     let summary = Summary(whole);
     let sentences =
-        [bubble(summary), wall(summary), elsewhere(summary), solid(summary), sure(summary), next(summary)];
+        [bubble(summary), wall(summary), elsewhere(summary), solid(summary), sure(summary, study)];
     sentences.into_iter().flatten().collect()
+}
+
+/// The sentence that `summary.json` keeps as `look_next`.
+pub fn look_next(whole: &Map<String, Value>) -> Option<String> {
+    let cells = whole.get("cells")?.as_object()?;
+    let files: Vec<String> = ["fluid", "solid"]
+        .iter()
+        .filter(|side| cells.contains_key(**side))
+        .map(|side| format!("{side}.vtkhdf"))
+        .collect();
+    Some(format!(
+        "Look next: pycav report makes a page of it; {} hold the fields, history.h5 the curves.",
+        files.join(" and ")
+    ))
 }
 
 #[derive(Clone, Copy)]
@@ -36,7 +52,8 @@ fn si(value: f64, unit: &str) -> String {
     format::si(format!("{value:.2e}").parse().unwrap_or(value), unit)
 }
 
-fn percent(share: f64) -> String {
+/// A share with as many digits as it is worth.
+pub fn percent(share: f64) -> String {
     let digits = if share < 0.001 {
         3
     } else if share < 0.1 {
@@ -140,7 +157,7 @@ fn pit(summary: Summary<'_>) -> String {
     }
 }
 
-fn sure(summary: Summary<'_>) -> Option<String> {
+fn sure(summary: Summary<'_>, study: Option<&str>) -> Option<String> {
     let cells = summary.number("cells_per_radius").map(|cells| format!("{cells:.0} cells per radius"));
     let warnings = summary.0.get("warnings").and_then(Value::as_array).map_or(0, Vec::len);
     let held = match warnings {
@@ -149,20 +166,12 @@ fn sure(summary: Summary<'_>) -> Option<String> {
         more => format!("{more} warnings"),
     };
     let words = [cells, Some(held)].into_iter().flatten().collect::<Vec<_>>().join(", ");
-    Some(format!("How sure: {words}; cav run CASE --refine 3 says how far these numbers are converged."))
-}
-
-fn next(summary: Summary<'_>) -> Option<String> {
-    let cells = summary.0.get("cells")?.as_object()?;
-    let files: Vec<String> = ["fluid", "solid"]
-        .iter()
-        .filter(|side| cells.contains_key(**side))
-        .map(|side| format!("{side}.vtkhdf"))
-        .collect();
-    Some(format!(
-        "Look next: pycav report makes a page of it; {} hold the fields, history.h5 the curves.",
-        files.join(" and ")
-    ))
+    Some(match study {
+        Some(study) => format!("How sure: {words}. {study}"),
+        None => {
+            format!("How sure: {words}; cav run CASE --refine 3 says how far these numbers are converged.")
+        }
+    })
 }
 
 #[cfg(test)]
@@ -172,7 +181,7 @@ mod tests {
     use super::*;
 
     fn told(summary: &Value) -> String {
-        answer(summary.as_object().expect("an object")).join("\n")
+        answer(summary.as_object().expect("an object"), None).join("\n")
     }
 
     #[test]
@@ -196,11 +205,18 @@ mod tests {
             "yields, down to 1.9 mm: plastic strain up to 1.2 %",
             "A pit stays, 11.9 µm deep and 744 µm in radius",
             "40 cells per radius, nothing",
-            "fluid.vtkhdf and solid.vtkhdf",
         ] {
             assert!(text.contains(words), "{words}\n{text}");
         }
-        assert!(!text.contains("Elsewhere"), "{text}");
+        assert!(!text.contains("Elsewhere") && !text.contains("Look next"), "{text}");
+        let whole = summary.as_object().expect("an object");
+        assert!(look_next(whole).is_some_and(|next| next.contains("fluid.vtkhdf and solid.vtkhdf")));
+        assert!(text.contains("cav run CASE --refine 3"));
+        let text = answer(whole, Some("By a study: all of it.")).join("\n");
+        assert!(
+            text.contains("speaks against it. By a study: all of it.") && !text.contains("--refine"),
+            "{text}"
+        );
         summary["surface_still"] = json!(0.3);
         summary["wall_pressure_peak_anywhere"] = json!(6e8);
         summary["warnings"] = json!(["one"]);

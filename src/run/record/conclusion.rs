@@ -7,9 +7,10 @@ use serde_json::{Map, Value, json};
 use crate::output::run_directory::{
     FLUID_HISTORY, FLUID_SUMMARY, HISTORY, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY,
 };
-use crate::output::{Join, RunDirectory, join_histories, summary};
+use crate::output::{Join, RunDirectory, join_histories, safe_file, summary};
 use crate::run::RunError;
-use crate::run::record::answer::answer;
+use crate::run::record::answer::{answer, look_next};
+use crate::run::record::how_sure::how_sure;
 use crate::run::record::{equivalent_load, two_collapses};
 
 /// Joins the histories and the parts of the summary.
@@ -50,14 +51,37 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
         tracing::warn!("{warning}");
     }
     whole.insert("warnings".to_owned(), json!(warnings));
-    let answer = if completed { answer(&whole) } else { Vec::new() };
-    whole.insert("answer".to_owned(), json!(answer));
+    put_answer(directory.path(), &mut whole);
     summary::write(directory, SUMMARY, &whole)?;
     if completed {
         directory.remove_checkpoints()?;
         directory.remove_progress()?;
     }
     Ok(whole)
+}
+
+/// Makes the answer, from the other keys of a summary and a study beside the run.
+fn put_answer(directory: &Path, whole: &mut Map<String, Value>) {
+    let completed = whole.get("completed") == Some(&json!(true));
+    let study = completed.then(|| how_sure(directory, whole)).flatten();
+    let answer = if completed { answer(whole, study.as_deref()) } else { Vec::new() };
+    let next = if completed { look_next(whole) } else { None };
+    whole.insert("answer".to_owned(), json!(answer));
+    whole.insert("look_next".to_owned(), json!(next));
+}
+
+/// Makes the answer of a finished run anew, when a study that it belongs to has ended.
+///
+/// - errors: [`RunError::Output`]: its summary cannot be read or written.
+pub fn answer_anew(directory: &Path) -> Result<(), RunError> {
+    let path = directory.join(SUMMARY);
+    let before = summary::read(&path)?;
+    let mut whole = before.clone();
+    put_answer(directory, &mut whole);
+    if whole != before {
+        safe_file::write(&path, summary::text(&path, &whole)?.as_bytes())?;
+    }
+    Ok(())
 }
 
 /// What each side spent computing, as `coupling` has it.
@@ -169,6 +193,7 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
         list.filter_map(Value::as_str).map(str::to_owned).collect::<Vec<_>>()
     };
     words.extend(texts("answer"));
+    words.extend(whole.get("look_next").and_then(Value::as_str).map(str::to_owned));
     words.extend(texts("warnings").iter().map(|warning| format!("warning: {warning}")));
     words.push(format!("see {}", directory.display()));
     words.join("\n")

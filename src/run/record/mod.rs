@@ -14,7 +14,8 @@
 //! | [`film`] | of the liquid between bubble and wall |
 //! | [`timed`] | where the wall time goes |
 //! | [`equivalent_load`] | the Gaussian pulse nearest to what pressed on the wall |
-//! | [`answer`] | the answer in words
+//! | [`answer`] | the answer in words |
+//! | [`how_sure`] | what a study of grid convergence says of it |
 //! | [`conclusion`] | one history and one summary of both sides' parts |
 
 pub mod answer;
@@ -23,6 +24,7 @@ pub mod conclusion;
 pub mod equivalent_load;
 pub mod film;
 pub mod fluid_record;
+pub mod how_sure;
 pub mod interface_history;
 pub mod running_mean;
 pub mod sensors;

@@ -12,8 +12,8 @@ pub struct SideStates<S> {
 }
 
 impl<S> SideStates<S> {
-    /// Evaluates `state` (centre, widths of a cell) along all sides on all levels.
-    pub fn new<const N: usize>(mesh: &Mesh<N>, state: impl Fn([f64; 2], [f64; 2]) -> S) -> Self {
+    /// Evaluates `state` (side, centre and widths of a cell along it) along all sides on all levels.
+    pub fn new<const N: usize>(mesh: &Mesh<N>, state: impl Fn(Side, [f64; 2], [f64; 2]) -> S) -> Self {
         let (root_level, finest) = (mesh.tree().root_level(), mesh.tree().finest());
         let domain = *mesh.domain();
         let along = |side: Side, level: u8| -> Vec<S> {
@@ -31,7 +31,7 @@ impl<S> SideStates<S> {
                     Side::RMin => [at(0, k), at(1, 0)],
                     Side::RMax => [at(0, k), at(1, cells[1] - 1)],
                 })
-                .map(|centre| state(centre, widths))
+                .map(|centre| state(side, centre, widths))
                 .collect()
         };
         let states = Side::ALL.map(|side| (root_level..=finest).map(|level| along(side, level)).collect());

@@ -35,7 +35,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _paraview(given[1:])
     if given[:1] == ["netcdf"]:
         return _netcdf(given[1:])
-    return _pycav.main(["pycav", *given], PROGRAM, OWN)
+    # The script of either name speaks of itself by that.
+    called = Path(sys.argv[0]).name
+    return _pycav.main(["cav" if called == "cav" else "pycav", *given], PROGRAM, OWN)
 
 
 def _report(given: list[str]) -> int:

@@ -173,13 +173,13 @@ WHERE_THERE = ("order", "richardson", "gci", "order_used", "safety_factor", "spr
 
 
 def study_of(result: Result) -> tuple[Convergence, int] | None:
-    """The study that a run belongs to, and the number of its grid: in the run's directory, beside it or above.
+    """The study that a run belongs to, and the number of its grid: in the run's directory, above, or in NAME-convergence beside it.
 
     What counts is the case: a study of another one is passed over.
     """
     run = result.directory.resolve()
     own = str(result.histories.attrs.get("case_hash", ""))
-    for place in [run, *run.parents][:3]:
+    for place in [*[run, *run.parents][:3], run.with_name(run.name + "-convergence")]:
         try:
             study = Convergence(place)
             grids = [grid["case_hash"] for grid in study.grids]

@@ -76,21 +76,14 @@ impl Absorption {
     /// What a face remembers after a step.
     ///
     /// - `before`: the same after the step before.
-    /// - `cell`: component of the state, at the step's beginning, of the cell that has so many between itself and the face.
-    pub fn follow(
-        &self,
-        before: Filters,
-        cell: impl Fn(isize, usize) -> f64,
-        initial: ElasticState,
-    ) -> Filters {
-        let initial = initial.to_array();
+    /// - `change`: since the start, of a component of the cell that has so many between itself and the face, at the step's beginning.
+    pub fn follow(&self, before: Filters, change: impl Fn(isize, usize) -> f64) -> Filters {
         let mut after = before;
         for (wave, (velocity, stress)) in
             [(self.normal, self.stress), (self.tangential, S_ZR)].into_iter().enumerate()
         {
             let q = |depth: isize| {
-                let above = |component: usize| cell(depth, component) - initial[component];
-                self.outward * self.impedances[wave] * above(velocity) + above(stress)
+                self.outward * self.impedances[wave] * change(depth, velocity) + change(depth, stress)
             };
             let (near, far) = (q(1), 0.5 * (q(2) + q(3)));
             let delay =
@@ -205,16 +198,17 @@ mod tests {
             let falls = |depth: isize, component: usize| {
                 let over = (depth as f64 + 0.5) / DEPTH;
                 let above = [1.0, -2.0, 3e6, 2e6, -1e6, 0.0][component];
-                initial.to_array()[component] + above * (1.0 + (1.0 / absorption.share - 1.0) * over)
+                above * (1.0 + (1.0 / absorption.share - 1.0) * over)
             };
             let mut filters = Filters::default();
             for _ in 0..4000 {
-                filters = absorption.follow(filters, falls, initial);
+                filters = absorption.follow(filters, falls);
             }
             let outer = absorption.outer(filters, initial).to_array();
             // The outer state has the incoming characteristics that the face is to have.
             let endless = Absorption { gains: [1.0; 2], ..absorption };
-            let beyond = endless.follow(Filters::default(), |_, component| outer[component], initial);
+            let change = |_, component: usize| outer[component] - initial.to_array()[component];
+            let beyond = endless.follow(Filters::default(), change);
             for wave in [0, 1] {
                 let want = absorption.share * filters[0][wave] + KEPT * filters[2][wave];
                 assert!((beyond[0][wave] / want - 1.0).abs() < 1e-9, "{side:?}");
@@ -222,7 +216,7 @@ mod tests {
                 assert!((want / (absorption.share * filters[0][wave]) - 1.0).abs() < 0.03, "{side:?}");
             }
             assert_eq!(absorption.outer(Filters::default(), initial), initial);
-            let rest = absorption.follow(Filters::default(), |_, c| initial.to_array()[c], initial);
+            let rest = absorption.follow(Filters::default(), |_, _| 0.0);
             assert_eq!(rest, Filters::default());
         }
     }

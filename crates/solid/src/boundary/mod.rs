@@ -1,26 +1,28 @@
 //! What bounds the solid: ghost cells before the slopes, outer states and interface tractions after them.
 
 pub(crate) mod absorbing;
+pub(crate) mod held;
 pub(crate) mod outer_states;
 pub(crate) mod participant;
 
 use mesh::{FaceState, Limiter, Mesh, Padded, Side, SideStates};
 
+use crate::Boundary;
+use crate::boundary::held::Held;
 use crate::riemann::{Outward, star_interface};
 use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
 use crate::step::rows::{Elasticity, FaceRows, Reconstruction};
-use crate::{Boundary, ElasticState};
 
 /// The four sides of the domain.
 #[derive(Clone, Debug)]
 pub(crate) struct Boundaries {
     kinds: [Boundary; 4],
-    /// The initial state in the cells along each side.
-    pub(crate) initial: SideStates<ElasticState>,
+    /// The initial state at each side.
+    pub(crate) initial: SideStates<Held>,
 }
 
 impl Boundaries {
-    pub fn new(kinds: [Boundary; 4], initial: SideStates<ElasticState>) -> Self {
+    pub fn new(kinds: [Boundary; 4], initial: SideStates<Held>) -> Self {
         Self { kinds, initial }
     }
 

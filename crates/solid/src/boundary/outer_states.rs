@@ -2,11 +2,10 @@
 
 use mesh::{Padded, Side};
 
-use crate::Boundary;
 use crate::boundary::absorbing::Absorption;
 use crate::boundary::{Boundaries, parity};
 use crate::physics::SolidStep;
-use crate::state::component::S_NORMAL;
+use crate::{Boundary, ElasticState};
 
 impl Boundaries {
     /// Puts the outer states into the ghost cells at mid-step: on open sides so that the face has just that state, with
@@ -33,10 +32,6 @@ impl Boundaries {
             let across_z = side.axis_across() == 0;
             let first = id.first_face::<N>(side);
             let inwards = if matches!(side, Side::ZMin | Side::RMin) { 0.5 } else { -0.5 };
-            // What is kept is the state of the cell; its weight changes the axial stress with every width.
-            let [acceleration, _] = ctx.model.terms.acceleration();
-            let per_width = if across_z { acceleration * mesh.widths(id.level)[0] } else { 0.0 };
-            let weight = 2.0 * inwards * ctx.model.setup.speeds.density * per_width;
             let mut absorption = (kind == Boundary::Absorbing).then(|| {
                 (
                     Absorption::new(mesh, side, id.level, ctx.dt, &ctx.model.elasticity),
@@ -60,23 +55,21 @@ impl Boundaries {
                     }
                     continue;
                 }
-                let mut outer = *self.initial.at(side, id.level, first + along);
+                let held = self.initial.at(side, id.level, first + along);
+                let mut outer = held.face;
                 let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
                 if let Some((absorption, followed)) = &mut absorption {
                     let before = ctx.model.sides.at(side, id.level, first + along);
                     let (di, dj) = (i - i.clamp(0, n - 1), j - j.clamp(0, n - 1));
                     let within =
                         |depth: isize| Padded::<N>::index(i - (1 + depth) * di, j - (1 + depth) * dj);
-                    let cell = |depth: isize, c: usize| {
-                        let own = cells.component(c)[within(depth)];
-                        if c == S_NORMAL[0] && weight != 0.0 { own + depth as f64 * weight } else { own }
+                    let initial = held.cells.map(ElasticState::to_array);
+                    let change = |depth: isize, c: usize| {
+                        cells.component(c)[within(depth)] - initial[depth as usize][c]
                     };
-                    let after = absorption.follow(before, cell, outer);
+                    let after = absorption.follow(before, change);
                     followed.of_mut(id.level, first + along).fill(after);
                     outer = absorption.outer(after, outer);
-                }
-                if weight != 0.0 {
-                    outer.stress_zz += 0.5 * weight;
                 }
                 for (component, value) in outer.to_array().into_iter().enumerate() {
                     let slopes = if across_z { &mut *s_z } else { &mut *s_r };

@@ -1,5 +1,7 @@
 //! The mesh that the initial state asks for, and the state on it.
 
+pub(crate) mod half_space;
+
 use mesh::{BlockId, Field, Mesh, MeshError, Side, for_some_blocks};
 
 use crate::analysis::Analysis;

@@ -30,6 +30,7 @@ pub(crate) trait Term: Send + Sync {
 /// The terms of a solid, in the order in which they act.
 pub(crate) struct Terms {
     list: Vec<Box<dyn Term>>,
+    /// Of all together along z and r, m/s².
     acceleration: [f64; 2],
 }
 
@@ -43,12 +44,7 @@ impl Terms {
         Self { list, acceleration }
     }
 
-    /// That of all terms together along z and r, m/s².
-    pub fn acceleration(&self) -> [f64; 2] {
-        self.acceleration
-    }
-
-    /// That over a time, m/s; `None` without any.
+    /// What the acceleration of all terms together makes over a time, m/s; `None` without any.
     pub fn velocity_gain(&self, time: f64) -> Option<[f64; 2]> {
         (self.acceleration != [0.0; 2]).then(|| self.acceleration.map(|a| a * time))
     }

@@ -13,6 +13,7 @@ mod plastic_ledgers;
 mod plastic_pit;
 mod plastic_waves;
 mod sides;
+mod static_start;
 mod surface;
 mod symmetry;
 mod weight;

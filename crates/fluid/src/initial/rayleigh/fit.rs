@@ -1,10 +1,9 @@
 //! The field of bubbles that meet each other or the wall, or that sides surround: charges beyond the outline, by least squares.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::bubbles::{Bubble, largest_excess};
 use super::charges::{Charge, Charges, Cut};
 use super::error::RayleighError;
+use super::least_squares::LeastSquares;
 use super::outline::{Outline, Owner, Piece};
 use super::space::{End, Floor, Space};
 
@@ -16,8 +15,6 @@ const ENOUGH: f64 = 1e-8;
 pub(super) const MOST_UNKNOWNS: usize = 1000;
 /// Charges of which nobody would see the field, relative to the largest difference of pressure, are left out.
 const SMALL: f64 = 1e-10;
-/// Weight of the equations that keep what the others leave undetermined small.
-const RIDGE: f64 = 1e-13;
 
 /// The harmonic pressure of [`Charges`] within the bubbles and beyond the sides, with their images in the floor.
 ///
@@ -151,29 +148,13 @@ impl Fit {
         let conditions: Vec<_> = (pieces.iter())
             .flat_map(|piece| piece.imposed.iter().map(|place| (*place, Condition::of(piece.owner, bubbles))))
             .collect();
-        let (count, unknowns) = (conditions.len(), self.unknowns(space));
-        let mut matrix = DMatrix::<f64>::zeros(count + unknowns, unknowns);
-        let mut right = DVector::<f64>::zeros(count + unknowns);
+        let mut system = LeastSquares::new(conditions.len(), self.unknowns(space));
         for (i, (place, condition)) in conditions.iter().enumerate() {
-            for (j, value) in self.row(*place, condition.is_gradient, space).into_iter().enumerate() {
-                matrix[(i, j)] = condition.unit * value;
-            }
-            right[i] = condition.value;
+            let row = self.row(*place, condition.is_gradient, space);
+            system.set(i, row.into_iter().map(|value| condition.unit * value), condition.value);
         }
-        let typical = (count as f64).sqrt();
-        let scales: Vec<f64> = (0..unknowns).map(|j| matrix.column(j).norm() / typical).collect();
-        for (j, scale) in scales.iter().enumerate() {
-            matrix.column_mut(j).scale_mut(1.0 / scale);
-            matrix[(count + j, j)] = RIDGE * typical;
-        }
-        let factors = matrix.qr();
-        factors.q_tr_mul(&mut right);
-        let mut solution = right.rows(0, unknowns).into_owned();
         // The ridge makes it regular; if round-off says otherwise, the error shows it.
-        if !factors.unpack_r().solve_upper_triangular_mut(&mut solution) {
-            return;
-        }
-        let found: Vec<f64> = solution.iter().zip(&scales).map(|(value, scale)| value / scale).collect();
+        let Some(found) = system.solve() else { return };
         let (pairs, level) = found.as_chunks::<2>();
         let (within, beyond) = pairs.split_at(self.within.each().len());
         self.within.set(within);

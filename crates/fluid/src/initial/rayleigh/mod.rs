@@ -4,10 +4,12 @@
 //! div v = 0: its pressure is harmonic. With the gas's pressure on the bubbles and the ambient one far away the
 //! bubble's wall starts with Rayleigh's acceleration, and no wave leaves it.
 
+mod beneath;
 mod bubbles;
 mod charges;
 mod error;
 mod fit;
+mod least_squares;
 mod multipoles;
 mod outline;
 mod space;
@@ -15,6 +17,7 @@ mod space;
 use mesh::{Domain, Geometry};
 
 use crate::{Boundary, InitialCondition, InitialPressure};
+pub use beneath::{Beneath, HarmonicBeneath};
 use bubbles::{Bubble, all_clear, bubbles};
 pub use error::RayleighError;
 use fit::Fit;
@@ -139,6 +142,14 @@ impl RayleighField {
             Flow::Clear(field) => field.monopoles(),
             Flow::Fitted(field) => field.monopoles(),
         }
+    }
+
+    /// p − p∞ on the wall at z_min, continued beneath it; `None` where there is no such wall, or where the pressure beyond another side
+    /// would count, of which nothing is known.
+    pub fn beneath(&self) -> Option<Beneath> {
+        let Space { turned: None, floor: Some(floor), hull: None } = self.space else { return None };
+        let excess = |r: f64| self.pressure([floor.z, r]) - self.far;
+        (floor.sign > 0.0).then(|| Beneath::of(&self.bubbles, floor.z, excess))
     }
 
     /// Whether open sides hold the ambient pressure, as they do beside more walls than one along z.

@@ -1,6 +1,7 @@
 use super::*;
 use crate::{Phase, PhaseState, Region, Shape};
 
+mod beneath;
 mod cut;
 mod sides;
 

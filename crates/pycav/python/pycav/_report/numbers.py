@@ -94,6 +94,8 @@ def _uncertainty(study: Convergence, grid: int, name: str, value: float, unit: s
     if own is None:
         return "", f"on finer grids {how}"
     order = how if found["order"] is None else f"order {found['order']:.2g}"
+    if how == "slow":
+        order += ", too low to extrapolate"
     around = shown(float(f"{own:.3g}"), unit)
     return f" ± {around}", order
 

@@ -62,9 +62,7 @@ def _name(result: Result) -> str:
 def _answer(result: Result) -> list[str]:
     """The answer in words, as the program made it; runs of older programs have none."""
     found = result.summary.get("answer", [])
-    sentences = [found] if isinstance(found, str) else [str(sentence) for sentence in found]
-    # Where to look next is for those who are not here yet.
-    return [sentence for sentence in sentences if not sentence.startswith("Look next:")]
+    return [found] if isinstance(found, str) else [str(sentence) for sentence in found]
 
 
 def _state(result: Result) -> dict[str, Any]:

@@ -79,6 +79,8 @@ def _panel(axes: Axes, along: np.ndarray[Any, Any], name: str, found: dict[str, 
     if found["richardson"] is not None:
         axes.axhline(found["richardson"], color=ORANGE, linestyle="--", label="Richardson")
     says = found["convergence"].replace("-", " ") if found["order"] is None else f"order {found['order']:.2g}"
+    if found["convergence"] == "slow":
+        says = "slow: " + says
     if found["gci"] is not None:
         says += f", GCI {percent(found['gci'])}"
     axes.set_title(says, fontsize=8)

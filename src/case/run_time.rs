@@ -1,0 +1,127 @@
+//! How long a run is expected to take: cells, steps, laws and output by what they cost (docs/performance/index.md).
+
+use solid::plasticity::Hardening;
+
+use super::{Case, FluidCase, GridCase, SolidCase};
+
+/// Processor time per cell and step of the fluid, ns; docs/performance/two-phase.md.
+const FLUID: f64 = 60.0;
+/// By how much the exact Riemann solver makes it longer; docs/performance/kernels.md.
+const EXACT: f64 = 3.0;
+/// The same of a solid that is elastic, ns.
+const SOLID: f64 = 30.0;
+/// By how much a solid that can yield takes longer where some of it does.
+const YIELDS: f64 = 1.4;
+/// The same where rate or heat count.
+const YIELDS_WITH_RATE_OR_HEAT: f64 = 2.8;
+/// Per cell in a snapshot, ns.
+const SNAPSHOT: f64 = 2800.0;
+/// Per face of the interface and row of its history, ns; a row every step where the case says nothing.
+const ROW: f64 = 800.0;
+/// The share of the finest grid's N cells that an adaptive one is guessed to have, a N^b and at most all: 88, 60 and 39 % of 128², 256²
+/// and 512² cells, over all steps of `cases/collapse.toml` with its levels one lower, as they are, and one higher.
+const GUESS: [f64; 2] = [15.0, -0.29];
+/// Threads that the estimate assumes.
+pub(super) const THREADS: f64 = 2.0;
+
+/// Wall time with [`THREADS`] threads, s: all cells on the finest level, and as many as there may be.
+///
+/// - `steps`: of the fluid and of the solid, as many as the first one's length says.
+pub(super) fn estimate(case: &Case, steps: [f64; 2]) -> [f64; 2] {
+    [all_cells as fn(&GridCase) -> f64, guessed_cells].map(|cells| {
+        let fluid = case.fluid.as_ref().map_or(0.0, |fluid| cells(&fluid.grid) * of_fluid(fluid) * steps[0]);
+        let solid = case.solid.as_ref().map_or(0.0, |solid| cells(&solid.grid) * of_solid(solid) * steps[1]);
+        let grids = [case.fluid.as_ref().map(|side| &side.grid), case.solid.as_ref().map(|side| &side.grid)];
+        let kept: f64 = grids.into_iter().flatten().map(cells).sum();
+        let snapshots = SNAPSHOT * kept * case.time.snapshots.len() as f64;
+        1e-9 * (fluid + solid + snapshots + rows(case, steps)) / THREADS
+    })
+}
+
+fn all_cells(grid: &GridCase) -> f64 {
+    grid.cell_count() as f64
+}
+
+fn of_fluid(fluid: &FluidCase) -> f64 {
+    match fluid.riemann {
+        fluid::RiemannSolver::Hllc => FLUID,
+        fluid::RiemannSolver::Exact => EXACT * FLUID,
+    }
+}
+
+fn of_solid(solid: &SolidCase) -> f64 {
+    SOLID
+        * match &solid.plasticity {
+            None => 1.0,
+            Some(Hardening::JohnsonCook(_)) => YIELDS_WITH_RATE_OR_HEAT,
+            Some(_) => YIELDS,
+        }
+}
+
+/// Cells that a grid is expected to have: all of a uniform one, of an adaptive one a guess.
+fn guessed_cells(grid: &GridCase) -> f64 {
+    guessed_share(grid) * grid.cell_count() as f64
+}
+
+/// The share of a grid's finest cells that it is expected to have.
+pub(super) fn guessed_share(grid: &GridCase) -> f64 {
+    let [factor, exponent] = GUESS;
+    let adapted = (factor * (grid.cell_count() as f64).powf(exponent)).min(1.0);
+    if grid.adaptation.is_some() { adapted } else { 1.0 }
+}
+
+/// What the interface's history takes, ns.
+fn rows(case: &Case, [of_fluid, of_solid]: [f64; 2]) -> f64 {
+    let grid = case.fluid.as_ref().map(|side| &side.grid).or(case.solid.as_ref().map(|side| &side.grid));
+    let faces = grid.map_or(0, |grid| case.output.interface_cells.unwrap_or(grid.finest()[1]));
+    let steps = if case.fluid.is_some() { of_fluid } else { of_solid };
+    let rows = case.output.interface_every.map_or(steps, |every| steps.min(case.time.end / every));
+    ROW * faces as f64 * rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Aluminium under a load, 128 x 128 cells and 1000 steps, with a change and more tables.
+    fn of(set: &str, more: &str) -> f64 {
+        let text = format!(
+            "[time]\nend = 1e-5\nsnapshots = []\n[solid]\nz = [-0.01, 0.0]\nr = [0.0, 0.01]\ncells = [128, 128]\nlevels = 0\n\
+             adapt = false\nmaterial = \"al-6061-t6\"\n[coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = 1e8\n\
+             radius = 1e-3\nhistory = [[0.0, 0.0], [1e-6, 1.0]]\n[output]\ninterface_every = 1e-6\n{more}"
+        );
+        let case = Case::from_toml(&text, "estimated", &[set.to_owned()])
+            .unwrap_or_else(|errors| panic!("{errors}"));
+        estimate(&case, [0.0, 1000.0])[0]
+    }
+
+    #[test]
+    fn what_yields_and_what_is_written_takes_longer() {
+        const CELLS: f64 = 128.0 * 128.0;
+        // Besides the steps there are a row each microsecond, and two snapshots.
+        let besides = 0.5e-9 * (ROW * 128.0 * 10.0 + SNAPSHOT * 2.0 * CELLS);
+        let stepping = |more: &str| of("time.end=1e-5", more) - besides;
+        let elastic = stepping("");
+        assert!((elastic / (0.5e-9 * SOLID * CELLS * 1000.0) - 1.0).abs() < 1e-9, "{elastic}");
+        for (law, longer) in [("perfect", YIELDS), ("johnson-cook", YIELDS_WITH_RATE_OR_HEAT)] {
+            let found = stepping(&format!("[solid.plasticity]\nlaw = \"{law}\"\n")) / elastic;
+            assert!((found / longer - 1.0).abs() < 1e-9, "{law}: {found}");
+        }
+        let snapshots = (1..=50).map(|k| format!("{:e}", 1e-7 * f64::from(k))).collect::<Vec<_>>().join(", ");
+        let written = of(&format!("time.snapshots=[{snapshots}]"), "") - elastic - besides;
+        assert!((written / (0.5e-9 * SNAPSHOT * 50.0 * CELLS) - 1.0).abs() < 1e-9, "{written}");
+        let rows = of("output.interface_every=1e-9", "") - elastic - besides;
+        assert!((rows / (0.5e-9 * ROW * 128.0 * 990.0) - 1.0).abs() < 1e-9, "{rows}");
+    }
+
+    #[test]
+    fn the_finer_an_adaptive_grid_the_fewer_of_its_cells_there_are() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/collapse.toml");
+        for (levels, share) in [(0, 1.0), (1, 0.88), (2, 0.60), (3, 0.39)] {
+            let case = Case::load(&path, &[format!("fluid.levels={levels}"), "solid.levels=0".to_owned()]);
+            let case = case.unwrap_or_else(|errors| panic!("{errors}"));
+            let found = guessed_share(&case.fluid.as_ref().expect("a fluid").grid);
+            assert!((found / share - 1.0).abs() < 0.04, "{levels}: {found}");
+        }
+    }
+}
