@@ -6,7 +6,7 @@ use crate::step::face_rows::FaceRows;
 
 /// The tension σ of the interface between gas and liquid.
 ///
-/// Its force σκ∇φ stands in the Riemann problems of the faces as a jump of pressure, see [`crate::capillarity`]; both cells feel half
+/// Its force σκ∇φ stands in the Riemann problems of the faces as a jump of pressure, see `capillarity`; both cells feel half
 /// of it beside the pressure of the flux, and its work on the velocity of the face. That is what this term adds.
 ///
 /// - tested by: `tests/verification/surface_tension.rs`.
