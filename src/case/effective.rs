@@ -121,6 +121,9 @@ fn write_terms(text: &mut Lines, terms: &TermsCase) {
     if let Some(sigma) = terms.surface_tension {
         text.number("surface_tension", sigma);
     }
+    if let Some(angle) = terms.contact_angle {
+        text.number("contact_angle", angle);
+    }
     if let Some(Viscosity { liquid, gas, thin_gas }) = terms.viscosity {
         text.head("[fluid.terms.viscosity]");
         text.number("liquid", liquid.shear);

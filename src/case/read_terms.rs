@@ -11,14 +11,35 @@ pub struct TermsCase {
     pub viscosity: Option<Viscosity>,
     /// Surface tension σ between liquid and gas, N/m.
     pub surface_tension: Option<f64>,
+    /// The angle between an interface and a wall in the liquid, degrees; interfaces may meet walls only where it is given.
+    pub contact_angle: Option<f64>,
 }
 
 pub(super) fn terms(table: &mut Table<'_>, faults: &mut Faults) -> TermsCase {
     let Some(mut table) = table.table("terms", faults) else { return TermsCase::default() };
     let viscosity = table.table("viscosity", faults).and_then(|table| viscosity(table, faults));
     let surface_tension = not_negative(&mut table, "surface_tension", faults);
+    let surface_tension = surface_tension.filter(|sigma| *sigma > 0.0);
+    let contact_angle = contact_angle(&mut table, surface_tension, faults);
     table.finish(faults);
-    TermsCase { viscosity, surface_tension: surface_tension.filter(|sigma| *sigma > 0.0) }
+    TermsCase { viscosity, surface_tension, contact_angle }
+}
+
+/// The contact angle, of which there is one.
+fn contact_angle(table: &mut Table<'_>, surface_tension: Option<f64>, faults: &mut Faults) -> Option<f64> {
+    let given: Given<f64> = table.number("contact_angle", faults)?;
+    if given.value != 90.0 {
+        let message = format!("must be 90 degrees, got {:?}", given.value);
+        faults.of(
+            &given,
+            message,
+            "give 90: interfaces meet walls at right angles, as their mirror images do".to_owned(),
+        );
+    } else if surface_tension.is_none() {
+        let message = "is of no use without surface tension".to_owned();
+        faults.of(&given, message, "remove it, or give `surface_tension = ...`".to_owned());
+    }
+    Some(given.value)
 }
 
 /// `{ liquid = ..., gas = ... }`, and what there is besides; none where neither has any.

@@ -44,7 +44,7 @@ fn all_cells(grid: &GridCase) -> f64 {
 
 fn of_fluid(fluid: &FluidCase) -> f64 {
     match fluid.riemann {
-        fluid::RiemannSolver::Hllc | RiemannSolver::HllcLowMach => FLUID,
+        fluid::RiemannSolver::Hllc | fluid::RiemannSolver::HllcLowMach => FLUID,
         fluid::RiemannSolver::Exact => EXACT * FLUID,
     }
 }

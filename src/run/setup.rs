@@ -1,10 +1,12 @@
 //! A case made into solvers.
 
-use fluid::{Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory};
+use fluid::{
+    Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory, SurfaceTension,
+};
 use mesh::{BLOCK, Domain};
 use solid::{ElasticState, InitialStress, PotentialPulse, SolidSetup, SolidSolver, WaveSpeeds};
 
-use crate::case::{Case, FluidCase, GridCase, SolidCase};
+use crate::case::{Case, FluidCase, GridCase, SolidCase, TermsCase};
 use crate::run::RunError;
 use crate::run::carried::Carried;
 use crate::run::wall::Wall;
@@ -52,8 +54,18 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         gravity: fluid.gravity,
         viscosity: fluid.terms.viscosity,
         followed: fluid.followed_bubble(),
+        surface_tension: surface_tension(fluid),
         tracer: fluid.tracer,
     }
+}
+
+fn surface_tension(fluid: &FluidCase) -> Option<SurfaceTension> {
+    let TermsCase { surface_tension, contact_angle, .. } = fluid.terms;
+    surface_tension.map(|coefficient| SurfaceTension {
+        coefficient,
+        density: fluid.scale_density,
+        may_touch_walls: contact_angle.is_some(),
+    })
 }
 
 /// The fluid's reference values, with those of waves such that the threshold of interfaces, applied to them, is their own.

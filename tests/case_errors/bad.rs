@@ -27,6 +27,7 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Sets(&["fluid.terms={viscosity={liquid=-1e-3, gas=0.0}}"]), &["fluid.terms.viscosity.liquid: must not be negative, got -0.001 Pa s", "0 switches it off"]),
     (Sets(&["fluid.terms={viscosity={liquid=1e-3}}"]), &["fluid.terms.viscosity.gas: `gas` is missing", "Pa s"]),
     (Sets(&["fluid.terms={surface_tension=-0.1}"]), &["fluid.terms.surface_tension: must not be negative", "N/m"]),
+    (Sets(&["fluid.terms={surface_tension=0.07,contact_angle=60}"]), &["fluid.terms.contact_angle: must be 90 degrees"]),
     // Time.
     (Replace("end = 1e-6", ""), &["time.end: `end` is missing", "in s"]),
     (Replace("end = 1e-6", "end = \"1e-6\""), &["time.end: must be a number", "without quotes", "in s"]),

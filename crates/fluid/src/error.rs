@@ -15,6 +15,19 @@ pub enum FluidError {
     /// The liquid's pressure cannot be the harmonic one.
     #[error("the initial pressure cannot be Rayleigh's: {0}")]
     Rayleigh(#[from] crate::RayleighError),
+    /// An interface with tension has come to a wall, and nothing is said of its angle there.
+    #[error(
+        "the interface is at the wall at z = {z:.6e} m, r = {r:.6e} m, t = {time:.6e} s, and with surface tension its angle there \
+         must be known; give fluid.terms.contact_angle = 90, or leave fluid.terms.surface_tension out"
+    )]
+    Contact {
+        /// Position, m.
+        z: f64,
+        /// Position, m.
+        r: f64,
+        /// Time at the end of the step, s.
+        time: f64,
+    },
     /// A cell left the range in which the equations make sense.
     #[error(
         "the fluid is not physical at z = {z:.6e} m, r = {r:.6e} m, t = {time:.6e} s (step {step}): \

@@ -7,6 +7,7 @@
 mod analysis;
 mod boundary;
 mod bubble;
+mod capillarity;
 mod components;
 mod diagnostics;
 mod error;
@@ -47,6 +48,7 @@ pub use solver::{FluidSolver, FluidState};
 pub use state::Primitive;
 pub use step::clips::Clips;
 pub use terms::gravity::Gravity;
+pub use terms::surface_tension::SurfaceTension;
 pub use terms::viscosity::{PhaseViscosity, ThinGas, Viscosity};
 pub use thermodynamics::eos::StiffenedGas;
 pub use thermodynamics::library::NamedFluid;

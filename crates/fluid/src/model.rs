@@ -10,6 +10,7 @@ use crate::analysis::Analysis;
 use crate::boundary::far_field::FarFieldMemory;
 use crate::bubble::follow::Following;
 use crate::bubble::look::follow_bubble;
+use crate::capillarity::cell_at_wall;
 use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
 use crate::state::conserved::{PHI, RHO};
@@ -108,7 +109,11 @@ impl<const N: usize> Model<N> for Fluid {
         reflux::correct(step, finer, slot, new, report);
     }
 
-    fn measure(&self, _: &Mesh<N>, _: usize, block: &[f64], report: &mut BlockReport<N>) {
+    fn measure(&self, mesh: &Mesh<N>, slot: usize, block: &[f64], report: &mut BlockReport<N>) {
+        if self.terms.forbids_contact() {
+            let found = cell_at_wall(mesh, slot, self.analysis.boundaries, block);
+            report.contact = found.map(|cell| cell as u32);
+        }
         let mut extremes = Extremes::default();
         (0..N * N).for_each(|cell| extremes.add(&self.measured::<N>(block, cell)));
         report.extremes = extremes;
@@ -126,12 +131,15 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn inadmissible_cell(&self, report: &BlockReport<N>, block: &[f64]) -> Option<usize> {
         if is_sane(report) {
-            return None;
+            return report.contact.map(|cell| cell as usize);
         }
         self.failed_cells::<N>(block).next()
     }
 
     fn error(&self, block: &[f64], cell: usize, Place { z, r, time, step }: Place) -> FluidError {
+        if self.measured::<N>(block, cell).is_admissible() {
+            return FluidError::Contact { z, r, time };
+        }
         let [density, _, _, energy, phi] = std::array::from_fn(|c| block[c * N * N + cell]);
         FluidError::NonPhysical { z, r, time, step, density, energy, phi }
     }
@@ -178,6 +186,8 @@ impl<const N: usize> Model<N> for Fluid {
             ledger.energy[side] += energy;
             ledger.gas_mass[side] += gas_mass;
         }
+        ledger.tension_impulse += report.tension[0];
+        ledger.tension_work += report.tension[1];
         let id = mesh.tree().leaves()[slot];
         if let Some(states) = interface.states_of::<N>(slot) {
             let h_r = mesh.widths(id.level)[1];

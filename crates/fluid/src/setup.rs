@@ -7,7 +7,7 @@ use crate::boundary::PressureHistory;
 use crate::state::Contents;
 use crate::{
     Boundary, FarField, FollowedBubble, Gravity, Model, NearWall, NobleAbelStiffenedGas, RiemannSolver,
-    Shape, Sharpening, StiffenedGas, Viscosity,
+    Shape, Sharpening, StiffenedGas, SurfaceTension, Viscosity,
 };
 
 /// Everything that defines a fluid.
@@ -49,6 +49,8 @@ pub struct FluidSetup {
     pub viscosity: Option<Viscosity>,
     /// The bubble that the grid follows, or whose gas is cut, if any.
     pub followed: Option<FollowedBubble>,
+    /// The tension of the interface between gas and liquid, if any.
+    pub surface_tension: Option<SurfaceTension>,
     /// Where there is a passive tracer at t = 0, if any: its mass fraction is 1 within and 0 beyond.
     pub tracer: Option<Shape>,
 }
@@ -76,6 +78,7 @@ impl FluidSetup {
             gravity: None,
             viscosity: None,
             followed: None,
+            surface_tension: None,
             tracer: None,
         }
     }

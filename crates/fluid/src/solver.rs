@@ -9,7 +9,9 @@ use crate::boundary::Boundaries;
 use crate::boundary::far_field::FarFieldMemory;
 use crate::bubble::follow::Follower;
 use crate::bubble::look::follow_bubble;
+use crate::capillarity::level_mixed_cells;
 use crate::diagnostics::bubbles::follow_sources;
+use crate::initial::exact_share::with_exact_share;
 use crate::initial::fill;
 use crate::model::FluidMemory;
 use crate::physics::{Fluid, Scheme, Tally};
@@ -45,7 +47,10 @@ impl<const N: usize> FluidSolver<N> {
         Self::with(
             setup,
             &|centre, widths| {
-                let contents = fill::average(initial, field.as_ref(), geometry, &mixture, centre, widths);
+                let mut contents = fill::average(initial, field.as_ref(), geometry, &mixture, centre, widths);
+                if setup.surface_tension.is_some() {
+                    contents = with_exact_share(contents, initial, geometry, centre, widths);
+                }
                 fill::under_gravity(contents, gravity, centre)
             },
             &|low, high, widths| fill::asks_for_finer(initial, low, high, widths),
@@ -82,8 +87,11 @@ impl<const N: usize> FluidSolver<N> {
         let carried = setup.model.components()..components;
         let carried_count = carried.len();
         let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales, has_phases, carried };
-        let (mesh, state) =
+        let (mesh, mut state) =
             crate::initial::mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
+        if let Some(tension) = setup.surface_tension {
+            level_mixed_cells(&mesh, &mixture, kinds, (tension.coefficient, has_phases), &mut state);
+        }
         // By way of the conserved variables, as the cells have it: rest then stays at rest to the last bit.
         let sides = SideStates::new(&mesh, |_, centre, widths| {
             let Contents { state, gas } = initial(centre, widths);

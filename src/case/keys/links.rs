@@ -1,7 +1,7 @@
 //! The pages that texts on keys lead to.
 
 /// Name, then the page from the repository's root, with the heading.
-pub(super) const LINKS: [(&str, &str); 20] = [
+pub(super) const LINKS: [(&str, &str); 21] = [
     ("absorbing", "docs/theory/absorbing-sides.md"),
     ("bubble", "docs/theory/bubble-content.md"),
     ("eos", "docs/theory/equations-of-state.md"),
@@ -21,6 +21,7 @@ pub(super) const LINKS: [(&str, &str); 20] = [
     ("start", "docs/reference/cases.md#the-pressure-of-the-start"),
     ("steps", "docs/theory/time-steps.md#steps-of-their-own"),
     ("surface", "docs/reference/output-summary.md#the-surface-of-the-solid"),
+    ("surface-tension", "docs/theory/surface-tension.md"),
     ("thresholds", "docs/theory/choosing-epsilon.md"),
 ];
 

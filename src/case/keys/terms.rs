@@ -8,13 +8,24 @@ pub(super) static TERMS: [Section; 2] = [
         repeated: false,
         title: "Terms",
         about: "What acts on the fluid besides the waves of two-phase flow; each is off where it is absent.",
-        keys: &[Key {
-            name: "surface_tension",
-            unit: "N/m",
-            values: Values::Words("≥ 0"),
-            default: Preset::Number(0.0),
-            about: "Surface tension σ between liquid and gas; 0.0728 for water and air at 20 °C.",
-        }],
+        keys: &[
+            Key {
+                name: "surface_tension",
+                unit: "N/m",
+                values: Values::Words("≥ 0"),
+                default: Preset::Number(0.0),
+                about: "[Surface tension][surface-tension] σ between liquid and gas; 0.0728 for water and air at 20 °C. The gas's \
+                        pressure in a region is what it is: Laplace's jump is part of it.",
+            },
+            Key {
+                name: "contact_angle",
+                unit: "degrees",
+                values: Values::Words("90"),
+                default: Preset::Words("none: no interface may meet a wall"),
+                about: "The angle at which interfaces with tension meet walls. Without it a run whose interface comes to a wall is \
+                        refused, or ends there.",
+            },
+        ],
     },
     Section {
         path: "fluid.terms.viscosity",

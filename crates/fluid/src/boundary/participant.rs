@@ -122,7 +122,7 @@ impl<const N: usize> FluidSolver<N> {
         let (true, Some(wall)) = (terms.is_viscous, self.interface().states_of::<N>(slot)) else {
             return [0.0; N];
         };
-        let BlockScratch { cells, s_z, s_r, half, inverse_r, works, .. } = scratch;
+        let BlockScratch { cells, s_z, s_r, half, inverse_r, works, capillary, .. } = scratch;
         let inverse_h = ctx.mesh.widths(ctx.mesh.tree().leaves()[slot].level).map(|h| 1.0 / h);
         let metric = Metric {
             stride: Padded::<N>::STRIDE,
@@ -142,6 +142,7 @@ impl<const N: usize> FluidSolver<N> {
             before: rows,
             sides,
             wall: Some(wall),
+            capillary,
         };
         let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
         v_r.fill(0.0);

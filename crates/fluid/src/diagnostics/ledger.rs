@@ -27,7 +27,7 @@ pub struct Fixups {
     pub clips: Clips,
 }
 
-/// What crossed the sides of the domain since the start, inwards, in the order of [`mesh::Side::ALL`].
+/// What crossed the sides of the domain since the start, inwards, in the order of [`mesh::Side::ALL`], and what surface tension did.
 ///
 /// Per radian in axial symmetry, per metre of depth in planar geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -46,4 +46,8 @@ pub struct BoundaryLedger {
     pub wall_impulse: f64,
     /// Work of p* on the wall to the solid, J: what the fluid got.
     pub wall_work: f64,
+    /// Axial impulse of surface tension on the fluid within, N s: nothing but for what the curvatures of the grid's cells leave.
+    pub tension_impulse: f64,
+    /// Work of surface tension on the fluid within, J: σ times the area that interfaces have lost.
+    pub tension_work: f64,
 }

@@ -1,5 +1,6 @@
 //! What fills the fluid's domain at t = 0.
 
+pub(crate) mod exact_share;
 pub(crate) mod fill;
 pub(crate) mod mesh;
 pub(crate) mod rayleigh;

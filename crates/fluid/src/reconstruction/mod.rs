@@ -1,5 +1,6 @@
 //! Reconstructed cells, and the states that they have on their faces.
 
+pub(crate) mod capillary;
 pub(crate) mod dispersion;
 pub(crate) mod even;
 pub(crate) mod predictor;

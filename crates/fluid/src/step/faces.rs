@@ -6,14 +6,18 @@ use super::BlockStep;
 use super::scratch::BlockScratch;
 use crate::RiemannSolver;
 use crate::boundary::Boundaries;
+use crate::capillarity::FaceJumps;
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
 use crate::reconstruction::dispersion::AlongFaces;
 use crate::riemann::exact_rows::exact_faces;
+use crate::riemann::godunov::flux_exact;
+use crate::riemann::hllc::{flux_hllc, flux_hllc_low_mach};
 use crate::state::COUNT;
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
 use crate::step::face_rows::{FaceRows, used_face};
 use crate::step::rows::{self};
+use crate::two_phase::FaceState;
 
 impl<const N: usize> BlockStep<'_, N> {
     /// Fluxes through all faces: HLLC or exact between pure cells, the mixed cells' own, and those that the state of the wall to
@@ -22,7 +26,18 @@ impl<const N: usize> BlockStep<'_, N> {
         let ctx = self.ctx;
         let stride = Padded::<N>::STRIDE;
         let BlockScratch {
-            half, s_z, s_r, keep, sound, gas_shares, inverse_r, gas, z_faces, r_faces, ..
+            half,
+            s_z,
+            s_r,
+            keep,
+            sound,
+            gas_shares,
+            inverse_r,
+            gas,
+            capillary,
+            z_faces,
+            r_faces,
+            ..
         } = scratch;
         let [rho, v_z, v_r, p, phi] = half.split::<COUNT>();
         let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_z.split::<COUNT>();
@@ -41,7 +56,9 @@ impl<const N: usize> BlockStep<'_, N> {
         let replaced = wall.map(|_| mesh::GHOSTS - 1);
         self.clipped_roots = faces(ctx, &along_z, 1, z_range, replaced, z_faces);
         if let Some(block) = self.gas.phases() {
-            block.solve_faces(0, &along_z, inverse_r, gas, z_faces);
+            block.solve_faces(0, &along_z, inverse_r, capillary.along::<N>(0), gas, z_faces);
+        } else if let Some(jumps) = capillary.along::<N>(0) {
+            faces_with_jumps::<N>(ctx, &along_z, jumps, z_faces);
         }
         if let Some(wall) = wall {
             Boundaries::impose_wall::<N>(wall, &along_z, &ctx.model.mixture, z_faces);
@@ -58,8 +75,10 @@ impl<const N: usize> BlockStep<'_, N> {
         let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         self.clipped_roots += faces(ctx, &along_r, stride, r_range, None, r_faces);
         if let Some(block) = self.gas.phases() {
-            block.solve_faces(1, &along_r, inverse_r, gas, r_faces);
+            block.solve_faces(1, &along_r, inverse_r, capillary.along::<N>(1), gas, r_faces);
             block.gas_fluxes(gas, gas_shares, [z_faces, r_faces]);
+        } else if let Some(jumps) = capillary.along::<N>(1) {
+            faces_with_jumps::<N>(ctx, &along_r, jumps, r_faces);
         }
     }
 }
@@ -97,5 +116,28 @@ fn faces<const N: usize>(
             exact_faces(cells, step, stride, range, used_face::<N>, &ctx.model.mixture, faces);
             0
         }
+    }
+}
+
+/// Solves the faces again that a jump of pressure lies on, where the kernels serve mixed cells, too: in the paper's mixture, which has no
+/// covolumes.
+fn faces_with_jumps<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    cells: &Reconstruction<'_>,
+    jumps: FaceJumps<'_>,
+    faces: &mut FaceRows,
+) {
+    let mixture = &ctx.model.mixture;
+    let solve = |lower: FaceState, upper: FaceState| match ctx.model.scheme.riemann {
+        RiemannSolver::Hllc => flux_hllc(lower.w, upper.w, mixture),
+        RiemannSolver::HllcLowMach => flux_hllc_low_mach(lower.w, upper.w, mixture),
+        RiemannSolver::Exact => flux_exact(lower.w, upper.w, [0.0; 2], mixture),
+    };
+    let step = jumps.step;
+    for k in (0..Padded::<N>::LEN - step).filter(|k| jumps.has(*k) && used_face::<N>(*k, step)) {
+        let states = [cells.face_state(k, 1.0), cells.face_state(k + step, -1.0)]
+            .map(|w| FaceState { w, gas_share: 0.0 });
+        let [lower, upper] = jumps.level(k, states, mixture);
+        faces.set(k, jumps.settle(k, &states, solve(lower, upper), mixture));
     }
 }

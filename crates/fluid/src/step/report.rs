@@ -36,6 +36,10 @@ pub struct BlockReport<const N: usize> {
     /// What came in through each side of the domain: mass, axial momentum, energy, mass of the gas (per
     /// radian).
     pub(crate) inflow: [[f64; 4]; 4],
+    /// What surface tension added: axial momentum and energy (per radian).
+    pub(crate) tension: [f64; 2],
+    /// A cell, j N + i, where an interface is at a wall and must not be.
+    pub(crate) contact: Option<u32>,
     /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
     #[serde(with = "mesh::array")]
     pub(crate) wall_pressure: [f64; N],
@@ -95,6 +99,8 @@ impl<const N: usize> Default for BlockReport<N> {
             floored_volume: 0.0,
             floor_energy: 0.0,
             inflow: [[0.0; 4]; 4],
+            tension: [0.0; 2],
+            contact: None,
             wall_pressure: [0.0; N],
             wall_shear: [0.0; N],
             diffusivity: 0.0,

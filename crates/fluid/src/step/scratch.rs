@@ -2,6 +2,7 @@
 
 use mesh::{AlignedRow, Padded, Patch};
 
+use crate::capillarity::CapillaryRows;
 use crate::components::carried::CarriedScratch;
 use crate::state::COUNT;
 use crate::state::conserved::{GAS, PHI};
@@ -33,6 +34,8 @@ pub struct BlockScratch<const N: usize> {
     /// A part for each component that the mass carries.
     pub(super) carried: Vec<CarriedScratch>,
     pub(crate) gas: GasScratch,
+    /// The jumps of pressure across interfaces, where there is surface tension.
+    pub(crate) capillary: CapillaryRows,
     /// Whether the rows of the gas fraction may hold anything but zeros.
     pub(crate) has_gas: bool,
 }
@@ -60,6 +63,7 @@ impl<const N: usize> BlockScratch<N> {
             works: Vec::new(),
             carried: (0..carried).map(|_| CarriedScratch::new::<N>()).collect(),
             gas: GasScratch::new::<N>(),
+            capillary: CapillaryRows::default(),
             has_gas: false,
         }
     }

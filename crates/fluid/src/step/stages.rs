@@ -5,9 +5,11 @@ use mesh::{Padded, Side, limited_differences};
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
 use crate::Boundary;
+use crate::capillarity::{CapillaryRows, Interfaces, cell_at_wall};
 use crate::components::carried::CarriedCells;
 use crate::physics::FluidStep;
 use crate::reconstruction::Rows;
+use crate::reconstruction::capillary::level_slopes;
 use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
 use crate::reconstruction::predictor::{Predicted, Predictor, predict};
 use crate::state::COUNT;
@@ -104,6 +106,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if let Some(gas) = gas.phases() {
             gas.shares(scratch);
         }
+        if let Some(tension) = ctx.model.terms.surface_tension() {
+            find_jumps(ctx, slot, tension, gas.is_present(), scratch);
+        }
         Self { ctx, slot, id, inverse_h, gas, limited_predictions, clipped_roots: 0, bounded_viscosities: 0 }
     }
 
@@ -125,6 +130,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         metric: &'b Metric<'b>,
         inverse_r: &'b [f64],
         [state, before]: [Rows<'b>; 2],
+        capillary: &'b CapillaryRows,
     ) -> TermBlock<'b> {
         TermBlock {
             cells: N,
@@ -134,6 +140,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             before,
             sides: block_sides(self.ctx, self.slot),
             wall: self.ctx.interface.states_of::<N>(self.slot),
+            capillary,
         }
     }
 
@@ -162,15 +169,20 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         predict(scratch.cells.split(), predictor, out);
         even_slopes(self.ctx, self.slot, scratch);
         predict_beside_mirrors(self.ctx, self.slot, self.inverse_h, scratch);
+        if scratch.capillary.is_present() {
+            level_slopes(self.ctx, self.inverse_h, scratch);
+        }
         if let Some(gain) = self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt) {
             for (component, gain) in VELOCITY.into_iter().zip(gain) {
                 scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);
             }
         }
         if self.ctx.model.terms.is_viscous {
-            let BlockScratch { cells, half, inverse_r, face_weight, inverse_weight, works, .. } = scratch;
+            let BlockScratch {
+                cells, half, inverse_r, face_weight, inverse_weight, works, capillary, ..
+            } = scratch;
             let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
-            let block = self.term_block(&metric, inverse_r, [rows; 2]);
+            let block = self.term_block(&metric, inverse_r, [rows; 2], capillary);
             let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
             self.ctx.model.terms.predict(&block, [v_z, v_r], works);
         }
@@ -198,9 +210,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if !ctx.model.terms.is_empty() {
             let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } =
                 scratch;
-            let BlockScratch { cells, inverse_r, works, .. } = scratch;
+            let BlockScratch { cells, inverse_r, works, capillary, .. } = scratch;
             let metric = &self.metric(face_weight, inverse_weight);
-            let block = self.term_block(metric, inverse_r, [half.split(), cells.split()]);
+            let block = self.term_block(metric, inverse_r, [half.split(), cells.split()], capillary);
             with_sources.clear();
             with_sources.extend_from_slice(ctx.old.block(self.slot));
             let bounded = ctx.model.terms.add(&block, [z_faces, r_faces], works, with_sources);
@@ -266,6 +278,19 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         }
     }
 
+    /// The axial momentum and the energy that surface tension has added to the block (per radian).
+    fn tension_gains(&self, scratch: &BlockScratch<N>) -> [f64; 2] {
+        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, capillary, .. } = scratch;
+        let mut gains = [0.0; 2];
+        let metric = self.metric(face_weight, inverse_weight);
+        capillary.for_gains(N, &metric, [&z_faces.velocity, &r_faces.velocity], |cell, [axial, _, work]| {
+            let volume = self.ctx.mesh.volume(self.id, cell / N);
+            gains[0] += volume * axial;
+            gains[1] += volume * work;
+        });
+        gains
+    }
+
     /// What the block tells of the step.
     pub(super) fn report(&self, scratch: &mut BlockScratch<N>, new: &[f64], report: &mut BlockReport<N>) {
         let ctx = self.ctx;
@@ -285,6 +310,13 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             for (cell, added) in floor.iter().enumerate().filter(|(_, added)| **added > 0.0) {
                 report.marked.insert(cell);
                 report.lift_pressure(*added, ctx.mesh.volume(self.id, cell / N));
+            }
+        }
+        if scratch.capillary.is_present() {
+            report.tension = self.tension_gains(scratch);
+            if ctx.model.terms.forbids_contact() {
+                let found = cell_at_wall(ctx.mesh, self.slot, ctx.model.analysis.boundaries, new);
+                report.contact = found.map(|cell| cell as u32);
             }
         }
         let BlockScratch { z_faces, r_faces, face_weight, half, .. } = &*scratch;
@@ -314,6 +346,31 @@ pub(crate) fn block_sides<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -
         let kind = ctx.model.boundaries.kind(side);
         (kind != Boundary::Periodic && ctx.mesh.touches(slot, side)).then_some(kind)
     })
+}
+
+/// Finds the jumps of pressure across the interfaces in a block's padded cells.
+fn find_jumps<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    tension: f64,
+    has_gas: bool,
+    scratch: &mut BlockScratch<N>,
+) {
+    let BlockScratch { cells, gas_shares, capillary, .. } = scratch;
+    if !has_gas {
+        capillary.clear();
+        return;
+    }
+    let block = Interfaces {
+        mesh: ctx.mesh,
+        field: ctx.old,
+        slot,
+        kinds: ctx.model.analysis.boundaries,
+        mixture: &ctx.model.mixture,
+        tension,
+        has_phases: ctx.model.analysis.has_phases,
+    };
+    capillary.find(&block, cells.split(), gas_shares);
 }
 
 /// Takes the marked cells' means for the states on their faces.

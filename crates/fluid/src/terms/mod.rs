@@ -5,10 +5,12 @@
 //! case has not are not in the list, and a block's step with an empty list is bitwise that without terms.
 
 pub(crate) mod gravity;
+pub(crate) mod surface_tension;
 pub(crate) mod viscosity;
 
 use mesh::FaceState;
 
+use crate::capillarity::CapillaryRows;
 use crate::reconstruction::Rows;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
@@ -29,6 +31,8 @@ pub(crate) struct TermBlock<'a> {
     pub sides: [Option<Boundary>; 4],
     /// The faces of the wall to another medium, in the order of r, where the block has any.
     pub wall: Option<&'a [FaceState]>,
+    /// The jumps of pressure across interfaces, where there is surface tension.
+    pub capillary: &'a CapillaryRows,
 }
 
 /// A cell on the wall to another medium, as terms see it.
@@ -52,6 +56,16 @@ pub(crate) trait Term: Send + Sync {
     /// traces that the solid gets.
     fn acceleration(&self) -> [f64; 2] {
         [0.0; 2]
+    }
+
+    /// The tension of interfaces, N/m. It enters the pressures' slopes and the Riemann problems of the faces.
+    fn surface_tension(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether interfaces must stay away from walls.
+    fn forbids_contact(&self) -> bool {
+        false
     }
 
     /// Adds what the velocities v_z and v_r of a block and its first ghosts gain until mid-step.
@@ -103,21 +117,24 @@ pub(crate) struct Terms {
     acceleration: [f64; 2],
     /// Whether there is friction.
     pub is_viscous: bool,
+    surface_tension: Option<f64>,
 }
 
 impl Terms {
     /// Those that a setup asks for.
     pub fn of(setup: &FluidSetup) -> Self {
-        let all: [Option<Box<dyn Term>>; 2] = [
+        let all: [Option<Box<dyn Term>>; 3] = [
             setup.gravity.map(|gravity| Box::new(gravity) as _),
             setup.viscosity.map(|viscosity| Box::new(viscosity) as _),
+            setup.surface_tension.map(|tension| Box::new(tension) as _),
         ];
         let list: Vec<Box<dyn Term>> = all.into_iter().flatten().collect();
         let acceleration = list.iter().fold([0.0; 2], |[z, r], term| {
             let more = term.acceleration();
             [z + more[0], r + more[1]]
         });
-        Self { list, acceleration, is_viscous: setup.viscosity.is_some() }
+        let surface_tension = list.iter().find_map(|term| term.surface_tension());
+        Self { list, acceleration, is_viscous: setup.viscosity.is_some(), surface_tension }
     }
 
     /// Whether there is none.
@@ -130,7 +147,17 @@ impl Terms {
         self.acceleration
     }
 
-    /// That over a time, m/s; `None` without any.
+    /// The tension of interfaces, N/m; `None` without any.
+    pub fn surface_tension(&self) -> Option<f64> {
+        self.surface_tension
+    }
+
+    /// Whether interfaces must stay away from walls.
+    pub fn forbids_contact(&self) -> bool {
+        self.surface_tension.is_some() && self.list.iter().any(|term| term.forbids_contact())
+    }
+
+    /// The acceleration over a time, m/s; `None` without any.
     pub fn velocity_gain(&self, time: f64) -> Option<[f64; 2]> {
         (self.acceleration != [0.0; 2]).then(|| self.acceleration.map(|a| a * time))
     }

@@ -9,6 +9,7 @@ use super::phase_model::PhaseModel;
 use super::reconstruction::CellRule;
 use super::scratch::GasScratch;
 use super::update::{OldCells, bound_gas, gas_fluxes, gas_shares, is_zero, update_gas, update_mixed};
+use crate::capillarity::FaceJumps;
 use crate::options::TwoPhaseOptions;
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
@@ -113,12 +114,12 @@ impl<'a, const N: usize> GasBlock<'a, N> {
 
     /// Finds and reconstructs the mixed cells; `scratch` holds the assembled block and its predicted states.
     pub fn collect(&self, scratch: &mut BlockScratch<N>) {
-        let BlockScratch { cells, gas, half, keep, inverse_r, .. } = scratch;
+        let BlockScratch { cells, gas, half, keep, inverse_r, capillary, .. } = scratch;
         let rows = cells.split::<{ COUNT + 1 }>();
         gas.mixed.clear();
         gas.mixed.collect::<N>(
             &Cells { rows, stride: Padded::<N>::STRIDE },
-            &self.rule(inverse_r),
+            &CellRule { jumps: capillary.jumps(), ..self.rule(inverse_r) },
             Side::ALL.map(|side| self.outer(side)),
             (!self.ctx.marks.is_empty()).then_some(&gas.is_marked),
         );
@@ -171,10 +172,11 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         axis: usize,
         cells: &Reconstruction<'_>,
         inverse_r: &[f64],
+        jumps: Option<FaceJumps<'_>>,
         gas: &mut GasScratch,
         faces: &mut FaceRows,
     ) {
-        gas.mixed.solve_faces::<N>(axis, cells, &self.rule(inverse_r), faces);
+        gas.mixed.solve_faces::<N>(axis, cells, &self.rule(inverse_r), jumps, faces);
     }
 
     /// Makes the gas's mass fluxes from those of the mass, which must be final.

@@ -12,6 +12,7 @@ use super::face_states::FaceStates;
 use super::reconstruction::{CellRule, face_states};
 use super::windows::{LANES, Window, lanes, windows};
 use crate::boundary::beside;
+use crate::capillarity::FaceJumps;
 use crate::reconstruction::Reconstruction;
 use crate::riemann::exact_rows::{ListedFaces, exact_fluxes};
 use crate::riemann::hllc::Face;
@@ -194,12 +195,13 @@ impl MixedCells {
         axis: usize,
         cells: &Reconstruction<'_>,
         rule: &CellRule<'_>,
+        jumps: Option<FaceJumps<'_>>,
         faces: &mut FaceRows,
     ) {
         if axis == 0 {
-            self.solve_along::<N, 0>(cells, rule, faces);
+            self.solve_along::<N, 0>(cells, rule, jumps, faces);
         } else {
-            self.solve_along::<N, 1>(cells, rule, faces);
+            self.solve_along::<N, 1>(cells, rule, jumps, faces);
         }
     }
 
@@ -207,6 +209,7 @@ impl MixedCells {
         &mut self,
         cells: &Reconstruction<'_>,
         rule: &CellRule<'_>,
+        jumps: Option<FaceJumps<'_>>,
         faces: &mut FaceRows,
     ) {
         let step = if AXIS == 0 { 1 } else { Padded::<N>::STRIDE };
@@ -224,7 +227,7 @@ impl MixedCells {
         let shares = &mut self.shares[AXIS];
         let fluxes = faces.fluxes_mut();
         let states = &self.states;
-        let mut listed = Along::<AXIS> { states, cells, rule, step, shares, fluxes, emptied: 0 };
+        let mut listed = Along::<AXIS> { states, cells, rule, jumps, step, shares, fluxes, emptied: 0 };
         exact_fluxes(&problems, &mut listed, rule.mixture);
         self.clips.emptied_faces += listed.emptied;
         self.problems = problems;
@@ -245,6 +248,8 @@ struct Along<'a, const AXIS: usize> {
     /// The other cells.
     cells: &'a Reconstruction<'a>,
     rule: &'a CellRule<'a>,
+    /// Jumps of pressure by surface tension.
+    jumps: Option<FaceJumps<'a>>,
     step: usize,
     shares: &'a mut Vec<(usize, f64)>,
     fluxes: [&'a mut [f64]; 6],
@@ -264,6 +269,12 @@ impl<const AXIS: usize> Along<'_, AXIS> {
         }
         normal_first(self.states.of(index as usize, 2 * AXIS + side), AXIS)
     }
+
+    /// What both cells have on a face.
+    #[inline(always)]
+    fn sides(&self, face: &Problem) -> [FaceState; 2] {
+        [self.side(face.lower, face.face, 1), self.side(face.upper, face.face + self.step, 0)]
+    }
 }
 
 impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
@@ -271,8 +282,11 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
 
     #[inline(always)]
     fn states(&self, face: &Problem) -> [FaceState; 2] {
-        let [mut lower, mut upper] =
-            [self.side(face.lower, face.face, 1), self.side(face.upper, face.face + self.step, 0)];
+        let states = self.sides(face);
+        let [mut lower, mut upper] = match self.jumps {
+            Some(jumps) if jumps.has(face.face) => jumps.level(face.face, states, self.rule.mixture),
+            _ => states,
+        };
         if self.rule.is_low_mach {
             let shares = [lower.gas_share, upper.gas_share];
             [lower.w, upper.w] = brought_together(lower.w, upper.w, shares, self.rule.mixture);
@@ -290,7 +304,12 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
     }
 
     #[inline(always)]
-    fn put(&mut self, face: &Problem, solution: Face, gas_share: f64) {
+    fn put(&mut self, face: &Problem, mut solution: Face, gas_share: f64) {
+        if let Some(jumps) = self.jumps
+            && jumps.has(face.face)
+        {
+            solution = jumps.settle(face.face, &self.sides(face), solution, self.rule.mixture);
+        }
         set_face(&mut self.fluxes, face.face, solution);
         let from = if solution.velocity < 0.0 { face.upper } else { face.lower };
         // What comes from other cells has the gas's part that all of theirs has.

@@ -36,6 +36,8 @@ pub(crate) struct CellRule<'a> {
     pub is_low_mach: bool,
     /// What v_z and v_r gain in half the step by a uniform acceleration, m/s.
     pub velocity_gain: Option<[f64; 2]>,
+    /// How much higher the pressure is above the faces along z and r than below by surface tension, Pa.
+    pub jumps: Option<[&'a [f64]; 2]>,
 }
 
 /// States on the four faces of mixed cells, in the order of [`mesh::Side::ALL`]: z−, z+, r−, r+.
@@ -94,10 +96,13 @@ fn window_states(
     let w = phases(cells, at, 0, [&[0.0; LANES]; 2]);
     let own = [&w[RHO_G], &w[RHO_L]];
     let along_r = cells.stride as isize;
-    let around = [
+    let mut around = [
         [phases(cells, at, -1, own), phases(cells, at, 1, own)],
         [phases(cells, at, -along_r, own), phases(cells, at, along_r, own)],
     ];
+    if let Some(jumps) = rule.jumps {
+        level(jumps, at, along_r, &mut around);
+    }
     let mut differences = [ZERO; 2];
     for (differences, [below, above]) in differences.iter_mut().zip(&around) {
         // Lane by lane: of a loop over the components around one over the lanes LLVM makes gathers.
@@ -146,6 +151,18 @@ fn window_states(
     let [densities, pressures, fractions] = is_bounded.map(|lanes| bits(lanes.map(|lane| lane != 0)));
     let [halved, dropped] = [0.5, 0.0].map(|kept| bits(shares.map(|share| share == kept)));
     [densities, pressures, fractions, halved, dropped]
+}
+
+/// Takes the jumps of pressure between cells and those around them from the pressures of these.
+#[inline(never)]
+fn level(jumps: [&[f64]; 2], at: Window, along_r: isize, around: &mut [[Phases; 2]; 2]) {
+    for ((jumps, step), [below, above]) in jumps.iter().zip([1, along_r]).zip(around) {
+        let (lower, upper) = (at.load(jumps, -step), at.load(jumps, 0));
+        for k in 0..LANES {
+            below[PRESSURE][k] += lower[k];
+            above[PRESSURE][k] -= upper[k];
+        }
+    }
 }
 
 /// The cells `by` after some by phases; a phase that is as good as absent has the density `else_densities`.

@@ -22,6 +22,7 @@ mod random_trees;
 mod rayleigh_start;
 mod rescue;
 mod shock_tubes;
+mod surface_tension;
 mod symmetry;
 mod tracer;
 mod viscosity;

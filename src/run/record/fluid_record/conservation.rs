@@ -17,10 +17,11 @@ pub fn row(solver: &FluidSolver<BLOCK>) -> Vec<f64> {
     row.push(totals.gas_mass);
     row.extend(ledger.gas_mass);
     row.push(fixups.gas_mass_added - fixups.liquid_mass_added);
+    row.extend([ledger.tension_impulse, ledger.tension_work]);
     row
 }
 
-pub const COLUMNS: [Column<'static>; 25] = [
+pub const COLUMNS: [Column<'static>; 27] = [
     column("time", "s", "time"),
     column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
     column("momentum_z", "N s/rad", "axial momentum in the domain"),
@@ -66,4 +67,6 @@ pub const COLUMNS: [Column<'static>; 25] = [
         "kg/rad",
         "mass that the gas got from the liquid where it had less than none, and the other way round",
     ),
+    column("tension_impulse", "N s/rad", "axial impulse of surface tension on the fluid"),
+    column("tension_work", "J/rad", "work of surface tension on the fluid"),
 ];

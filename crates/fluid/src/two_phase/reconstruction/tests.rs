@@ -25,6 +25,7 @@ fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState
         options,
         is_low_mach: false,
         velocity_gain: None,
+        jumps: None,
     };
     let mut states = FaceStates::default();
     face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &rule, &mut states);
@@ -74,6 +75,7 @@ fn what_is_bounded_is_told() {
             options,
             is_low_mach: false,
             velocity_gain: None,
+            jumps: None,
         };
         let mut states = FaceStates::default();
         let window = Window { first: 2 * STRIDE + 2, step: 1, listed: 1 };

@@ -1,0 +1,213 @@
+//! What a block's step needs to know of surface tension, made once at its beginning.
+
+use mesh::{Field, GHOSTS, Mesh, Padded, Side};
+
+use super::initial::curvature_at;
+use super::jumps::{FaceJumps, share_of_jump};
+use super::patch::WidePatch;
+use crate::reconstruction::Rows;
+use crate::step::update::Metric;
+use crate::two_phase::is_compliant;
+use crate::{Boundary, Mixture};
+
+/// A block whose interfaces have a tension.
+#[derive(Clone, Copy)]
+pub(crate) struct Interfaces<'a, const N: usize> {
+    pub mesh: &'a Mesh<N>,
+    /// The cells at the beginning of the step.
+    pub field: &'a Field,
+    pub slot: usize,
+    /// What bounds the domain.
+    pub kinds: [Boundary; 4],
+    pub mixture: &'a Mixture,
+    /// σ, N/m.
+    pub tension: f64,
+    /// Whether only cells with face states of their own have interfaces, as in the five-equation model.
+    pub has_phases: bool,
+}
+
+/// Gas fractions of two cells that differ by less have no interface between them.
+const LEAST_STEP: f64 = 1e-6;
+
+/// How much a cell's curvature counts on its faces besides φ(1 − φ).
+const LEAST_WEIGHT: f64 = 1e-3;
+
+/// The jumps of a padded block; thread-local, and without any memory where no case asks for it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct CapillaryRows {
+    patch: WidePatch,
+    /// ψ of the cells.
+    share: Vec<f64>,
+    /// J and J Δψ on the faces along z and r, Pa.
+    tension: [Vec<f64>; 2],
+    jump: [Vec<f64>; 2],
+    /// Cells of the block and of the first layer around it that have a face with a jump.
+    cells: Vec<usize>,
+    is_present: bool,
+}
+
+impl CapillaryRows {
+    /// Whether the block has any jump.
+    pub fn is_present(&self) -> bool {
+        self.is_present
+    }
+
+    /// There is none in the block.
+    pub fn clear(&mut self) {
+        self.is_present = false;
+    }
+
+    /// The faces along an axis (0: z, 1: r); `None` where none has a jump.
+    pub fn along<const N: usize>(&self, axis: usize) -> Option<FaceJumps<'_>> {
+        self.is_present.then(|| FaceJumps {
+            tension: &self.tension[axis],
+            jump: &self.jump[axis],
+            share: &self.share,
+            step: if axis == 0 { 1 } else { Padded::<N>::STRIDE },
+        })
+    }
+
+    /// J Δψ on the faces along z and r; `None` where there is none.
+    pub fn jumps(&self) -> Option<[&[f64]; 2]> {
+        self.is_present.then(|| [&self.jump[0][..], &self.jump[1][..]])
+    }
+
+    /// The padded cells that have a face with a jump.
+    pub fn cells(&self) -> &[usize] {
+        &self.cells
+    }
+
+    /// Finds the jumps of a block.
+    ///
+    /// On a face J = σκ with the mean of both cells' curvatures, weighted by φ(1 − φ): what lies far from the middle of the interface
+    /// knows less of it.
+    ///
+    /// - `cells`: the padded cells, primitive; `gas_shares`: the gas's part of their mass.
+    pub fn find<const N: usize>(&mut self, block: &Interfaces<'_, N>, cells: Rows<'_>, gas_shares: &[f64]) {
+        let [density, _, _, pressure, phi] = cells;
+        self.clear();
+        let has_step = |k: usize, step: usize| {
+            let [a, b] = [k, k + step];
+            let height = (phi[b] - phi[a]).abs();
+            height > LEAST_STEP
+                && (!block.has_phases
+                    || height > 0.5
+                    || is_compliant(pressure[a], phi[a], block.mixture)
+                    || is_compliant(pressure[b], phi[b], block.mixture))
+        };
+        let faces = faces::<N>().filter(|(k, step)| has_step(*k, *step) && !is_open(block, *k, *step));
+        let mut faces = faces.peekable();
+        if faces.peek().is_none() {
+            return;
+        }
+        self.is_present = true;
+        let len = Padded::<N>::LEN;
+        for row in self.tension.iter_mut().chain(&mut self.jump) {
+            row.clear();
+            row.resize(len, 0.0);
+        }
+        self.share.clear();
+        let shares =
+            (0..len).map(|k| share_of_jump(phi[k], density[k], density[k] * gas_shares[k], block.mixture));
+        self.share.extend(shares);
+        self.patch.fill(block.mesh, block.field, block.slot, block.kinds, phi);
+        let id = block.mesh.tree().leaves()[block.slot];
+        let mut known = vec![None; len];
+        for (k, step) in faces {
+            let [below, above] = [k, k + step].map(|k| {
+                let own = known[k].get_or_insert_with(|| {
+                    let (i, j) = place_of::<N>(k);
+                    let (kappa, is_height) = curvature_at(block.mesh, id, &self.patch, [i, j]);
+                    let fraction = phi[k].clamp(0.0, 1.0);
+                    [kappa, if is_height { fraction * (1.0 - fraction) + LEAST_WEIGHT } else { 0.0 }]
+                });
+                *own
+            });
+            let weight = below[1] + above[1];
+            let kappa = if weight > 0.0 {
+                (below[0] * below[1] + above[0] * above[1]) / weight
+            } else {
+                0.5 * (below[0] + above[0])
+            };
+            let axis = usize::from(step != 1);
+            self.tension[axis][k] = block.tension * kappa;
+            self.jump[axis][k] = block.tension * kappa * (self.share[k + step] - self.share[k]);
+        }
+        self.list_cells::<N>();
+    }
+
+    fn list_cells<const N: usize>(&mut self) {
+        self.cells.clear();
+        let n = N as isize;
+        for j in -1..=n {
+            for i in -1..=n {
+                let k = Padded::<N>::index(i, j);
+                let around = [(0, k), (0, k - 1), (1, k), (1, k - Padded::<N>::STRIDE)];
+                if around.iter().any(|(axis, k)| self.jump[*axis][*k] != 0.0) {
+                    self.cells.push(k);
+                }
+            }
+        }
+    }
+
+    /// What the axial and radial momentum and the energy of cells gain in a step per volume: half of the jump on each of their faces,
+    /// and that times the face's velocity, see [`FaceJumps::settle`].
+    ///
+    /// - `n`: cells along the block's side; `velocities`: normal to the faces along z and r; `gain`: gets j N + i and the gains.
+    pub fn for_gains(
+        &self,
+        n: usize,
+        metric: &Metric<'_>,
+        [z_velocity, r_velocity]: [&[f64]; 2],
+        mut gain: impl FnMut(usize, [f64; 3]),
+    ) {
+        if !self.is_present {
+            return;
+        }
+        for j in 0..n {
+            let row = metric.row(j);
+            for i in 0..n {
+                let k = metric.origin + j * metric.stride + i;
+                let below = k - metric.stride;
+                let [east, west] = [k, k - 1].map(|face| 0.5 * self.jump[0][face]);
+                let [north, south] = [k, below].map(|face| 0.5 * self.jump[1][face]);
+                let work = row.axial(z_velocity[k] * east, -(z_velocity[k - 1] * west))
+                    + row.radial(r_velocity[k] * north, -(r_velocity[below] * south));
+                // As the pressure's, the radial force has no weights.
+                let radial = metric.dt * metric.inverse_h[1] * (north + south);
+                gain(j * n + i, [row.axial(east, -west), radial, work]);
+            }
+        }
+    }
+}
+
+/// The faces that the cells of a block, and the ghosts that share a face with it, have: (cell below, step to that above).
+fn faces<const N: usize>() -> impl Iterator<Item = (usize, usize)> {
+    let n = N as isize;
+    let along_z = (-1..=n).flat_map(move |j| (-2..=n).map(move |i| (Padded::<N>::index(i, j), 1)));
+    let along_r =
+        (-2..=n).flat_map(move |j| (-1..=n).map(move |i| (Padded::<N>::index(i, j), Padded::<N>::STRIDE)));
+    along_z.chain(along_r)
+}
+
+/// The cell (i, j) of padded place `k`.
+fn place_of<const N: usize>(k: usize) -> (isize, isize) {
+    let ghosts = GHOSTS as isize;
+    ((k % Padded::<N>::STRIDE) as isize - ghosts, (k / Padded::<N>::STRIDE) as isize - ghosts)
+}
+
+/// Whether a face has a cell beyond an open side of the domain: what is outside has no interface.
+fn is_open<const N: usize>(block: &Interfaces<'_, N>, k: usize, step: usize) -> bool {
+    let n = N as isize;
+    let cells = [k, k + step].map(place_of::<N>);
+    Side::ALL.into_iter().any(|side| {
+        block.kinds[side as usize].is_open()
+            && cells.iter().any(|&(i, j)| match side {
+                Side::ZMin => i < 0,
+                Side::ZMax => i >= n,
+                Side::RMin => j < 0,
+                Side::RMax => j >= n,
+            })
+            && block.mesh.touches(block.slot, side)
+    })
+}
