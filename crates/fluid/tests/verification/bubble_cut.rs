@@ -154,7 +154,9 @@ fn only_the_gas_is_cut() {
                 }
             }
         }
-        assert!(liquid > 100 && mixed > 10 && (gas > 5 || kind == MIXTURE), "{liquid} {mixed} {gas}");
+        // The paper's mixture has traces of gas nearly everywhere.
+        let has_pure = (liquid > 100 && gas > 5) || kind == MIXTURE;
+        assert!(mixed > 10 && has_pure, "{liquid} {mixed} {gas}");
         assert!(with.time_step_limit(CFL) > 0.0 && with.step_at(CFL).is_ok());
     }
 }
