@@ -32,7 +32,7 @@ pub(super) const EXIT_CODES: [(u8, &str, &str); 7] = [
 ];
 
 /// Commands, what is typed after the program's name, and what it does. A command of a command is joined by a space.
-pub(super) const EXAMPLES: [(&str, &str, &str); 27] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 28] = [
     ("run", "run cases/collapse.toml", "the first case, ten seconds"),
     (
         "run",
@@ -52,6 +52,7 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 27] = [
         "then: check mine.toml, run mine.toml",
     ),
     ("new free", "new free --radius 0.5mm > mine.toml", "then: check mine.toml, run mine.toml"),
+    ("new laser", "new laser > mine.toml", "then: check mine.toml, run mine.toml"),
     ("new shock", "new shock --amplitude 50MPa > mine.toml", "then: check mine.toml, run mine.toml"),
     (
         "new load",

@@ -120,8 +120,7 @@ pub(super) static FLUID: [Section; 3] = [
         path: "fluid.liquid",
         repeated: false,
         title: "The liquid",
-        about: "Required. A [stiffened gas][eos], p = (γ − 1) ρe − γπ, or with a covolume b and a reference energy q p = (γ − 1)(e − q)/(1/ρ − b) − γπ. \
-                Everywhere density > 0 and p + π > 0.",
+        about: "Required. A [stiffened gas][eos], p = (γ − 1) ρe − γπ, or with a covolume b a Noble–Abel one. Everywhere density > 0 and p + π > 0.",
         keys: &[
             FLUID_NAME,
             Key {

@@ -22,7 +22,7 @@ const RARE: [&str; 6] = [
     "fluid = { region = [{ shape = 'box' }], tracer = { shape = 'sphere' }, pulse = [{ shape = 'plane' }] }",
     "fluid = { z = [0, 1], r = [0, 1], cells = [16, 16], liquid = { gamma = 7, pi = 3e8 }, \
      ambient = { density = 1e3, pressure = 1e5 }, tracer = { shape = 'box' }, boundary = { z_max = 'inflow' }, \
-     inflow = {}, gas = {} }",
+     inflow = {}, gas = {}, terms = { viscosity = {} } }",
     "solid = { refine = [{ shape = 'sphere' }, { shape = 'box' }], material = {}, plasticity = {}, pulse = [{}], boundary = {} }\n\
      probe = [{}]\nsensor = [{}]\noutput = {}\ntime = {}",
     "coupling = { scheme = 'load', load = {} }\ntime = { end = 'settled' }",
