@@ -44,7 +44,7 @@ pub fn flux_hllc(left: PrimitiveCell, right: PrimitiveCell, mixture: &Mixture) -
 
 /// [`flux_hllc`] for flow that is slow against sound.
 ///
-/// The star pressure has less from the jump of the velocity, see [`kept_of_jump`]: at most half of the pressure's own jump, but
+/// The star pressure has less from the jump of the velocity, see `riemann/low_mach.rs`: at most half of the pressure's own jump, but
 /// where streams meet.
 ///
 /// - all else: as [`flux_hllc`]. tested by: waves, walls and shocks, which have that one's flux bitwise; slow flow.
