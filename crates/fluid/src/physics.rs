@@ -8,11 +8,12 @@ use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::far_field::{FarFieldMemory, Moment};
 use crate::components::Component;
+use crate::phase_change::Exchange;
 use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
 use crate::terms::Terms;
 use crate::two_phase::PhaseModel;
-use crate::{BoundaryLedger, Fixups, Mixture, NearWall, RiemannSolver};
+use crate::{BoundaryLedger, Fixups, Mixture, NearWall, PhaseLedger, RiemannSolver};
 
 /// A fluid of two phases: what its cells obey, and what bounds them.
 pub struct Fluid {
@@ -20,6 +21,8 @@ pub struct Fluid {
     pub(crate) scheme: Scheme,
     pub(crate) boundaries: Boundaries,
     pub(crate) terms: Terms,
+    /// How the phases change into each other, if they do.
+    pub(crate) exchange: Option<Exchange>,
     /// What the mass carries besides, in the order of the field's components after the model's own.
     pub(crate) carried: Vec<Component>,
     /// What the far field remembers.
@@ -55,6 +58,7 @@ pub(crate) struct Tally {
     /// Traces of the wall that were scaled since the fluid was made or taken up again; they are shown, not made, in a step.
     pub scaled_traces: SharedCount,
     pub ledger: BoundaryLedger,
+    pub phases: PhaseLedger,
 }
 
 impl Tally {

@@ -6,8 +6,8 @@ use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
 use crate::{
-    Boundary, FarField, Gravity, Model, NearWall, NobleAbelStiffenedGas, RiemannSolver, Shape, Sharpening,
-    StiffenedGas,
+    Boundary, FarField, Gravity, Model, NearWall, NobleAbelStiffenedGas, PhaseChange, RiemannSolver, Shape,
+    Sharpening, StiffenedGas,
 };
 
 /// Everything that defines a fluid.
@@ -45,6 +45,8 @@ pub struct FluidSetup {
     pub scales: Scales,
     /// Gravity along z, if any.
     pub gravity: Option<Gravity>,
+    /// How the phases change into each other, if they do; not in the paper's mixture.
+    pub phase_change: Option<PhaseChange>,
     /// Where there is a passive tracer at t = 0, if any: its mass fraction is 1 within and 0 beyond.
     pub tracer: Option<Shape>,
 }
@@ -70,6 +72,7 @@ impl FluidSetup {
             near_wall: NearWall::default(),
             scales: Scales { pressure: 1e6, density: 1e3 },
             gravity: None,
+            phase_change: None,
             tracer: None,
         }
     }

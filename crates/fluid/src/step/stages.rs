@@ -5,6 +5,7 @@ use mesh::{Padded, Side, limited_differences};
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
 use crate::components::carried::CarriedCells;
+use crate::phase_change::{BlockPlace, Exchange};
 use crate::physics::FluidStep;
 use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
 use crate::reconstruction::predictor::{Predicted, Predictor, predict};
@@ -176,8 +177,14 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             with_sources.extend_from_slice(ctx.old.block(self.slot));
             ctx.model.terms.add(&block, [z_faces, r_faces], with_sources);
         }
-        let BlockScratch { cells, carried, z_faces, r_faces, .. } = scratch;
-        for (component, carried) in ctx.model.carried_components().zip(carried) {
+        let BlockScratch { cells, carried, gas_shares, z_faces, r_faces, .. } = scratch;
+        let own = ctx.model.carried.iter().zip(ctx.model.carried_components());
+        for ((own, component), carried) in own.zip(carried) {
+            if own.is_of_gas() {
+                let (fraction, stride) = (cells.component(component), Padded::<N>::STRIDE);
+                carried.carry_with_gas(fraction, gas_shares, stride, [z_faces, r_faces]);
+                continue;
+            }
             let cells = CarriedCells {
                 fraction: cells.component(component),
                 velocity: VELOCITY.map(|c| cells.component(c)),
@@ -234,6 +241,29 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             let rows = component * N * N..(component + 1) * N * N;
             carried.update::<N>(&old[rows.clone()], &metric, &mut new[rows]);
         }
+        if let Some(exchange) = &ctx.model.exchange {
+            self.change_phase(exchange, scratch, new, report);
+        }
+    }
+
+    /// What goes from one phase to the other at the end of the step.
+    fn change_phase(
+        &self,
+        exchange: &Exchange,
+        scratch: &mut BlockScratch<N>,
+        new: &mut [f64],
+        report: &mut BlockReport<N>,
+    ) {
+        let place = BlockPlace {
+            phi: scratch.cells.component(PHI),
+            inverse_h: self.inverse_h,
+            dt: self.ctx.dt,
+            volume: &|j| self.ctx.mesh.volume(self.id, j),
+            had_gas: self.gas.is_present(),
+        };
+        let mut speeds = scratch.speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
+        report.exchange = exchange.act::<N>(&place, new, &mut speeds);
+        report.has_gas |= report.exchange.opened > 0;
     }
 
     /// What the block tells of the step.
