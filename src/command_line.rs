@@ -69,7 +69,7 @@ enum Commands {
     List(list::ListArgs),
     /// Watch a run as it goes on: curves, step, time left.
     Watch(watch::WatchArgs),
-    /// List the library of materials.
+    /// List the library of materials and fluids.
     ///
     /// Densities, wave speeds, yield strengths and sources; and below, for those that have some, the constants of the Johnson-Cook
     /// law with theirs, and what other sources say.

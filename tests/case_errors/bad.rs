@@ -17,6 +17,16 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Replace("levels = 3", "level = 3"), &["fluid.level: unknown key", "did you mean `levels`?"]),
     (Append("[[probe]]\n[probe.x]\n"), &["probe.1.x: unknown key", "probe.1.name: `name` is missing", "probe.1.medium"]),
     (Replace("[[fluid.region]]", "[fluid.region]"), &["fluid.region: must be an array of tables", "[[fluid.region]]"]),
+    // Equations of state and terms.
+    (Sets(&["fluid.liquid.fluid=\"watr\""]), &["fluid.liquid.fluid: unknown fluid `watr`", "did you mean `water`?", "cav materials"]),
+    (Sets(&["fluid.liquid.covolume=-1e-4"]), &["fluid.liquid.covolume: must not be negative, got -0.0001 m3/kg", "0 for an ideal gas"]),
+    (Sets(&["fluid.liquid.covolume=1e-3"]), &["fluid.ambient.density", "takes all of the volume", "below 1/covolume = 1000.0 kg/m3"]),
+    (Sets(&["fluid.model=\"saurel-abgrall\"", "fluid.gas={covolume = 1e-3}"]), &["fluid.gas: a covolume, 0.001 m3/kg, needs phases with densities of their own", "five-equation"]),
+    (Sets(&["fluid.liquid.energy=-1e6"]), &["fluid.liquid.energy: counts from a heat capacity", "heat_capacity in J/(kg K)"]),
+    (Sets(&["fluid.liquid.heat_capacity=0.0"]), &["fluid.liquid.heat_capacity: must be positive"]),
+    (Sets(&["fluid.terms={viscosity={liquid=-1e-3, gas=0.0}}"]), &["fluid.terms.viscosity.liquid: must not be negative, got -0.001 Pa s", "0 switches it off"]),
+    (Sets(&["fluid.terms={viscosity={liquid=1e-3}}"]), &["fluid.terms.viscosity.gas: `gas` is missing", "Pa s"]),
+    (Sets(&["fluid.terms={surface_tension=-0.1}"]), &["fluid.terms.surface_tension: must not be negative", "N/m"]),
     // Time.
     (Replace("end = 1e-6", ""), &["time.end: `end` is missing", "in s"]),
     (Replace("end = 1e-6", "end = \"1e-6\""), &["time.end: must be a number", "without quotes", "in s"]),

@@ -37,6 +37,10 @@ film_cells = 4
 [fluid.gas]
 gamma = 1.4
 pi = 0.0
+covolume = 1.5e-3
+heat_capacity = 717.5
+energy = 0.0
+entropy = 0.0
 [[fluid.region]]
 shape = "box"
 z = [0.008, 0.009]

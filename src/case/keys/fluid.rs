@@ -84,7 +84,7 @@ pub(super) static FLUID: [Section; 3] = [
                 unit: "",
                 values: Values::Names(&[
                     ("hllc", "Harten, Lax and van Leer's with a contact"),
-                    ("exact", "the exact solver for two stiffened gases"),
+                    ("exact", "the exact solver for two (Noble–Abel) stiffened gases"),
                 ]),
                 default: Preset::Name("hllc"),
                 about: "The Riemann solver at cell faces.",

@@ -3,7 +3,8 @@
 use crate::state::PrimitiveCell;
 use std::hint::select_unpredictable;
 
-use super::{Chunk, LANES, Lane, Sides, count, fluxes, solve};
+use super::fluxes::fluxes;
+use super::{Chunk, LANES, Lane, Sides, count, solve};
 use crate::Mixture;
 use crate::riemann::godunov::flux_exact;
 use crate::riemann::hllc::Face;
