@@ -10,6 +10,8 @@ use solid::plasticity::Hardening;
 
 use super::{Case, FluidCase, GridCase, LoadCase, SolidCase, TermsCase};
 
+mod phase_change;
+
 impl Case {
     /// The case as TOML with all defaults filled in; reading it gives this case again.
     pub fn effective_toml(&self) -> String {
@@ -123,6 +125,9 @@ fn write_terms(text: &mut Lines, terms: &TermsCase) {
         text.head("[fluid.terms.viscosity]");
         text.number("liquid", liquid);
         text.number("gas", gas);
+    }
+    if let Some(change) = terms.phase_change {
+        phase_change::write(text, change);
     }
 }
 

@@ -15,7 +15,7 @@ use super::read_shape::{Kind, body, on_axis, shape};
 use super::read_terms::terms;
 use super::reader::{Faults, Given, Table, number, pair};
 use super::shared::{Context, boundaries, history};
-use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, scales};
+use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, read_phase_change, scales};
 
 /// Equations of state as far as they could be read, and the grid likewise.
 struct Setting {
@@ -68,7 +68,7 @@ pub(super) fn fluid(
     let initial = initial(&mut table, pressure.as_ref(), &setting, faults);
     let gravity = initial.as_ref().and_then(|initial| gravity(&mut table, initial, &setting, faults));
     let tracer = table.table("tracer", faults).and_then(|table| tracer(table, &setting, faults));
-    let terms = terms(&mut table, faults);
+    let (terms, change) = terms(&mut table, faults);
     let (mut boundary, named) = sides(&mut table, context, faults);
     if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
         initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
@@ -102,6 +102,9 @@ pub(super) fn fluid(
     table.finish(faults);
     let (grid, place) = placed?;
     let (liquid, gas, initial) = (liquid?, gas?, initial?);
+    if let Some(change) = &change {
+        read_phase_change::check(change, [liquid, gas], model, &initial, faults);
+    }
     let eos = setting.eos(initial.ambient.phase)?;
     let scale_pressure = scale_pressure.unwrap_or_else(|| scales::pressure(&initial, inflow.as_ref(), eos));
     let scale_density = scale_density.unwrap_or_else(|| scales::density(&initial, scale_pressure, eos));

@@ -88,7 +88,8 @@ pub(super) fn check(
         return;
     };
     let [critical_temperature, critical_pressure] = Saturation::CRITICAL;
-    let states = initial.regions.iter().enumerate().map(|(k, region)| (format!("fluid.region.{k}"), &region.state));
+    let states =
+        initial.regions.iter().enumerate().map(|(k, region)| (format!("fluid.region.{k}"), &region.state));
     for (name, state) in [("fluid.ambient".to_owned(), &initial.ambient)].into_iter().chain(states) {
         let law = if state.phase == Phase::Liquid { liquid } else { gas };
         let PhaseState { density, pressure, .. } = *state;
@@ -102,8 +103,9 @@ pub(super) fn check(
         }
         let partial = pressure * asked.value.vapour_fraction;
         if state.phase == Phase::Gas && partial >= critical_pressure {
-            let message =
-                format!("{name} begins with vapour of {partial:?} Pa, above water's critical {critical_pressure:e} Pa");
+            let message = format!(
+                "{name} begins with vapour of {partial:?} Pa, above water's critical {critical_pressure:e} Pa"
+            );
             let room = saturation.pressure(293.15);
             faults.of(asked, message, format!("at 293.15 K saturated vapour has {room:.0} Pa"));
         }
@@ -117,8 +119,14 @@ fn what_is_missing(liquid: NobleAbelStiffenedGas, gas: NobleAbelStiffenedGas) ->
     match gas.heat {
         None => "fluid.gas has no heat_capacity".to_owned(),
         Some(_) if gas.pi != 0.0 || gas.covolume != 0.0 => {
-            format!("the vapour must be an ideal gas, got pi = {:?} Pa, covolume = {:?} m3/kg", gas.pi, gas.covolume)
+            format!(
+                "the vapour must be an ideal gas, got pi = {:?} Pa, covolume = {:?} m3/kg",
+                gas.pi, gas.covolume
+            )
         }
-        Some(heat) => format!("fluid.gas has no reference energy above the liquid's, got energy = {:?} J/kg", heat.energy),
+        Some(heat) => format!(
+            "fluid.gas has no reference energy above the liquid's, got energy = {:?} J/kg",
+            heat.energy
+        ),
     }
 }

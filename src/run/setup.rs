@@ -51,6 +51,7 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         near_wall: fluid.near_wall,
         scales: scales(fluid),
         gravity: fluid.gravity,
+        phase_change: fluid.terms.phase_change,
         tracer: fluid.tracer,
     }
 }

@@ -129,6 +129,11 @@ impl<const N: usize> FluidSolver<N> {
         self.model().tally.all_fixups()
     }
 
+    /// Whether its phases can change into each other.
+    pub fn changes_phase(&self) -> bool {
+        self.model().exchange.is_some()
+    }
+
     /// What has changed phase so far.
     pub fn phase_ledger(&self) -> &PhaseLedger {
         &self.model().tally.phases

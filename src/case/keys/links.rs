@@ -1,7 +1,7 @@
 //! The pages that texts on keys lead to.
 
 /// Name, then the page from the repository's root, with the heading.
-pub(super) const LINKS: [(&str, &str); 18] = [
+pub(super) const LINKS: [(&str, &str); 19] = [
     ("absorbing", "docs/theory/absorbing-sides.md"),
     ("eos", "docs/theory/equations-of-state.md"),
     ("far-field", "docs/theory/far-field.md"),
@@ -13,6 +13,7 @@ pub(super) const LINKS: [(&str, &str); 18] = [
     ("models", "docs/theory/two-phase-models.md"),
     ("paper-schemes", "docs/theory/coupling-schemes.md"),
     ("participants", "docs/guide/own-solver.md"),
+    ("phase-change", "docs/theory/phase-change.md"),
     ("plasticity", "docs/theory/plasticity.md"),
     ("refine", "docs/verification/convergence.md#the-grids"),
     ("sensors", "docs/reference/output-histories.md#sensors-every-step-sensorsname"),

@@ -8,6 +8,7 @@ pub(super) mod fluid;
 pub(super) mod grid;
 mod links;
 mod page;
+mod phase_change;
 mod plasticity;
 pub(super) mod records;
 #[cfg(test)]
@@ -27,10 +28,11 @@ pub use page::keys_page;
 
 /// All that is declared, in the order in which it is told.
 fn sections() -> impl Iterator<Item = &'static Section> {
-    let parts: [&[Section]; 12] = [
+    let parts: [&[Section]; 13] = [
         &time::TIME,
         &fluid::FLUID,
         &terms::TERMS,
+        &phase_change::PHASE_CHANGE,
         &start::START,
         &sides::SIDES_OF_FLUID,
         &adaptation::ADAPTATION_OF_FLUID,

@@ -16,6 +16,7 @@ mod helpers;
 mod ledgers;
 mod near_wall;
 mod orders;
+mod phase_change;
 mod random_trees;
 mod rayleigh_start;
 mod rescue;

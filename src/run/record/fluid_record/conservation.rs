@@ -17,10 +17,12 @@ pub fn row(solver: &FluidSolver<BLOCK>) -> Vec<f64> {
     row.push(totals.gas_mass);
     row.extend(ledger.gas_mass);
     row.push(fixups.gas_mass_added - fixups.liquid_mass_added);
+    let phases = solver.phase_ledger();
+    row.extend([phases.evaporated - phases.condensed, phases.energy]);
     row
 }
 
-pub const COLUMNS: [Column<'static>; 25] = [
+pub const COLUMNS: [Column<'static>; 27] = [
     column("time", "s", "time"),
     column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
     column("momentum_z", "N s/rad", "axial momentum in the domain"),
@@ -65,5 +67,11 @@ pub const COLUMNS: [Column<'static>; 25] = [
         "gas_mass_from_fixups",
         "kg/rad",
         "mass that the gas got from the liquid where it had less than none, and the other way round",
+    ),
+    column("gas_mass_evaporated", "kg/rad", "mass that evaporated, less what condensed"),
+    column(
+        "energy_from_phase_change",
+        "J/rad",
+        "what that adds to the energy, which leaves reference energies out",
     ),
 ];
