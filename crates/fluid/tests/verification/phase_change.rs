@@ -45,7 +45,9 @@ fn cavity(shape: Shape, liquid: [f64; 2], gas: [f64; 2]) -> InitialCondition {
 }
 
 const BALL: Shape = Shape::Sphere { centre: [0.5, 0.0], radius: 0.3 };
-const RATE: EvaporationLaw = EvaporationLaw::HertzKnudsen { accommodation: 0.01 };
+/// So small that the pressure of the cells that evaporate stays what it is.
+const ACCOMMODATION: f64 = 1e-3;
+const RATE: EvaporationLaw = EvaporationLaw::HertzKnudsen { accommodation: ACCOMMODATION };
 
 /// Before anything else has changed a front evaporates by Hertz's and Knudsen's j per area, and a ball by its surface.
 #[test]
@@ -54,10 +56,10 @@ fn a_front_evaporates_by_its_area() {
     let p = 0.8 * saturation().pressure(temperature);
     let gas_constant = (laws()[1].gamma - 1.0) * laws()[1].heat.unwrap().capacity;
     let driving = saturation().vapour_pressure(temperature, p) - p;
-    let flux = 0.01 * driving / (std::f64::consts::TAU * gas_constant * temperature).sqrt();
+    let flux = ACCOMMODATION * driving / (std::f64::consts::TAU * gas_constant * temperature).sqrt();
     for (name, geometry, shape, area, most) in [
-        ("front", PLANAR, Shape::Box { z: [0.0, 0.5073], r: [0.0, 1.0] }, 1.0, 0.02),
-        ("ball", AXIAL, BALL, 2.0 * 0.3_f64.powi(2), 0.05),
+        ("front", PLANAR, Shape::Box { z: [0.0, 0.5073], r: [0.0, 1.0] }, 1.0, 0.005),
+        ("ball", AXIAL, BALL, 2.0 * 0.3_f64.powi(2), 0.01),
     ] {
         let initial = cavity(shape, [p, temperature], [p, temperature]);
         let mut fluid =
@@ -111,7 +113,7 @@ fn the_ledgers_hold_with_everything_on() {
             let rest = now.gas_mass - vapour(&fluid);
             let difference = saturation().reference_difference() * net;
             eprintln!(
-                "{law:?} {local}: off {off:.1e?}, {net:.3e} of {:.3e} kg/rad, {phases:?}",
+                "{law:?} {local}: off {off:?}, {net:.3e} of {:.3e} kg/rad, {phases:?}",
                 before.gas_mass
             );
             assert!(off.iter().all(|off| off.abs() < 1e-12), "{law:?} {local}: {off:?}");
