@@ -12,6 +12,8 @@ use solid::plasticity::Hardening;
 
 use super::{Case, FluidCase, GridCase, LoadCase, SolidCase, TermsCase};
 
+mod phase_change;
+
 impl Case {
     /// The case as TOML with all defaults filled in; reading it gives this case again.
     pub fn effective_toml(&self) -> String {
@@ -131,6 +133,9 @@ fn write_terms(text: &mut Lines, terms: &TermsCase) {
         text.number("bulk_liquid", liquid.bulk);
         text.number("bulk_gas", gas.bulk);
         text.name("thin_gas", &ThinGas::NAMES, thin_gas);
+    }
+    if let Some(change) = terms.phase_change {
+        phase_change::write(text, change);
     }
 }
 

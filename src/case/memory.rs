@@ -47,7 +47,7 @@ fn of_solid(solid: &SolidCase) -> Numbers {
 }
 
 fn of_fluid(fluid: &FluidCase) -> Numbers {
-    let carried = usize::from(fluid.tracer.is_some());
+    let carried = usize::from(fluid.tracer.is_some()) + usize::from(fluid.terms.phase_change.is_some());
     let values = FLUID_VALUES + carried as f64;
     Numbers { components: fluid.model.components() + carried, registered: 8 + carried, values }
 }

@@ -22,6 +22,7 @@ mod read_fluid;
 mod read_grid;
 mod read_medium;
 mod read_near_wall;
+mod read_phase_change;
 mod read_plasticity;
 mod read_pulse;
 mod read_sensors;

@@ -17,7 +17,7 @@ use super::read_shape::body;
 use super::read_terms::{TermsCase, terms};
 use super::reader::{Faults, Given, Table};
 use super::shared::{Context, boundaries, history};
-use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, scales};
+use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, read_phase_change, scales};
 
 /// Equations of state as far as they could be read, and the grid likewise.
 struct Setting {
@@ -66,7 +66,7 @@ pub(super) fn fluid(
         grid: placed.as_ref().map(|(grid, _)| grid.clone()),
         geometry: context.geometry,
     };
-    let terms = terms(&mut table, faults);
+    let (terms, change) = terms(&mut table, faults);
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
     let (mut initial, bubble) = initial(&mut table, pressure.as_ref(), &terms, &mut setting, faults);
     let gravity = initial.as_ref().and_then(|initial| gravity(&mut table, initial, &setting, faults));
@@ -107,6 +107,9 @@ pub(super) fn fluid(
     table.finish(faults);
     let (grid, place) = placed?;
     let (liquid, gas, initial) = (liquid?, gas?, initial?);
+    if let Some(change) = &change {
+        read_phase_change::check(change, [liquid, gas], model, &initial, faults);
+    }
     let eos = setting.eos(initial.ambient.phase)?;
     let scale_pressure = scale_pressure.unwrap_or_else(|| scales::pressure(&initial, inflow.as_ref(), eos));
     let scale_density = scale_density.unwrap_or_else(|| scales::density(&initial, scale_pressure, eos));

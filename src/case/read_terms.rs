@@ -1,7 +1,8 @@
 //! `[fluid.terms]`: what acts on the fluid besides the waves of two-phase flow.
 
-use fluid::{PhaseViscosity, ThinGas, Viscosity};
+use fluid::{PhaseChange, PhaseViscosity, ThinGas, Viscosity};
 
+use super::read_phase_change::{Asked, phase_change};
 use super::reader::{Faults, Given, Table};
 
 /// The terms of a case; each is off where it is absent.
@@ -13,16 +14,21 @@ pub struct TermsCase {
     pub surface_tension: Option<f64>,
     /// The angle between an interface and a wall in the liquid, degrees; interfaces may meet walls only where it is given.
     pub contact_angle: Option<f64>,
+    /// Evaporation and condensation.
+    pub phase_change: Option<PhaseChange>,
 }
 
-pub(super) fn terms(table: &mut Table<'_>, faults: &mut Faults) -> TermsCase {
-    let Some(mut table) = table.table("terms", faults) else { return TermsCase::default() };
+/// The terms, and where phase change is asked for: whether the phases can is looked at when they are known.
+pub(super) fn terms(table: &mut Table<'_>, faults: &mut Faults) -> (TermsCase, Option<Asked>) {
+    let Some(mut table) = table.table("terms", faults) else { return (TermsCase::default(), None) };
     let viscosity = table.table("viscosity", faults).and_then(|table| viscosity(table, faults));
     let surface_tension = not_negative(&mut table, "surface_tension", faults);
     let surface_tension = surface_tension.filter(|sigma| *sigma > 0.0);
     let contact_angle = contact_angle(&mut table, surface_tension, faults);
+    let change = phase_change(&mut table, faults);
     table.finish(faults);
-    TermsCase { viscosity, surface_tension, contact_angle }
+    let phase_change = change.as_ref().map(|change| change.value);
+    (TermsCase { viscosity, surface_tension, contact_angle, phase_change }, change)
 }
 
 /// The contact angle, of which there is one.

@@ -55,6 +55,7 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         viscosity: fluid.terms.viscosity,
         followed: fluid.followed_bubble(),
         surface_tension: surface_tension(fluid),
+        phase_change: fluid.terms.phase_change,
         tracer: fluid.tracer,
     }
 }

@@ -14,3 +14,16 @@ fn a_fluid_of_the_library_is_its_constants_and_what_the_case_says_besides() {
     assert_eq!(good().fluid.expect("a fluid").gas.heat, None);
     assert!(!good().effective_toml().contains("covolume"));
 }
+
+#[test]
+fn phase_change_survives_being_written_out() {
+    let media = ["fluid.liquid={fluid = \"water-nasg\"}", "fluid.gas={fluid = \"water-vapour\"}"];
+    let terms = |law: &str| format!("fluid.terms={{phase_change={{{law}}}, cavitation={{threshold=-1e6}}}}");
+    for law in ["law=\"ptg\"", "law=\"hertz-knudsen\", accommodation=0.04, vapour_fraction=0.3"] {
+        let case = with(&[media[0], media[1], &terms(law)]);
+        round_trip(&case);
+        let change = case.fluid.and_then(|fluid| fluid.terms.phase_change).expect("it is asked for");
+        assert_eq!(change.cavitation, Some(-1e6));
+        assert_eq!(change.vapour_fraction, if law.contains("ptg") { 1.0 } else { 0.3 });
+    }
+}

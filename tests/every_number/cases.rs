@@ -185,11 +185,25 @@ fn laser() -> String {
     text.concat()
 }
 
+/// Water and its vapour, which change into each other, and water that opens.
+fn changing() -> String {
+    let text = [
+        "[time]\nend = 1e-6\n[fluid]\n",
+        &grid([0.0, 0.02], 0.02, [16, 16]),
+        "[fluid.liquid]\nfluid = \"water-nasg\"\n[fluid.gas]\nfluid = \"water-vapour\"\n",
+        "[fluid.ambient]\ndensity = 1050.0\npressure = 1e6\n",
+        &bubble([0.01, 0.0], 0.004, [0.6, 1e5]),
+        "[fluid.terms.phase_change]\nlaw = \"hertz-knudsen\"\naccommodation = 0.5\nvapour_fraction = 0.9\n",
+        "[fluid.terms.cavitation]\nthreshold = -1e5\n[coupling]\nscheme = \"rigid\"\n",
+    ];
+    text.concat()
+}
+
 /// The numbers of its `[coupling]` are tried in two processes.
 pub const IN_TWO: &str = "full";
 
 /// By name.
-pub fn all() -> [(&'static str, String); 7] {
+pub fn all() -> [(&'static str, String); 8] {
     [
         ("full", full()),
         ("strong", strong()),
@@ -198,5 +212,6 @@ pub fn all() -> [(&'static str, String); 7] {
         ("yielding", yielding()),
         ("table", table()),
         ("laser", laser()),
+        ("changing", changing()),
     ]
 }

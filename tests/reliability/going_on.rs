@@ -211,6 +211,14 @@ fn a_bubble_that_grows_and_whose_gas_is_cut() {
 }
 
 #[test]
+fn phases_that_change_into_each_other() {
+    let _turn = without_processes();
+    let media = ["fluid.liquid={fluid = \"water-nasg\"}", "fluid.gas={fluid = \"water-vapour\"}"];
+    let terms = "fluid.terms={phase_change={law=\"ptg\", vapour_fraction=0.8}, cavitation={threshold=-1e5}}";
+    check("phases", &fluid_alone(), &[media[0], media[1], terms, "time.local_steps=true"], 17);
+}
+
+#[test]
 fn a_solid_under_a_load() {
     let _turn = without_processes();
     check("load", &loaded(), &[], 7);

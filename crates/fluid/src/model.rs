@@ -20,7 +20,7 @@ use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::BlockReport;
 use crate::step::update::Extremes;
 use crate::step::{BlockScratch, STAGES, step_block};
-use crate::{Boundary, BoundaryLedger, Fixups, FluidError, near_wall};
+use crate::{Boundary, BoundaryLedger, Fixups, FluidError, PhaseLedger, near_wall};
 
 /// What of a fluid changes in time besides its cells.
 #[derive(Serialize, Deserialize)]
@@ -29,6 +29,7 @@ pub struct FluidMemory {
     fixups: Fixups,
     ledger: BoundaryLedger,
     bubble: Option<Following>,
+    phases: PhaseLedger,
 }
 
 impl Fluid {
@@ -170,7 +171,8 @@ impl<const N: usize> Model<N> for Fluid {
         report: &BlockReport<N>,
         interface: &Interface,
     ) {
-        let Tally { fixups, ledger, .. } = &mut self.tally;
+        let Tally { fixups, ledger, phases, .. } = &mut self.tally;
+        phases.add(&report.exchange);
         fixups.first_order += u64::from(report.fallbacks);
         fixups.redone += u64::from(report.redone);
         fixups.redone_volume += report.redone_volume;
@@ -258,11 +260,12 @@ impl<const N: usize> Model<N> for Fluid {
             fixups: self.tally.all_fixups(),
             ledger: self.tally.ledger,
             bubble: self.follower.as_ref().map(|follower| follower.now.clone()),
+            phases: self.tally.phases,
         }
     }
 
     fn restore(&mut self, memory: FluidMemory) -> Result<(), Misfit> {
-        let FluidMemory { far, fixups, ledger, bubble } = memory;
+        let FluidMemory { far, fixups, ledger, bubble, phases } = memory;
         if !far.impulses.fits(&self.far.impulses) {
             return Err(Misfit("the far field's faces are not those of the fluid's sides".to_owned()));
         }
@@ -272,7 +275,7 @@ impl<const N: usize> Model<N> for Fluid {
             _ => return Err(Misfit("only one of both follows a bubble".to_owned())),
         }
         self.far = far;
-        self.tally = Tally { fixups, ledger, scaled_traces: SharedCount::default() };
+        self.tally = Tally { fixups, ledger, phases, scaled_traces: SharedCount::default() };
         Ok(())
     }
 }

@@ -9,11 +9,12 @@ use crate::boundary::Boundaries;
 use crate::boundary::far_field::{FarFieldMemory, Moment};
 use crate::bubble::follow::Follower;
 use crate::components::Component;
+use crate::phase_change::Exchange;
 use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
 use crate::terms::Terms;
 use crate::two_phase::PhaseModel;
-use crate::{BoundaryLedger, Fixups, Mixture, NearWall, RiemannSolver};
+use crate::{BoundaryLedger, Fixups, Mixture, NearWall, PhaseLedger, RiemannSolver};
 
 /// A fluid of two phases: what its cells obey, and what bounds them.
 pub struct Fluid {
@@ -21,6 +22,8 @@ pub struct Fluid {
     pub(crate) scheme: Scheme,
     pub(crate) boundaries: Boundaries,
     pub(crate) terms: Terms,
+    /// How the phases change into each other, if they do.
+    pub(crate) exchange: Option<Exchange>,
     /// What the mass carries besides, in the order of the field's components after the model's own.
     pub(crate) carried: Vec<Component>,
     /// What the far field remembers.
@@ -58,6 +61,7 @@ pub(crate) struct Tally {
     /// Traces of the wall that were scaled since the fluid was made or taken up again; they are shown, not made, in a step.
     pub scaled_traces: SharedCount,
     pub ledger: BoundaryLedger,
+    pub phases: PhaseLedger,
 }
 
 impl Tally {

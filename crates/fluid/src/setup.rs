@@ -6,8 +6,8 @@ use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
 use crate::{
-    Boundary, FarField, FollowedBubble, Gravity, Model, NearWall, NobleAbelStiffenedGas, RiemannSolver,
-    Shape, Sharpening, StiffenedGas, SurfaceTension, Viscosity,
+    Boundary, FarField, FollowedBubble, Gravity, Model, NearWall, NobleAbelStiffenedGas, PhaseChange,
+    RiemannSolver, Shape, Sharpening, StiffenedGas, SurfaceTension, Viscosity,
 };
 
 /// Everything that defines a fluid.
@@ -51,6 +51,8 @@ pub struct FluidSetup {
     pub followed: Option<FollowedBubble>,
     /// The tension of the interface between gas and liquid, if any.
     pub surface_tension: Option<SurfaceTension>,
+    /// How the phases change into each other, if they do; not in the paper's mixture.
+    pub phase_change: Option<PhaseChange>,
     /// Where there is a passive tracer at t = 0, if any: its mass fraction is 1 within and 0 beyond.
     pub tracer: Option<Shape>,
 }
@@ -79,6 +81,7 @@ impl FluidSetup {
             viscosity: None,
             followed: None,
             surface_tension: None,
+            phase_change: None,
             tracer: None,
         }
     }

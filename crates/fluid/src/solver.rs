@@ -14,6 +14,7 @@ use crate::diagnostics::bubbles::follow_sources;
 use crate::initial::exact_share::with_exact_share;
 use crate::initial::fill;
 use crate::model::FluidMemory;
+use crate::phase_change::Exchange;
 use crate::physics::{Fluid, Scheme, Tally};
 use crate::setup::{AsksForFiner, InitialState};
 use crate::state::COUNT;
@@ -23,8 +24,8 @@ use crate::step::report::BlockReport;
 use crate::terms::Terms;
 use crate::two_phase::PhaseModel;
 use crate::{
-    Boundary, BoundaryLedger, Fixups, FluidError, FluidSetup, InitialCondition, Mixture, Primitive,
-    RayleighField, components,
+    Boundary, BoundaryLedger, Fixups, FluidError, FluidSetup, InitialCondition, Mixture, PhaseLedger,
+    Primitive, RayleighField, components,
 };
 
 /// The fluid: a [`BlockSolver`] of compressible two-phase flow, which says how it is advanced, adapted, kept and taken up again.
@@ -86,6 +87,9 @@ impl<const N: usize> FluidSolver<N> {
         let has_phases = setup.model.components() > COUNT;
         let carried = setup.model.components()..components;
         let carried_count = carried.len();
+        let vapour = components::vapour_among(&components::of(setup)).map(|number| carried.start + number);
+        let exchange =
+            setup.phase_change.zip(vapour).and_then(|(asked, vapour)| Exchange::of(asked, &mixture, vapour));
         let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales, has_phases, carried };
         let (mesh, mut state) =
             crate::initial::mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
@@ -112,6 +116,7 @@ impl<const N: usize> FluidSolver<N> {
             },
             boundaries,
             terms: Terms::of(setup),
+            exchange: exchange.filter(|_| has_phases),
             carried: components::of(setup),
             analysis,
             near_wall: setup.near_wall,
@@ -134,6 +139,16 @@ impl<const N: usize> FluidSolver<N> {
     /// Corrections made so far.
     pub fn fixups(&self) -> Fixups {
         self.model().tally.all_fixups()
+    }
+
+    /// Whether its phases can change into each other.
+    pub fn changes_phase(&self) -> bool {
+        self.model().exchange.is_some()
+    }
+
+    /// What has changed phase so far.
+    pub fn phase_ledger(&self) -> &PhaseLedger {
+        &self.model().tally.phases
     }
 
     /// What crossed the domain's sides so far.

@@ -1,7 +1,7 @@
 //! The pages that texts on keys lead to.
 
 /// Name, then the page from the repository's root, with the heading.
-pub(super) const LINKS: [(&str, &str); 21] = [
+pub(super) const LINKS: [(&str, &str); 22] = [
     ("absorbing", "docs/theory/absorbing-sides.md"),
     ("bubble", "docs/theory/bubble-content.md"),
     ("eos", "docs/theory/equations-of-state.md"),
@@ -14,6 +14,7 @@ pub(super) const LINKS: [(&str, &str); 21] = [
     ("models", "docs/theory/two-phase-models.md"),
     ("paper-schemes", "docs/theory/coupling-schemes.md"),
     ("participants", "docs/guide/own-solver.md"),
+    ("phase-change", "docs/theory/phase-change.md"),
     ("plasticity", "docs/theory/plasticity.md"),
     ("refine", "docs/verification/convergence.md#the-grids"),
     ("reset", "docs/theory/bubble-content.md#the-cut-at-the-largest-radius"),

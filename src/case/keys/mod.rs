@@ -9,6 +9,7 @@ pub(super) mod fluid;
 pub(super) mod grid;
 mod links;
 mod page;
+mod phase_change;
 mod plasticity;
 pub(super) mod records;
 #[cfg(test)]
@@ -28,10 +29,11 @@ pub use page::keys_page;
 
 /// All that is declared, in the order in which it is told.
 fn sections() -> impl Iterator<Item = &'static Section> {
-    let parts: [&[Section]; 13] = [
+    let parts: [&[Section]; 14] = [
         &time::TIME,
         &fluid::FLUID,
         &terms::TERMS,
+        &phase_change::PHASE_CHANGE,
         &start::START,
         &bubble::BUBBLE,
         &sides::SIDES_OF_FLUID,

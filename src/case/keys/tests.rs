@@ -16,8 +16,9 @@ fn root() -> &'static Path {
 }
 
 /// What no shipped case has, beside a good fluid and a good solid.
-const RARE: [&str; 6] = [
+const RARE: [&str; 7] = [
     "fluid = { bubble = { region = 0, reset = {} } }",
+    "fluid = { terms = { phase_change = {}, cavitation = {} } }",
     "fluid = { near_wall = {}, refine = [{ shape = 'sphere' }, { shape = 'box' }, { shape = 'interface' }] }",
     "fluid = { region = [{ shape = 'box' }], tracer = { shape = 'sphere' }, pulse = [{ shape = 'plane' }] }",
     "fluid = { z = [0, 1], r = [0, 1], cells = [16, 16], liquid = { gamma = 7, pi = 3e8 }, \
@@ -42,9 +43,9 @@ fn every_key_that_is_declared_is_asked_for() {
         "coupling = { scheme = 'load', load = { run = 'x' } }".to_owned(),
         format!(
             "geometry = 'planar'\ncoupling = {{ scheme = 'none' }}\n{}",
-            RARE[3].replace("z_max", "z_min")
+            RARE[4].replace("z_max", "z_min")
         ),
-        format!("geometry = 'planar'\ncoupling = {{ scheme = 'none' }}\n{}", RARE[4]),
+        format!("geometry = 'planar'\ncoupling = {{ scheme = 'none' }}\n{}", RARE[5]),
     ]) {
         let faults = read::case(&text, "rare").expect_err("none of them is whole");
         for fault in &faults {

@@ -20,6 +20,7 @@ mod conservation;
 mod cut;
 mod files;
 mod fixups;
+mod phases;
 pub mod saved;
 
 use columns::{BUBBLE_COLUMNS, PROBE_COLUMNS, STEP_COLUMNS};
@@ -313,6 +314,7 @@ impl FluidRecord {
                 let masses = solver.carried_masses();
                 map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
                 map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));
+                map.extend(phases::summary(solver));
                 map.extend(self.cells_per_radius.map(|cells| ("cells_per_radius".to_owned(), json!(cells))));
                 map
             }

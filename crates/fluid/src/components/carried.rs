@@ -62,6 +62,29 @@ impl CarriedScratch {
         }
     }
 
+    /// The fluxes of a component that is a part of the gas: the gas's mass flux times the part of its mass in the cell that it comes from.
+    ///
+    /// At first order, as the gas's own part of the mass is: what has one part of the gas everywhere keeps it to the last bit.
+    ///
+    /// - `fraction`: Y; `gas_shares`: m_g/ρ, both of the padded cells; `stride`: as [`CarriedCells::stride`].
+    pub fn carry_with_gas(
+        &mut self,
+        fraction: &[f64],
+        gas_shares: &[f64],
+        stride: usize,
+        faces: [&FaceRows; 2],
+    ) {
+        for ((part, own), gas) in self.half.iter_mut().zip(fraction).zip(gas_shares) {
+            *part = if *gas > 0.0 { (own / gas).clamp(0.0, 1.0) } else { 0.0 };
+        }
+        for ((fluxes, faces), step) in self.fluxes.iter_mut().zip(faces).zip([1, stride]) {
+            let gas = faces.gas();
+            for k in 0..fraction.len() - step {
+                fluxes[k] = gas[k] * self.half[if gas[k] >= 0.0 { k } else { k + step }];
+            }
+        }
+    }
+
     /// The component's new cells: ρY of the beginning less what has left through the faces.
     pub fn update<const N: usize>(&self, old: &[f64], metric: &Metric<'_>, new: &mut [f64]) {
         let [z, r] = &self.fluxes;

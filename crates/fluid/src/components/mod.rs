@@ -1,4 +1,4 @@
-//! Components that the mass carries with it, beyond those of the two-phase models.
+//! Components that the mass, or the gas's, carries with it, beyond those of the two-phase models.
 //!
 //! One is a line in [`ALL`]: its name, that of its field in snapshots, and where the setup says that it is at t = 0. The field holds
 //! ρY, conserved; what is reconstructed, predicted and passed on by the mass flux is the mass fraction Y. Flux registers, prolongation,
@@ -12,24 +12,56 @@ use mesh::Geometry;
 use crate::initial::shapes::share_within;
 use crate::{CELL_FIELDS, FluidSetup, Shape, Snapshot};
 
+/// Where a component is at t = 0.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Start {
+    /// Its mass fraction is 1 within and 0 beyond.
+    Within(Shape),
+    /// It is this part of the gas's mass, and the gas carries it.
+    PartOfGas(f64),
+}
+
 /// Where a setup has a component at t = 0, if it has it.
-type Place = fn(&FluidSetup) -> Option<Shape>;
+type Place = fn(&FluidSetup) -> Option<Start>;
 
 /// All that there may be, by the names of their fields.
-const ALL: [(&str, Place); 1] = [("tracer", |setup| setup.tracer)];
+const ALL: [(&str, Place); 2] = [("tracer", |setup| setup.tracer.map(Start::Within)), (VAPOUR, vapour)];
 
-/// A component that the mass carries with it.
+/// The name of the vapour's component.
+const VAPOUR: &str = "vapour";
+
+/// Where the gas changes phase its vapour has a mass of its own.
+fn vapour(setup: &FluidSetup) -> Option<Start> {
+    setup.phase_change.map(|change| Start::PartOfGas(change.vapour_fraction))
+}
+
+/// A component that the mass, or the gas's, carries with it.
 #[derive(Clone, Debug)]
 pub(crate) struct Component {
     pub name: &'static str,
-    /// Where its mass fraction is 1 at t = 0; else 0.
-    shape: Shape,
+    /// Where it is at t = 0.
+    start: Start,
 }
 
 impl Component {
-    /// Its mean mass fraction in a cell at t = 0.
-    pub fn initial(&self, geometry: Geometry, centre: [f64; 2], widths: [f64; 2]) -> f64 {
-        share_within(&self.shape, geometry, centre, widths)
+    /// Its mean mass per volume in a cell at t = 0, kg/m³.
+    ///
+    /// - `masses`: ρ and m_g, kg/m³.
+    pub fn initial(
+        &self,
+        geometry: Geometry,
+        (centre, widths): ([f64; 2], [f64; 2]),
+        [density, gas]: [f64; 2],
+    ) -> f64 {
+        match &self.start {
+            Start::Within(shape) => share_within(shape, geometry, centre, widths) * density,
+            Start::PartOfGas(part) => part * gas,
+        }
+    }
+
+    /// Whether the gas carries it, as a part of it.
+    pub fn is_of_gas(&self) -> bool {
+        matches!(self.start, Start::PartOfGas(_))
     }
 
     /// Its numbers in a snapshot.
@@ -41,8 +73,13 @@ impl Component {
 
 /// Those of a setup, in the order in which fields hold them after the model's own.
 pub(crate) fn of(setup: &FluidSetup) -> Vec<Component> {
-    let has = |(name, place): (&'static str, Place)| Some(Component { name, shape: place(setup)? });
+    let has = |(name, place): (&'static str, Place)| Some(Component { name, start: place(setup)? });
     ALL.into_iter().filter_map(has).collect()
+}
+
+/// The number of the vapour among them.
+pub(crate) fn vapour_among(carried: &[Component]) -> Option<usize> {
+    carried.iter().position(|component| component.name == VAPOUR)
 }
 
 /// Whether a field of snapshots is that of a component, which not all fluids have.
@@ -57,8 +94,8 @@ mod tests {
     #[test]
     fn every_component_has_a_field() {
         for (name, _) in ALL {
-            let shape = Shape::Sphere { centre: [0.0, 0.0], radius: 1.0 };
-            assert!(Component { name, shape }.values(&mut Snapshot::default()).is_empty());
+            let start = Start::PartOfGas(1.0);
+            assert!(Component { name, start }.values(&mut Snapshot::default()).is_empty());
         }
     }
 }

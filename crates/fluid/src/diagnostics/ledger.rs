@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::phase_change::BlockExchange;
 use crate::step::clips::Clips;
 
 /// Corrections that were made where the scheme left the admissible states.
@@ -25,6 +26,34 @@ pub struct Fixups {
     pub liquid_mass_added: f64,
     /// How often other bounds acted.
     pub clips: Clips,
+}
+
+/// What has changed phase since the start.
+///
+/// Per radian in axial symmetry, per metre of depth in planar geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PhaseLedger {
+    /// Mass that evaporated, kg.
+    pub evaporated: f64,
+    /// Mass that condensed, kg.
+    pub condensed: f64,
+    /// What the energy, which is counted without reference energies, has gained by it, J: (q_l − q_v) of what evaporated.
+    pub energy: f64,
+    /// Cell-steps in which liquid opened under tension.
+    pub opened: u64,
+    /// Mass that evaporated in them, kg.
+    pub opened_mass: f64,
+}
+
+impl PhaseLedger {
+    /// Adds what changed phase in a block's step.
+    pub(crate) fn add(&mut self, more: &BlockExchange) {
+        self.evaporated += more.evaporated;
+        self.condensed += more.condensed;
+        self.energy += more.energy;
+        self.opened += u64::from(more.opened);
+        self.opened_mass += more.opened_mass;
+    }
 }
 
 /// What crossed the sides of the domain since the start, inwards, in the order of [`mesh::Side::ALL`], and what surface tension did.

@@ -73,6 +73,7 @@ mesh::cell_fields! {
         gas_fraction: 1, "1", "volume fraction of gas";
         temperature: 1, "K", "temperature";
         tracer: 1, "1", "mass fraction of the tracer";
+        vapour: 1, "1", "mass fraction of the vapour";
         schlieren: 1, "kg/m4", "magnitude of the density gradient";
         level: 1, "1", "refinement level";
     }

@@ -8,6 +8,7 @@ pub(crate) mod rows;
 pub(crate) mod update;
 
 mod faces;
+mod jumps;
 mod scratch;
 mod stages;
 

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::boundary::far_field::face_centre;
 use crate::boundary::{axis, beside, tangential};
+use crate::phase_change::BlockExchange;
 use crate::physics::FluidStep;
 use crate::state::primitive::RHO;
 use crate::step::clips::Clips;
@@ -29,6 +30,8 @@ pub struct BlockReport<const N: usize> {
     pub(crate) clips: Clips,
     /// Mass that the gas and the liquid got where they had less than none, kg (per radian in axial symmetry).
     pub(crate) phase_mass_added: [f64; 2],
+    /// What changed phase.
+    pub(crate) exchange: BlockExchange,
     /// Cells lifted to the pressure floor, their volume and the energy that took (per radian in axial symmetry), J.
     pub(crate) floored: u32,
     pub(crate) floored_volume: f64,
@@ -95,6 +98,7 @@ impl<const N: usize> Default for BlockReport<N> {
             fallbacks: 0,
             clips: Clips::default(),
             phase_mass_added: [0.0; 2],
+            exchange: BlockExchange::default(),
             floored: 0,
             floored_volume: 0.0,
             floor_energy: 0.0,

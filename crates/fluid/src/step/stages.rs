@@ -3,10 +3,12 @@
 use mesh::{Padded, Side, limited_differences};
 
 use super::BlockStep;
+use super::jumps::find_jumps;
 use super::scratch::{BlockScratch, split_block};
 use crate::Boundary;
-use crate::capillarity::{CapillaryRows, Interfaces, cell_at_wall};
+use crate::capillarity::{CapillaryRows, cell_at_wall};
 use crate::components::carried::CarriedCells;
+use crate::phase_change::{BlockPlace, Exchange};
 use crate::physics::FluidStep;
 use crate::reconstruction::Rows;
 use crate::reconstruction::capillary::level_slopes;
@@ -218,8 +220,14 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             let bounded = ctx.model.terms.add(&block, [z_faces, r_faces], works, with_sources);
             self.bounded_viscosities = bounded;
         }
-        let BlockScratch { cells, carried, z_faces, r_faces, .. } = scratch;
-        for (component, carried) in ctx.model.carried_components().zip(carried) {
+        let BlockScratch { cells, carried, gas_shares, z_faces, r_faces, .. } = scratch;
+        let own = ctx.model.carried.iter().zip(ctx.model.carried_components());
+        for ((own, component), carried) in own.zip(carried) {
+            if own.is_of_gas() {
+                let (fraction, stride) = (cells.component(component), Padded::<N>::STRIDE);
+                carried.carry_with_gas(fraction, gas_shares, stride, [z_faces, r_faces]);
+                continue;
+            }
             let cells = CarriedCells {
                 fraction: cells.component(component),
                 velocity: VELOCITY.map(|c| cells.component(c)),
@@ -276,6 +284,29 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             let rows = component * N * N..(component + 1) * N * N;
             carried.update::<N>(&old[rows.clone()], &metric, &mut new[rows]);
         }
+        if let Some(exchange) = &ctx.model.exchange {
+            self.change_phase(exchange, scratch, new, report);
+        }
+    }
+
+    /// What goes from one phase to the other at the end of the step.
+    fn change_phase(
+        &self,
+        exchange: &Exchange,
+        scratch: &mut BlockScratch<N>,
+        new: &mut [f64],
+        report: &mut BlockReport<N>,
+    ) {
+        let place = BlockPlace {
+            phi: scratch.cells.component(PHI),
+            inverse_h: self.inverse_h,
+            dt: self.ctx.dt,
+            volume: &|j| self.ctx.mesh.volume(self.id, j),
+            had_gas: self.gas.is_present(),
+        };
+        let mut speeds = scratch.speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
+        report.exchange = exchange.act::<N>(&place, new, &mut speeds);
+        report.has_gas |= report.exchange.opened > 0;
     }
 
     /// The axial momentum and the energy that surface tension has added to the block (per radian).
@@ -346,31 +377,6 @@ pub(crate) fn block_sides<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -
         let kind = ctx.model.boundaries.kind(side);
         (kind != Boundary::Periodic && ctx.mesh.touches(slot, side)).then_some(kind)
     })
-}
-
-/// Finds the jumps of pressure across the interfaces in a block's padded cells.
-fn find_jumps<const N: usize>(
-    ctx: &FluidStep<'_, N>,
-    slot: usize,
-    tension: f64,
-    has_gas: bool,
-    scratch: &mut BlockScratch<N>,
-) {
-    let BlockScratch { cells, gas_shares, capillary, .. } = scratch;
-    if !has_gas {
-        capillary.clear();
-        return;
-    }
-    let block = Interfaces {
-        mesh: ctx.mesh,
-        field: ctx.old,
-        slot,
-        kinds: ctx.model.analysis.boundaries,
-        mixture: &ctx.model.mixture,
-        tension,
-        has_phases: ctx.model.analysis.has_phases,
-    };
-    capillary.find(&block, cells.split(), gas_shares);
 }
 
 /// Takes the marked cells' means for the states on their faces.

@@ -50,6 +50,7 @@ const fn fluid(
     NamedFluid { name, law, viscosity, conductivity, source }
 }
 
+// γ of Le Metayer & Saurel (2016) is c_p/c_v: with 1.19 and 1.47, as it is rounded there, water's vapour pressure is 45 % off.
 static LIBRARY: [NamedFluid; 9] = [
     fluid(
         "water",
@@ -77,13 +78,13 @@ static LIBRARY: [NamedFluid; 9] = [
     ),
     fluid(
         "water-nasg",
-        law(1.19, 7.028e8, 6.61e-4, heat(3610.0, -1_177_788.0, 0.0)),
+        law(4285.0 / 3610.0, 7.028e8, 6.61e-4, heat(3610.0, -1_177_788.0, 0.0)),
         WATER,
         "Le Metayer & Saurel 2016, saturation from 300 to 500 K",
     ),
     fluid(
         "water-vapour",
-        law(1.47, 0.0, 0.0, heat(955.0, 2_077_616.0, 14_317.0)),
+        law(1401.0 / 955.0, 0.0, 0.0, heat(955.0, 2_077_616.0, 14_317.0)),
         VAPOUR,
         "Le Metayer & Saurel 2016, beside water-nasg",
     ),

@@ -27,6 +27,7 @@ pub(crate) use face_states::FaceStates;
 pub(crate) use gas_block::{Before, BlockGas, may_have_gas};
 pub(crate) use phase_model::PhaseModel;
 pub(crate) use reconstruction::face_states;
+pub(crate) use relaxation::isentropic_fraction;
 pub(crate) use scratch::GasScratch;
 pub(crate) use update::missing_mass;
 pub(crate) use windows::Window;

@@ -82,6 +82,22 @@ pub(crate) fn relaxed_fractions<const LANES: usize>(
     relaxation.fraction
 }
 
+/// The gas fraction of one cell whose phases have relaxed isentropically from one pressure to the volume 1.
+///
+/// - `volumes`: a_g and a_l at the pressure `p`, Pa; `bound`: what of them is bound in covolumes.
+pub(crate) fn isentropic_fraction(volumes: [f64; 2], bound: [f64; 2], p: f64, mixture: &Mixture) -> f64 {
+    let mut cell = Relaxation {
+        gas: [volumes[0]],
+        liquid: [volumes[1]],
+        bound: bound.map(|bound| [bound]),
+        p: [p],
+        done: [0.0],
+        fraction: [f64::NAN],
+    };
+    cell.run(mixture);
+    cell.fraction[0]
+}
+
 /// Both phases of some cells on their way to one pressure.
 struct Relaxation<const LANES: usize> {
     /// Volumes a_g and a_l at pressure `p`.
@@ -201,19 +217,6 @@ mod tests {
         relaxed_fractions(&cell, &mixture())[0]
     }
 
-    fn isentropic_fraction(gas: f64, liquid: f64, p: f64) -> f64 {
-        let mut cell = Relaxation {
-            gas: [gas],
-            liquid: [liquid],
-            bound: [[0.0]; 2],
-            p: [p],
-            done: [0.0],
-            fraction: [f64::NAN],
-        };
-        cell.run(&mixture());
-        cell.fraction[0]
-    }
-
     #[test]
     fn the_linear_rule_is_the_isentropic_one_for_small_changes() {
         for phi in [1e-3, 0.3, 0.9, 0.9999] {
@@ -221,7 +224,8 @@ mod tests {
                 // Small also for the gas's share of the cell.
                 let (volume, gas) = (1e-4 * phi, 0.3e-4 * phi);
                 let linear = relaxed_fraction(phi, p, volume, gas);
-                let full = isentropic_fraction(phi - gas, 1.0 - phi - volume + gas, p);
+                let volumes = [phi - gas, 1.0 - phi - volume + gas];
+                let full = isentropic_fraction(volumes, [0.0; 2], p, &mixture());
                 assert!(
                     (linear - full).abs() < 3e-6 * phi.max(1.0 - phi) + 2e-6,
                     "{phi} {p}: {linear} {full}"

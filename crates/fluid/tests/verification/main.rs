@@ -18,6 +18,7 @@ mod ledgers;
 mod low_mach;
 mod near_wall;
 mod orders;
+mod phase_change;
 mod random_trees;
 mod rayleigh_start;
 mod rescue;

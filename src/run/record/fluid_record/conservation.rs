@@ -18,10 +18,12 @@ pub fn row(solver: &FluidSolver<BLOCK>) -> Vec<f64> {
     row.extend(ledger.gas_mass);
     row.push(fixups.gas_mass_added - fixups.liquid_mass_added);
     row.extend([ledger.tension_impulse, ledger.tension_work]);
+    let phases = solver.phase_ledger();
+    row.extend([phases.evaporated - phases.condensed, phases.energy]);
     row
 }
 
-pub const COLUMNS: [Column<'static>; 27] = [
+pub const COLUMNS: [Column<'static>; 29] = [
     column("time", "s", "time"),
     column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
     column("momentum_z", "N s/rad", "axial momentum in the domain"),
@@ -69,4 +71,10 @@ pub const COLUMNS: [Column<'static>; 27] = [
     ),
     column("tension_impulse", "N s/rad", "axial impulse of surface tension on the fluid"),
     column("tension_work", "J/rad", "work of surface tension on the fluid"),
+    column("gas_mass_evaporated", "kg/rad", "mass that evaporated, less what condensed"),
+    column(
+        "energy_from_phase_change",
+        "J/rad",
+        "what that adds to the energy, which leaves reference energies out",
+    ),
 ];
