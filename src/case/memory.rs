@@ -12,7 +12,7 @@ use super::start_grid::least_cells;
 use super::{Case, CaseError, CaseErrors, FluidCase, GridCase, Medium, SolidCase};
 
 /// A process without any cells, bytes: program, libraries, threads and their scratch, histories.
-const PROCESS: f64 = 28.0 * MEBI;
+const PROCESS: f64 = 32.0 * MEBI;
 const MEBI: f64 = (1 << 20) as f64;
 const NUMBER: f64 = size_of::<f64>() as f64;
 /// Numbers a cell of what is kept block by block besides fields: reports, tree.

@@ -83,7 +83,7 @@ pub(super) fn bubble(
         && grid.adaptation.is_none()
     {
         let message = format!("{:?} cells along the present radius need a grid that adapts", cells.value);
-        faults.of(cells, message, "take fluid.adapt = true and more than one level, or remove it");
+        faults.of(cells, message, "take fluid.adapt = true and fluid.levels = 1 or more, or remove it");
     }
     let vapour_pressure = vapour.as_ref().map_or(0.0, |given| given.value);
     let surface_tension = tension.map_or(around.surface_tension, |given| given.value);

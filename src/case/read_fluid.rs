@@ -69,7 +69,10 @@ pub(super) fn fluid(
     let (terms, change) = terms(&mut table, faults);
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
     let (mut initial, bubble) = initial(&mut table, pressure.as_ref(), &terms, &mut setting, faults);
-    let gravity = initial.as_ref().and_then(|initial| gravity(&mut table, initial, &setting, faults));
+    let gravity = match &initial {
+        Some(initial) => gravity(&mut table, initial, &setting, faults),
+        None => table.number("gravity", faults).and(None),
+    };
     let tracer = table.table("tracer", faults).and_then(|table| tracer(table, &setting, faults));
     let (mut boundary, named) = sides(&mut table, context, faults);
     let gas = setting.gas;
@@ -264,8 +267,9 @@ fn state(
     let velocity = table.pair("velocity", faults).map_or([0.0; 2], |given| given.value);
     let pressure = pressure?;
     let eos = phase.and_then(|phase| setting.eos(phase));
+    let name = if phase == Some(Phase::Gas) { "gas" } else { "liquid" };
     if let (Some(eos), Some(density)) = (eos, density)
-        && !leaves_room(eos, density, table, faults)
+        && !leaves_room((name, eos), density, table, faults)
     {
         return None;
     }

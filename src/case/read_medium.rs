@@ -77,7 +77,7 @@ pub(super) fn refuse_covolumes(
 
 /// Whether a covolume leaves room to move at a table's density; if not it is refused.
 pub(super) fn leaves_room(
-    law: NobleAbelStiffenedGas,
+    (phase, law): (&str, NobleAbelStiffenedGas),
     density: f64,
     table: &Table<'_>,
     faults: &mut Faults,
@@ -86,7 +86,8 @@ pub(super) fn leaves_room(
     if let Some(given) = table.place("density").filter(|_| !leaves) {
         let (most, b) = (1.0 / law.covolume, law.covolume);
         let message = format!("the covolume of {b:?} m3/kg takes all of the volume at {density:?} kg/m3");
-        let help = format!("give a density below 1/covolume = {most:?} kg/m3, or a smaller covolume");
+        let help =
+            format!("give a density below 1/covolume = {most:?} kg/m3, or a smaller fluid.{phase}.covolume");
         faults.of(&given, message, help);
     }
     leaves

@@ -99,7 +99,11 @@ pub(super) fn check(
                 "{name} begins at {temperature:.1} K, above water's critical {critical_temperature} K: its density is {density:?} kg/m3 at {pressure:?} Pa"
             );
             let room = law.density_at(pressure, 293.15).unwrap_or(f64::NAN);
-            faults.of(asked, message, format!("at 293.15 K it is {room:.6} kg/m3"));
+            let law_of = if state.phase == Phase::Liquid { "fluid.liquid" } else { "fluid.gas" };
+            let help = format!(
+                "at 293.15 K it is {room:.6} kg/m3; look at density and pressure of {name}, and at gamma, pi, covolume and heat_capacity of {law_of}"
+            );
+            faults.of(asked, message, help);
         }
         let partial = pressure * asked.value.vapour_fraction;
         if state.phase == Phase::Gas && partial >= critical_pressure {

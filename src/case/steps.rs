@@ -51,7 +51,7 @@ fn fluids(fluid: &FluidCase, cfl: f64) -> FirstStep {
     };
     for (number, region) in initial.regions.iter().enumerate() {
         let described = fluid.bubble.is_some_and(|bubble| bubble.region == number);
-        let by = if described { " (fluid.bubble)" } else { "" };
+        let by = if described { " (fluid.bubble, at fluid.ambient.pressure)" } else { "" };
         see(of(&region.state, format!("fluid.region.{number}{by}")));
     }
     // At a pulse's crest, and in an inflow, the liquid is compressed along its isentrope.

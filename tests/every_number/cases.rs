@@ -185,6 +185,18 @@ fn laser() -> String {
     text.concat()
 }
 
+/// With viscosity and surface tension.
+fn sticky() -> String {
+    let text = [
+        "[time]\nend = 1e-7\n",
+        &water(&grid([0.0, 0.02], 0.02, [16, 16]), 1e6),
+        &bubble([0.01, 0.0], 0.004, AIR),
+        "[fluid.terms]\nsurface_tension = 0.0728\ncontact_angle = 90.0\n[fluid.terms.viscosity]\nliquid = 1e-3\n\
+         gas = 1.8e-5\nbulk_liquid = 2.5e-3\nbulk_gas = 1e-5\n[coupling]\nscheme = \"rigid\"\n",
+    ];
+    text.concat()
+}
+
 /// Water and its vapour, which change into each other, and water that opens.
 fn changing() -> String {
     let text = [
@@ -203,7 +215,7 @@ fn changing() -> String {
 pub const IN_TWO: &str = "full";
 
 /// By name.
-pub fn all() -> [(&'static str, String); 8] {
+pub fn all() -> [(&'static str, String); 9] {
     [
         ("full", full()),
         ("strong", strong()),
@@ -213,5 +225,6 @@ pub fn all() -> [(&'static str, String); 8] {
         ("table", table()),
         ("laser", laser()),
         ("changing", changing()),
+        ("sticky", sticky()),
     ]
 }
