@@ -8,6 +8,7 @@ mod analysis;
 mod boundary;
 mod bubble;
 mod capillarity;
+pub mod knob;
 mod components;
 mod diagnostics;
 mod error;
