@@ -8,7 +8,6 @@ mod analysis;
 mod boundary;
 mod bubble;
 mod capillarity;
-pub mod knob;
 mod components;
 mod diagnostics;
 mod error;

@@ -37,16 +37,7 @@ pub(super) fn curvature(phi: &[f64], stride: usize, k: usize, place: &CellPlace)
             of_columns_along_r(phi, stride, k, place, slope[1])
         }
     };
-    let (a, b) = (slope[0].abs(), slope[1].abs());
-    let t = (a - b) / (a + b);
-    let knob = crate::knob::knobs().c;
-    let share = if knob > 0.0 { (0.5 + knob * t).clamp(0.0, 1.0) } else if along_z { 1.0 } else { 0.0 };
-    let found = if share == 1.0 || share == 0.0 { columns(along_z).or_else(|| columns(!along_z)) } else {
-        match (columns(true), columns(false)) {
-            (Some(z), Some(r)) => Some(share * z + (1.0 - share) * r),
-            (z, r) => z.or(r),
-        }
-    };
+    let found = columns(along_z).or_else(|| columns(!along_z));
     let kappa = found.unwrap_or_else(|| curvature_of_normals(phi, stride, k, place));
     let [h_z, h_r] = place.widths;
     let most = if place.radius.is_some() { 2.0 } else { 1.0 } / h_z.min(h_r);

@@ -48,7 +48,7 @@ pub(crate) fn level_mixed_cells<const N: usize>(
             let to = mesh::Padded::<N>::index(0, j as isize);
             padded.component_mut(0)[to..][..N].copy_from_slice(&phi[j * N..][..N]);
         }
-        patch.fill(mesh, &filled, slot, kinds, padded.component(0), 0.0);
+        patch.fill(mesh, &filled, slot, kinds, padded.component(0));
         let block = field.block_mut(slot);
         for cell in (0..N * N).filter(|cell| is_cut(phi[*cell])) {
             let (kappa, _) = curvature_at(mesh, *id, &patch, [(cell % N) as isize, (cell / N) as isize]);

@@ -32,8 +32,7 @@ fn share_beside(FaceState { w, gas_share }: &FaceState, mixture: &Mixture) -> f6
 #[derive(Clone, Copy)]
 pub(crate) struct FaceJumps<'a> {
     /// J = σκ on the faces, Pa; 0 where there is no interface.
-    pub tension: [&'a [f64]; 2],
-    pub mid: &'a [f64],
+    pub tension: &'a [f64],
     /// J(ψ_above − ψ_below), Pa.
     pub jump: &'a [f64],
     /// ψ of the cells.
@@ -55,15 +54,14 @@ impl FaceJumps<'_> {
     /// Whether the face above cell `k` carries a jump.
     #[inline(always)]
     pub fn has(&self, k: usize) -> bool {
-        self.tension[0][k] != 0.0 || self.tension[1][k] != 0.0
+        self.tension[k] != 0.0
     }
 
     fn gauge(&self, k: usize, [lower, upper]: &[FaceState; 2], mixture: &Mixture) -> Gauge {
         let [below, above] = [lower, upper].map(|side| share_beside(side, mixture));
-        let [ja, jb] = [self.tension[0][k], self.tension[1][k]];
-        let mid = if crate::knob::knobs().a == 2.0 { 0.5 * (lower.w[PHI] + upper.w[PHI]) } else { self.mid[k] };
-        let across = if ja == jb { ja * (above - below) } else { ja * (mid - below) + jb * (above - mid) };
-        let own = [ja * (below - self.share[k]), jb * (above - self.share[k + self.step])];
+        let across = self.tension[k] * (above - below);
+        let own =
+            [below - self.share[k], above - self.share[k + self.step]].map(|part| self.tension[k] * part);
         // The side of more gas keeps its pressure: to the liquid's stiffness the jump is nothing.
         let shifts = if below >= above { [own[0], own[1] - across] } else { [own[0] + across, own[1]] };
         Gauge { shifts, own }

@@ -9,7 +9,7 @@ use crate::state::conserved::PHI;
 pub(super) const REACH: usize = 6;
 
 /// Layers around a block: a column of the second ghost layer lies within.
-pub(super) const RIM: usize = REACH + mesh::GHOSTS + 1;
+pub(super) const RIM: usize = REACH + mesh::GHOSTS;
 
 /// φ of N × N cells and of [`RIM`] layers around them.
 #[derive(Clone, Debug, Default)]
@@ -38,9 +38,8 @@ impl WidePatch {
         slot: usize,
         kinds: [Boundary; 4],
         padded: &[f64],
-        half_dt: f64,
     ) {
-        const { assert!(N + 1 >= RIM, "the rim lies within the blocks around") };
+        const { assert!(N >= RIM, "the rim lies within the blocks around") };
         self.stride = N + 2 * RIM;
         self.phi.resize(self.stride * self.stride, 0.0);
         let n = N as isize;
@@ -52,66 +51,20 @@ impl WidePatch {
             let same = if let Neighbour::Same(other) = neighbour { Some(*other) } else { None };
             for j in rim_span(n, offset.j) {
                 for i in rim_span(n, offset.i) {
-                    let [x, y] = [(i, offset.i), (j, offset.j)].map(|(x, by)| x - isize::from(by) * n);
-                    let fits = (0..n).contains(&x) && (0..n).contains(&y);
                     let phi = match same {
-                        Some(other) if fits => field.component(other, PHI)[y as usize * N + x as usize],
-                        _ => phi_beyond(mesh, field, slot, kinds, [i, j]),
+                        Some(other) => {
+                            let [i, j] =
+                                [(i, offset.i), (j, offset.j)].map(|(x, by)| x - isize::from(by) * n);
+                            field.component(other, PHI)[j as usize * N + i as usize]
+                        }
+                        None => phi_beyond(mesh, field, slot, kinds, [i, j]),
                     };
                     let to = self.index(i, j);
                     self.phi[to] = phi;
                 }
             }
         }
-        if half_dt > 0.0 {
-            self.advance::<N>(mesh, field, slot, kinds, half_dt);
-        }
     }
-
-    fn advance<const N: usize>(&mut self, mesh: &Mesh<N>, field: &Field, slot: usize, kinds: [Boundary; 4], half_dt: f64) {
-        let widths = mesh.widths(mesh.tree().leaves()[slot].level);
-        let rim = RIM as isize;
-        let s = self.stride;
-        let n = N as isize;
-        let old = self.phi.clone();
-        for j in 1 - rim..n + rim - 1 {
-            for i in 1 - rim..n + rim - 1 {
-                let k = self.index(i, j);
-                let d = [(old[k + 1] - old[k - 1]) * 0.5 / widths[0], (old[k + s] - old[k - s]) * 0.5 / widths[1]];
-                if d == [0.0; 2] { continue; }
-                let Some(v) = velocity(mesh, field, slot, kinds, [i, j]) else { continue };
-                self.phi[k] = old[k] - half_dt * (v[0] * d[0] + v[1] * d[1]);
-            }
-        }
-    }
-}
-
-fn velocity<const N: usize>(mesh: &Mesh<N>, field: &Field, slot: usize, kinds: [Boundary; 4], cell: [isize; 2]) -> Option<[f64; 2]> {
-    let n = N as isize;
-    let mut within = cell;
-    let mut sign = [1.0; 2];
-    for side in Side::ALL {
-        let axis = side.axis_across();
-        let x = cell[axis];
-        let is_low = matches!(side, Side::ZMin | Side::RMin);
-        let is_beyond = if is_low { x < 0 } else { x >= n };
-        if !is_beyond || !mesh.touches(slot, side) {
-            continue;
-        }
-        let mirrors = kinds[side as usize] == Boundary::Axis || kinds[side as usize].is_wall();
-        if mirrors { sign[axis] = -1.0; }
-        within[axis] = match (mirrors, is_low) {
-            (true, true) => -1 - x,
-            (true, false) => 2 * n - 1 - x,
-            (false, true) => 0,
-            (false, false) => n - 1,
-        };
-    }
-    mesh.cell_at(slot, within[0], within[1]).map(|(slot, i, j)| {
-        let k = j * N + i;
-        let rho = field.component(slot, 0)[k];
-        [sign[0] * field.component(slot, 1)[k] / rho, sign[1] * field.component(slot, 2)[k] / rho]
-    })
 }
 
 /// The cells of the rim in one direction.

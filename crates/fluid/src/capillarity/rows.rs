@@ -24,7 +24,6 @@ pub(crate) struct Interfaces<'a, const N: usize> {
     pub tension: f64,
     /// Whether only cells with face states of their own have interfaces, as in the five-equation model.
     pub has_phases: bool,
-    pub dt: f64,
 }
 
 /// Gas fractions of two cells that differ by less have no interface between them.
@@ -40,8 +39,7 @@ pub(crate) struct CapillaryRows {
     /// ψ of the cells.
     share: Vec<f64>,
     /// J and J Δψ on the faces along z and r, Pa.
-    tension: [[Vec<f64>; 2]; 2],
-    mid: [Vec<f64>; 2],
+    tension: [Vec<f64>; 2],
     jump: [Vec<f64>; 2],
     /// Cells of the block and of the first layer around it that have a face with a jump.
     cells: Vec<usize>,
@@ -62,8 +60,7 @@ impl CapillaryRows {
     /// The faces along an axis (0: z, 1: r); `None` where none has a jump.
     pub fn along<const N: usize>(&self, axis: usize) -> Option<FaceJumps<'_>> {
         self.is_present.then(|| FaceJumps {
-            tension: [&self.tension[axis][0], &self.tension[axis][1]],
-            mid: &self.mid[axis],
+            tension: &self.tension[axis],
             jump: &self.jump[axis],
             share: &self.share,
             step: if axis == 0 { 1 } else { Padded::<N>::STRIDE },
@@ -105,7 +102,7 @@ impl CapillaryRows {
         }
         self.is_present = true;
         let len = Padded::<N>::LEN;
-        for row in self.tension.iter_mut().flatten().chain(&mut self.jump).chain(&mut self.mid) {
+        for row in self.tension.iter_mut().chain(&mut self.jump) {
             row.clear();
             row.resize(len, 0.0);
         }
@@ -113,7 +110,7 @@ impl CapillaryRows {
         let shares =
             (0..len).map(|k| share_of_jump(phi[k], density[k], density[k] * gas_shares[k], block.mixture));
         self.share.extend(shares);
-        self.patch.fill(block.mesh, block.field, block.slot, block.kinds, phi, 0.5 * block.dt * crate::knob::knobs().mid);
+        self.patch.fill(block.mesh, block.field, block.slot, block.kinds, phi);
         let id = block.mesh.tree().leaves()[block.slot];
         let mut known = vec![None; len];
         for (k, step) in faces {
@@ -122,22 +119,19 @@ impl CapillaryRows {
                     let (i, j) = place_of::<N>(k);
                     let (kappa, is_height) = curvature_at(block.mesh, id, &self.patch, [i, j]);
                     let fraction = phi[k].clamp(0.0, 1.0);
-                    [kappa, if is_height { if crate::knob::knobs().weight > 0.0 { 1.0 } else { fraction * (1.0 - fraction) + LEAST_WEIGHT } } else { 0.0 }]
+                    [kappa, if is_height { fraction * (1.0 - fraction) + LEAST_WEIGHT } else { 0.0 }]
                 });
                 *own
             });
             let weight = below[1] + above[1];
+            let kappa = if weight > 0.0 {
+                (below[0] * below[1] + above[0] * above[1]) / weight
+            } else {
+                0.5 * (below[0] + above[0])
+            };
             let axis = usize::from(step != 1);
-            let (a, b) = (k, k + step);
-            let w = if weight > 0.0 { below[1] / weight } else { 0.5 };
-            let mean = w * below[0] + (1.0 - w) * above[0];
-            let both = below[1] > 0.0 && above[1] > 0.0 && crate::knob::knobs().a > 0.0;
-            let [ja, jb] = if both { [below[0], above[0]] } else { [mean; 2] }.map(|kappa| block.tension * kappa);
-            let mid = (1.0 - w) * phi[a] + w * phi[b];
-            self.tension[axis][0][k] = ja;
-            self.tension[axis][1][k] = jb;
-            self.mid[axis][k] = mid;
-            self.jump[axis][k] = if both { ja * (mid - self.share[a]) + jb * (self.share[b] - mid) } else { ja * (self.share[b] - self.share[a]) };
+            self.tension[axis][k] = block.tension * kappa;
+            self.jump[axis][k] = block.tension * kappa * (self.share[k + step] - self.share[k]);
         }
         self.list_cells::<N>();
     }

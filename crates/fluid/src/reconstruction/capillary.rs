@@ -28,17 +28,6 @@ pub(crate) fn level_slopes<const N: usize>(
         for (axis, slopes) in [&mut *s_z, &mut *s_r].into_iter().enumerate() {
             let step = if axis == 0 { 1 } else { Padded::<N>::STRIDE };
             let (below, above) = (jumps[axis][k - step], jumps[axis][k]);
-            let vel = crate::knob::knobs().vel;
-            if vel > 0.0 {
-                let rho = cells.component(0);
-                for c in [1, 2] {
-                    let v = cells.component(c);
-                    let (a, b) = (v[k] - v[k - step], v[k + step] - v[k]);
-                    let (ra, rb) = (rho[k - step], rho[k + step]);
-                    slopes.component_mut(c)[k] = if vel == 1.0 { 0.5 * (a + b) } else if vel == 2.0 { (ra * a + rb * b) / (ra + rb) }
-                      else { 0.0 };
-                }
-            }
             if below != 0.0 || above != 0.0 {
                 let levelled = limiter.difference(p[k] - p[k - step] - below, p[k + step] - p[k] - above);
                 slopes.component_mut(PRESSURE)[k] = levelled;

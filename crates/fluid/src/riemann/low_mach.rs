@@ -61,29 +61,6 @@ pub(crate) fn brought_together(
     [together_l, together_r]
 }
 
-/// lab
-pub(crate) fn brought_by(
-    left: PrimitiveCell,
-    right: PrimitiveCell,
-    [share_l, share_r]: [f64; 2],
-    mixture: &Mixture,
-    lost: f64,
-) -> [PrimitiveCell; 2] {
-    let impedance = |w: &PrimitiveCell, share: f64| {
-        (w[RHO] * mixture.bulk_modulus(w[RHO], w[PRESSURE], w[PHI], share)).sqrt()
-    };
-    let (z_l, z_r) = (impedance(&left, share_l), impedance(&right, share_r));
-    let (u_l, u_r) = (left[V_N], right[V_N]);
-    let per_sum = 1.0 / (z_l + z_r);
-    let [mut together_l, mut together_r] = [left, right];
-    let mean = (z_l * u_l + z_r * u_r) * per_sum;
-    if mean.is_finite() {
-    together_l[V_N] = u_l - lost * (u_l - mean);
-    together_r[V_N] = u_r - lost * (u_r - mean);
-    }
-    [together_l, together_r]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -24,7 +24,6 @@ pub(super) fn find_jumps<const N: usize>(
         kinds: ctx.model.analysis.boundaries,
         mixture: &ctx.model.mixture,
         tension,
-        dt: ctx.dt,
         has_phases: ctx.model.analysis.has_phases,
     };
     capillary.find(&block, cells.split(), gas_shares);

@@ -287,11 +287,7 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
             Some(jumps) if jumps.has(face.face) => jumps.level(face.face, states, self.rule.mixture),
             _ => states,
         };
-        let lm = crate::knob::knobs().lm;
-        if lm > 0.0 && self.jumps.is_some_and(|jumps| jumps.has(face.face)) {
-            let shares = [lower.gas_share, upper.gas_share];
-            [lower.w, upper.w] = crate::riemann::low_mach::brought_by(lower.w, upper.w, shares, self.rule.mixture, lm);
-        } else if self.rule.is_low_mach {
+        if self.rule.is_low_mach {
             let shares = [lower.gas_share, upper.gas_share];
             [lower.w, upper.w] = brought_together(lower.w, upper.w, shares, self.rule.mixture);
         }

@@ -113,24 +113,6 @@ fn window_states(
             differences[PHI][k] = limit_fraction(w[PHI][k] - below[PHI][k], above[PHI][k] - w[PHI][k]);
         }
     }
-    let vel = crate::knob::knobs().vel;
-    if vel > 0.0 {
-        if let Some(jumps) = rule.jumps {
-            let has = [(jumps[0], 1_isize), (jumps[1], along_r)].map(|(jumps, step)| (at.load(jumps, -step), at.load(jumps, 0)));
-            for (differences, [below, above]) in differences.iter_mut().zip(&around) {
-                for k in 0..LANES {
-                    if has.iter().all(|(a, b)| a[k] == 0.0 && b[k] == 0.0) { continue; }
-                    for c in [V_Z, V_R] {
-                        let (a, b) = (w[c][k] - below[c][k], above[c][k] - w[c][k]);
-                        let rho = |p: &Phases| p[PHI][k] * p[RHO_G][k] + (1.0 - p[PHI][k]) * p[RHO_L][k];
-                        let (ra, rb) = (rho(below), rho(above));
-                        differences[c][k] = if vel == 1.0 { 0.5 * (a + b) } else if vel == 2.0 { (ra * a + rb * b) / (ra + rb) }
-                          else { 0.0 };
-                    }
-                }
-            }
-        }
-    }
     let mut half = half_step(&w, &differences, &at.load(rule.inverse_r, 0), rule);
     let mut shares = [1.0; LANES];
     if !rule.options.has_closure {
