@@ -13,7 +13,7 @@ use crate::step::block_sides;
 use crate::step::rows::{half_step, rates};
 use crate::step::update::Metric;
 use crate::step::{BlockScratch, reconstruct};
-use crate::terms::{TermBlock, WallCell};
+use crate::terms::{GasMass, HeatBeyond, TermBlock, WallCell};
 use crate::two_phase::{Cells, FaceStates, Window, face_states};
 use crate::{FluidSolver, Mixture, TRACE_GAS};
 
@@ -143,6 +143,9 @@ impl<const N: usize> FluidSolver<N> {
             sides,
             wall: Some(wall),
             capillary,
+            gas: GasMass::Absent,
+            heat_beyond: HeatBeyond::Nothing,
+            spread: None,
         };
         let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
         v_r.fill(0.0);

@@ -31,6 +31,10 @@ pub struct BlockScratch<const N: usize> {
     pub(super) with_sources: Vec<f64>,
     /// What terms work in, a part for each.
     pub(crate) works: Vec<Vec<f64>>,
+    /// What stages begin with.
+    pub(super) spread_work: Vec<f64>,
+    /// See [`crate::terms::HeatBeyond::Wall`].
+    pub(super) wall_temperatures: Vec<f64>,
     /// A part for each component that the mass carries.
     pub(super) carried: Vec<CarriedScratch>,
     pub(crate) gas: GasScratch,
@@ -61,6 +65,8 @@ impl<const N: usize> BlockScratch<N> {
             inverse_weight: vec![0.0; N],
             with_sources: Vec::new(),
             works: Vec::new(),
+            spread_work: Vec::new(),
+            wall_temperatures: vec![0.0; N + 2],
             carried: (0..carried).map(|_| CarriedScratch::new::<N>()).collect(),
             gas: GasScratch::new::<N>(),
             capillary: CapillaryRows::default(),
