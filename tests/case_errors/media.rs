@@ -39,7 +39,7 @@ fn conduction_survives_being_written_out() {
         round_trip(&case);
         case.fluid.and_then(|fluid| fluid.terms.conduction)
     };
-    let wall = |more| read(more).expect("it is asked for").wall;
+    let wall = |more: &str| read(more).expect("it is asked for").wall;
     assert_eq!(wall(""), WallHeat::Adiabatic);
     assert_eq!(wall(", wall_temperature=310.0"), WallHeat::Isothermal(310.0));
     // A wall is what the solid is made of where the case does not say.

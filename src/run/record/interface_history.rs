@@ -46,6 +46,13 @@ pub struct OnFaces<'a> {
     pub heat: [&'a [f64]; 2],
 }
 
+impl<'a> OnFaces<'a> {
+    /// Under a load, of which nothing else is known.
+    pub fn of_pressures(pressures: &'a [f64]) -> Self {
+        Self { pressures, stresses: &[], heat: [&[]; 2] }
+    }
+}
+
 /// What of it changes in time, and what hangs on the faces that there were at t = 0.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct InterfaceState {

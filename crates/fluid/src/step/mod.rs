@@ -15,7 +15,7 @@ mod stages;
 use mesh::{BlockId, StageTimer};
 
 pub use scratch::BlockScratch;
-pub(crate) use scratch::split_block;
+pub(crate) use scratch::{split_block, take_wall};
 pub(crate) use stages::{block_sides, reconstruct};
 
 use crate::physics::FluidStep;

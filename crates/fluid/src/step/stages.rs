@@ -1,10 +1,10 @@
 //! The stages of a block's step; the faces have a file of their own.
 
-use mesh::{Padded, Side, limited_differences};
+use mesh::{FaceState, Padded, Side, limited_differences};
 
 use super::BlockStep;
 use super::jumps::find_jumps;
-use super::scratch::{BlockScratch, split_block};
+use super::scratch::{BlockScratch, split_block, take_wall};
 use crate::capillarity::{CapillaryRows, cell_at_wall};
 use crate::components::carried::CarriedCells;
 use crate::phase_change::{BlockPlace, Exchange};
@@ -109,6 +109,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if let Some(gas) = gas.phases() {
             gas.shares(scratch);
         }
+        if ctx.model.terms.is_diffusive {
+            take_wall(ctx.mesh, ctx.interface, slot, &mut scratch.wall);
+        }
         if let Some(memory) = &ctx.model.wall_memory
             && ctx.mesh.touches(slot, Side::ZMin)
         {
@@ -141,7 +144,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         [state, before]: [Rows<'b>; 2],
         more: MoreForTerms<'b>,
     ) -> TermBlock<'b> {
-        let MoreForTerms { capillary, gas_shares, wall_temperatures } = more;
+        let MoreForTerms { capillary, gas_shares, wall, wall_temperatures } = more;
         let heat_beyond = match (&self.ctx.model.wall_heat, &self.ctx.model.wall_memory) {
             (WallHeat::Isothermal(temperature), _) => HeatBeyond::Kept(*temperature),
             (_, Some(memory)) => HeatBeyond::Wall {
@@ -157,7 +160,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             state,
             before,
             sides: block_sides(self.ctx, self.slot),
-            wall: self.ctx.interface.states_of::<N>(self.slot),
+            wall: (!wall.is_empty()).then_some(wall),
             capillary,
             gas: self.gas.mass(gas_shares),
             heat_beyond,
@@ -208,9 +211,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         }
         let BlockScratch { cells, half, inverse_r, face_weight, inverse_weight, works, capillary, .. } =
             scratch;
-        let BlockScratch { gas_shares, wall_temperatures, .. } = scratch;
+        let BlockScratch { gas_shares, wall, wall_temperatures, .. } = scratch;
         let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
-        let more = MoreForTerms { capillary, gas_shares, wall_temperatures };
+        let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
         let block = self.term_block(&metric, inverse_r, [rows; 2], more);
         let [_, v_z, v_r, p, _] = half.split_mut::<COUNT>();
         if terms.is_viscous {
@@ -228,9 +231,9 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         scratch: &mut BlockScratch<N>,
     ) -> (SpreadBlock, f64) {
         let BlockScratch { cells, half, inverse_r, face_weight, inverse_weight, capillary, .. } = scratch;
-        let BlockScratch { gas_shares, wall_temperatures, spread_work, .. } = scratch;
+        let BlockScratch { gas_shares, wall, wall_temperatures, spread_work, .. } = scratch;
         let metric = self.metric(face_weight, inverse_weight);
-        let more = MoreForTerms { capillary, gas_shares, wall_temperatures };
+        let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
         let block = self.term_block(&metric, inverse_r, [half.split(), cells.split()], more);
         SpreadBlock::begin(self.slot, of, &block, spread_work)
     }
@@ -257,11 +260,11 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if !ctx.model.terms.is_empty() {
             let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } =
                 scratch;
-            let BlockScratch { cells, inverse_r, works, capillary, gas_shares, wall_temperatures, .. } =
-                scratch;
+            let BlockScratch { cells, inverse_r, works, capillary, gas_shares, .. } = scratch;
+            let BlockScratch { wall, wall_temperatures, .. } = scratch;
             let metric = &self.metric(face_weight, inverse_weight);
             let rows = [half.split(), cells.split()];
-            let more = MoreForTerms { capillary, gas_shares, wall_temperatures };
+            let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
             let block = self.term_block(metric, inverse_r, rows, more);
             with_sources.clear();
             with_sources.extend_from_slice(ctx.old.block(self.slot));
@@ -445,6 +448,8 @@ struct MoreForTerms<'a> {
     capillary: &'a CapillaryRows,
     /// m_g/ρ of the padded cells.
     gas_shares: &'a [f64],
+    /// See [`TermBlock::wall`]; empty where there is none.
+    wall: &'a [FaceState],
     /// See [`HeatBeyond::Wall`].
     wall_temperatures: &'a [f64],
 }

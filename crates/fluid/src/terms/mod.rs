@@ -51,7 +51,8 @@ pub(crate) struct TermBlock<'a> {
     pub before: Rows<'a>,
     /// What bounds the domain on the sides of the block; `None` where other blocks are.
     pub sides: [Option<Boundary>; 4],
-    /// The faces of the wall to another medium, in the order of r, where the block has any.
+    /// The faces of the wall to another medium, in the order of r, where the block has any, and as many more at both ends as there are
+    /// ghosts: those of the blocks beside it.
     pub wall: Option<&'a [FaceState]>,
     /// The jumps of pressure across interfaces, where there is surface tension.
     pub capillary: &'a CapillaryRows,

@@ -34,7 +34,7 @@ pub(crate) struct Frame {
     pub inverse_r: Vec<f64>,
     /// What bounds the domain on the sides of the block; `None` where other blocks are.
     pub sides: [Option<Boundary>; 4],
-    /// The faces of the wall to another medium, if the block has any.
+    /// See [`TermBlock::wall`].
     pub wall: Option<Vec<FaceState>>,
 }
 

@@ -6,7 +6,7 @@ mod velocities;
 
 use super::diffusion::{BY_STAGES, ThinGas, most_diffusivity, step_limit};
 use super::super_stepping::{Spreading, View};
-use super::{Term, TermBlock, WallCell};
+use super::{Term, TermBlock, WallCell, for_cells_without_mid_step};
 use crate::state::conserved::MOMENTUM_R;
 use crate::state::primitive::{PHI, RHO};
 use crate::step::clips::Clips;
@@ -64,13 +64,15 @@ impl Viscosity {
         for (k, phi) in block.state[PHI].iter().enumerate() {
             [shear[k], bulk[k]] = self.at(*phi);
         }
+        // What kernels left of mixed cells differs from block to block.
+        for_cells_without_mid_step(block, |k| [shear[k], bulk[k]] = self.at(block.before[PHI][k]));
         let [z, r] = std::array::from_fn(|_| FaceStress { normal: next(), shear: next(), hoop: next() });
         let metric = block.metric;
         let motion = Motion {
             velocity: [&*v_z, &*v_r],
             shear: &*shear,
             bulk: &*bulk,
-            density: block.state[RHO],
+            density: block.before[RHO],
             stride: metric.stride,
             inverse_h: metric.inverse_h,
             inverse_r: block.inverse_r,

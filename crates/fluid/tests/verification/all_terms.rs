@@ -2,7 +2,7 @@
 
 use coupler::TraceRow;
 use fluid::{
-    Boundary, Conduction, ConductingWall, EvaporationLaw, FluidSetup, FluidSolver, InitialCondition,
+    Boundary, ConductingWall, Conduction, EvaporationLaw, FluidSetup, FluidSolver, InitialCondition,
     InitialPressure, NamedFluid, NobleAbelStiffenedGas, Phase, PhaseChange, PhaseState, PhaseViscosity,
     Region, Shape, SurfaceTension, ThinGas, Viscosity, WallHeat,
 };
@@ -62,20 +62,23 @@ fn vapour(fluid: &FluidSolver<8>) -> f64 {
         / fluid.mesh().domain().geometry.turn()
 }
 
-/// A wall that moves and slides, more on the axis than farther out, with the stress that the fluid shows.
+/// A wall that moves and slides, more on the axis than farther out, with what it meets in the fluid.
 fn move_wall(fluid: &mut FluidSolver<8>, dt: f64) {
     let edges = fluid.interface_edges();
-    let mut shear = vec![0.0; fluid.interface().faces()];
+    let (mut shear, mut traces) = (vec![0.0; fluid.interface().faces()], vec![]);
     fluid.write_trace(dt, |row, face, value| {
         if row == TraceRow::Shear {
             shear[face] = value;
         }
     });
+    fluid.traces_at_mid_step(dt, &mut traces);
     let phase = (3e3 * fluid.time()).sin();
     fluid.interface_mut().set_all(|face| {
         let far = edges[face];
         let (velocity, sliding) = (0.5 * phase * (-far * far).exp(), 2.0 * phase * far);
-        let pressure = 5e6 * (1.0 + 0.1 * far);
+        let trace = traces[face];
+        let impedance = (trace.gamma * (trace.pressure + trace.pi) * trace.density).sqrt();
+        let pressure = trace.pressure + impedance * (velocity - trace.velocity);
         FaceState {
             pressure,
             velocity,
@@ -99,7 +102,7 @@ fn ledgers_close_with_all_terms() {
                 adaptation: Some(Adaptation { epsilon: 2e-2, every: 4, bounds: vec![], above: 0 }),
                 ..with_all(thin_gas, law, setup_of(SHARP, geometry, [32, 32], sides))
             };
-            let initial = ball(([0.2, 0.0], 0.3), [5e6, 300.0], [1e5, 500.0]);
+            let initial = ball(([0.45, 0.0], 0.3), [5e6, 300.0], [1e5, 500.0]);
             let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
             let (before, held) = (fluid.totals(), vapour(&fluid));
             while fluid.steps() < 120 {
@@ -137,10 +140,10 @@ fn ledgers_close_with_all_terms() {
                 (now.momentum_z - before.momentum_z - impulse) / scale,
                 (now.energy - before.energy - energy) / before.energy,
             ];
-            // Vapour that moves through the wall's fixed faces has no ledger of its own.
-            let part = (vapour(&fluid) - held - net) / before.gas_mass;
+            // What gas passes the wall that moves is vapour of liquid that has opened there.
+            let part = (vapour(&fluid) - held - net - sum(ledger.gas_mass)) / before.gas_mass;
             eprintln!("{geometry:?} {law:?} {thin_gas:?}: {} vapour {part:.1e}", scientific(&imbalance));
-            assert!(imbalance.iter().all(|part| part.abs() < 1e-12), "{imbalance:?}");
+            assert!(imbalance.iter().chain([&part]).all(|part| part.abs() < 1e-12), "{imbalance:?} {part:e}");
             assert!(ledger.wall_heat.abs() > 0.0 && net != 0.0 && ledger.tension_work != 0.0);
         }
     }
@@ -171,12 +174,13 @@ fn interfaces_stay_as_thin_with_all_terms() {
     let saturation = fluid::Saturation::of(&fluid::Mixture::new(liquid, gas)).unwrap();
     let run = |all: bool, carried: bool| {
         let sides = if carried { PERIODIC } else { WALLS };
-        let plain = FluidSetup { liquid, gas, ..setup_of(SHARP, PLANAR, [64, 64], sides) };
+        let plain = FluidSetup { liquid, gas, ..setup_of(SHARP, PLANAR, [32, 32], sides) };
         let setup = if all {
             let with = with_all(ThinGas::SuperTimeStepping, rate, plain);
             // Laplace's jump is small against the pressure.
             let tension = SurfaceTension { coefficient: 700.0, density: 1e3, may_touch_walls: true };
-            FluidSetup { surface_tension: Some(tension), ..with }
+            let change = PhaseChange { law: rate, vapour_fraction: 0.7, cavitation: None };
+            FluidSetup { surface_tension: Some(tension), phase_change: Some(change), ..with }
         } else {
             plain
         };
@@ -191,13 +195,17 @@ fn interfaces_stay_as_thin_with_all_terms() {
             initial.regions[0].state.velocity = [20.0, 13.0];
         }
         let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
-        run_to(&mut fluid, if carried { 2.5e-2 } else { 3e-3 });
+        run_to(&mut fluid, if carried { 1e-2 } else { 2e-3 });
         thickness(&fluid)
     };
     for carried in [true, false] {
         let [with, without] = [true, false].map(|all| run(all, carried));
         let what = if carried { "carried" } else { "collapsing" };
-        eprintln!("{what}: cells, integral with all terms {}, without {}", scientific(&with), scientific(&without));
+        eprintln!(
+            "{what}: cells, integral with all terms {}, without {}",
+            scientific(&with),
+            scientific(&without)
+        );
         for (with, without) in with.into_iter().zip(without) {
             assert!(with < 1.1 * without, "{what}: {with} {without}");
         }

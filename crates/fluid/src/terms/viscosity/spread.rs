@@ -4,8 +4,8 @@ use super::stress::{FaceStress, Motion, stresses};
 use super::velocities::{Sides, Velocities};
 use super::{PhaseViscosity, Viscosity, longitudinal};
 use crate::state::primitive::{PHI, RHO};
-use crate::terms::TermBlock;
 use crate::terms::super_stepping::{Frame, Spreading, View};
+use crate::terms::{TermBlock, for_cells_without_mid_step};
 
 impl Viscosity {
     /// The axes of the rows of stresses: τ_zz and τ_zr along z; τ_rr, τ_rz and τ_rr − τ_φφ along r.
@@ -63,6 +63,10 @@ impl Spreading for Viscosity {
             [constants[k], constants[len + k]] = self.at(*phi);
         }
         constants[2 * len..].copy_from_slice(block.state[RHO]);
+        for_cells_without_mid_step(block, |k| {
+            [constants[k], constants[len + k]] = self.at(block.before[PHI][k]);
+            constants[2 * len + k] = block.before[RHO][k];
+        });
         let (metric, stride) = (block.metric, block.metric.stride);
         let across: f64 = metric.inverse_h.iter().map(|inverse| inverse * inverse).sum();
         let mut fastest = 0.0_f64;

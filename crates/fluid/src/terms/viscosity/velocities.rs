@@ -19,7 +19,7 @@ pub(super) struct Sides<'a> {
     pub origin: usize,
     pub stride: usize,
     pub kinds: [Option<Boundary>; 4],
-    /// The faces of the wall to another medium, where the block has any.
+    /// See [`TermBlock::wall`].
     pub wall: Option<&'a [FaceState]>,
 }
 
@@ -75,7 +75,7 @@ impl Velocities<'_> {
             for along in -ghosts..n + ghosts {
                 // The wall's own velocity, twice.
                 let wall = sides.wall.filter(|_| kind == Boundary::Interface).map_or(0.0, |wall| {
-                    let state = &wall[along.clamp(0, n - 1) as usize];
+                    let state = &wall[(along + ghosts) as usize];
                     2.0 * if is_normal { state.velocity } else { state.tangential_velocity }
                 });
                 for depth in 0..ghosts {
