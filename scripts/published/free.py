@@ -11,8 +11,9 @@ NAVIER_STOKES = 0.067626, 1.01107, 0.8064, 1.8338
 # Their R/R0 on the way, at shares of 0.915 R0 √(ρ/Δp).
 ON_THE_WAY = {0.2: 0.983048, 0.4: 0.929863, 0.6: 0.831044, 0.8: 0.658094, 0.9: 0.512490, 0.95: 0.401064, 0.99: 0.253741}
 UNIT = 0.915 * RADIUS * np.sqrt(DENSITY / (PRESSURE - GAS))
-# Of the gas's first volume: 1.5e-3 m³/kg by 1.2 kg/m³ at 1e5 Pa, brought to GAS along the isentrope.
-COVOLUME = 1.5e-3 * 1.2 * (GAS / 1e5) ** (1 / 1.4)
+# m³/kg, and what the gas has at GAS: 1.2 kg/m³ at 1e5 Pa, brought there along its isentrope, on which p (1/ρ − b)^γ stays.
+COVOLUME = 1.5e-3
+GAS_DENSITY = 1.0 / (COVOLUME + (1.0 / 1.2 - COVOLUME) * (1e5 / GAS) ** (1 / 1.4))
 SIDE = 4.8  # of the box from the centre, over the radius
 
 
@@ -30,7 +31,7 @@ def row(name, found):
 def table(options):
     print("| | smallest R/R₀ | at | rebound R/R₀ | at |\n|---|---|---|---|---|")
     row("Denner & Schenke: Navier–Stokes, covolume", NAVIER_STOKES)
-    for name, covolume in (("Gilmore, covolume", COVOLUME), ("Gilmore, ideal gas", 0.0)):
+    for name, covolume in (("Gilmore, covolume", COVOLUME * GAS_DENSITY), ("Gilmore, ideal gas", 0.0)):
         row(name, extremes(*gilmore(RADIUS, GAS, PRESSURE, DENSITY, 180e-6, covolume=covolume)))
     farthest = {}
     for cells in options.cells or [20, 40, 80]:
