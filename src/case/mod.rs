@@ -2,6 +2,7 @@
 
 mod bubble;
 mod check;
+mod contact;
 mod cross;
 mod effective;
 mod error;

@@ -18,7 +18,7 @@ use super::read_terms::{TermsCase, terms};
 use super::reader::{Faults, Given, Table};
 use super::shared::{Context, boundaries, history};
 use super::{
-    FluidCase, GridCase, Inflow, far_field, initial_pressure, read_conduction, read_phase_change, scales,
+    FluidCase, GridCase, Inflow, contact, far_field, initial_pressure, read_conduction, read_phase_change, scales,
 };
 
 /// Equations of state as far as they could be read, and the grid likewise.
@@ -68,6 +68,7 @@ pub(super) fn fluid(
         grid: placed.as_ref().map(|(grid, _)| grid.clone()),
         geometry: context.geometry,
     };
+    let acting = (table.path_of("terms"), table.place("terms").map_or(0..0, |place| place.span));
     let (terms, pending) = terms(&mut table, faults);
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
     let (mut initial, bubble) = initial(&mut table, pressure.as_ref(), &terms, &mut setting, faults);
@@ -82,6 +83,9 @@ pub(super) fn fluid(
         initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
         let is_free = pressure.is_none() && bubble.as_ref().is_some_and(|bubble| bubble.is_largest);
         initial_pressure::at_rest(is_free, initial, grid, boundary, context);
+        if context.scheme.is_some() {
+            contact::check((&acting.0, &acting.1), &terms, initial, grid, boundary, faults);
+        }
     }
     let inflow = inflow(&mut table, boundary, liquid, faults);
     if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
