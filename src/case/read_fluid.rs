@@ -18,7 +18,8 @@ use super::read_terms::{TermsCase, terms};
 use super::reader::{Faults, Given, Table};
 use super::shared::{Context, boundaries, history};
 use super::{
-    FluidCase, GridCase, Inflow, contact, far_field, initial_pressure, read_conduction, read_phase_change, scales,
+    FluidCase, GridCase, Inflow, contact, far_field, initial_pressure, read_conduction, read_phase_change,
+    scales,
 };
 
 /// Equations of state as far as they could be read, and the grid likewise.

@@ -200,7 +200,7 @@ mod tests {
     fn modes_add_up_to_the_root_of_time() {
         for exponent in -28..=0 {
             let t = 10_f64.powf(0.5 * f64::from(exponent));
-            let sum: f64 = (0..MODES).map(|j| mode(j)).map(|[rate, weight]| weight * (-rate * t).exp()).sum();
+            let sum: f64 = (0..MODES).map(mode).map(|[rate, weight]| weight * (-rate * t).exp()).sum();
             let wanted = 1.0 / (PI * t).sqrt();
             let most = if t > 5e-3 { 1e-3 } else { 6e-5 };
             assert!((sum / wanted - 1.0).abs() < most, "{t}: {sum} {wanted}");

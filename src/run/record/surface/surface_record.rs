@@ -12,7 +12,7 @@ use super::rest::Rest;
 use crate::case::{Case, LoadCase};
 use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
-use crate::run::record::interface_history::{InterfaceHistory, OnFaces, InterfaceState, put_centres};
+use crate::run::record::interface_history::{InterfaceHistory, InterfaceState, OnFaces, put_centres};
 use crate::run::side::wall_faces::WallFaces;
 
 /// Displacement of the surface, the pit in it, and under a load what presses on it.
