@@ -95,9 +95,9 @@ def run(options, cells):
 
 def picture(path, exact, others, runs):
     figure, axes = plt.subplots(figsize=(6.4, 3.2), layout="constrained")
-    if exact:
+    if exact is not None:
         axes.plot(exact[0] * 1e6, exact[1] * 1e6, "k--", linewidth=1.0, label="Gilmore, cut at the largest radius")
-    if others:
+    if others is not None:
         axes.plot(others[0] * 1e6, others[1] * 1e6, "k.", markersize=4.0, label="Liang et al. (2022)")
     for cells, (time, radius) in runs.items():
         axes.plot(time * 1e6, radius * 1e6, linewidth=1.2, label=f"{cells} cells per present radius")
