@@ -38,10 +38,10 @@ pub fn fluid_alone() -> String {
 /// A bubble above a rigid wall that grows and whose gas is cut, on a grid that follows it: three levels are there at different times.
 pub fn growing() -> String {
     let text = [
-        "[time]\nend = 1.1e-4\nsnapshot_every = 1e-5\n",
-        &water(&lines([0.0, 0.05], LIMITER), 1e7),
-        "[fluid.bubble]\ncentre = [0.025, 0.0]\nradius = 4e-3\nequilibrium_radius = 1.2e-2\ncells_per_radius = 4\n\
-         reset = { equilibrium_radius = 6e-3 }\n",
+        "[time]\nend = 1.3e-4\nsnapshot_every = 1e-5\n",
+        &water(&lines([0.0, 0.05], LIMITER), 5e7),
+        "[fluid.bubble]\ncentre = [0.025, 0.0]\nradius = 4e-3\nequilibrium_radius = 8e-3\ncells_per_radius = 4\n\
+         reset = { equilibrium_radius = 4e-3 }\n",
         "[coupling]\nscheme = \"rigid\"\n",
     ];
     text.concat()

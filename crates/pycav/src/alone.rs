@@ -177,160 +177,113 @@ fn checked(dt: f64) -> PyResult<()> {
     }
 }
 
-/// The fluid of a case without its solid.
-#[pyclass(frozen, module = "pycav._pycav")]
-pub struct FluidSolver(Alone<fluid::FluidSolver<BLOCK>>);
+/// A class of Python with the solver of one side: what both have, and what only this one has.
+///
+/// pyo3 has no generic classes and one `impl` block with methods per class, so that only a macro can say once what both have.
+macro_rules! solver_class {
+    ($(#[$document:meta])* $name:ident, $solver:ty, { $($own:tt)* }) => {
+        $(#[$document])*
+        #[pyclass(frozen, module = "pycav._pycav")]
+        pub struct $name(Alone<$solver>);
 
-#[pymethods]
-impl FluidSolver {
-    #[new]
-    #[pyo3(signature = (case, initial=None, threads=None))]
-    fn new(
-        py: Python<'_>,
-        case: &Case,
-        initial: Option<Py<PyAny>>,
-        threads: Option<usize>,
-    ) -> PyResult<Self> {
-        Alone::new(py, case, initial.as_ref(), threads).map(Self)
-    }
+        #[pymethods]
+        impl $name {
+            #[new]
+            #[pyo3(signature = (case, initial=None, threads=None))]
+            fn new(
+                py: Python<'_>,
+                case: &Case,
+                initial: Option<Py<PyAny>>,
+                threads: Option<usize>,
+            ) -> PyResult<Self> {
+                Alone::new(py, case, initial.as_ref(), threads).map(Self)
+            }
 
-    #[getter]
-    fn time(&self) -> PyResult<f64> {
-        Ok(self.0.parts()?.solver.time())
-    }
+            #[getter]
+            fn time(&self) -> PyResult<f64> {
+                Ok(self.0.parts()?.solver.time())
+            }
 
-    #[getter]
-    fn steps(&self) -> PyResult<u64> {
-        Ok(self.0.parts()?.solver.steps())
-    }
+            #[getter]
+            fn steps(&self) -> PyResult<u64> {
+                Ok(self.0.parts()?.solver.steps())
+            }
 
-    /// The longest step that the case's Courant number allows, s.
-    fn time_step_limit(&self) -> PyResult<f64> {
-        self.0.time_step_limit()
-    }
+            /// The longest step that the case's Courant number allows, s.
+            fn time_step_limit(&self) -> PyResult<f64> {
+                self.0.time_step_limit()
+            }
 
-    /// Outer radii of the faces of the wall, m, shape (faces,); empty where the case has no solid.
-    #[getter]
-    fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        self.0.surface_edges(py)
-    }
+            /// Outer radii of the faces towards the other side, m, shape (faces,); empty where the case has none.
+            #[getter]
+            fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+                self.0.surface_edges(py)
+            }
 
-    /// The fluid's own state on the wall in the middle of a step of length `dt`, arrays of shape (faces,).
-    fn trace<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyDict>> {
-        self.0.trace(py, dt)
-    }
+            /// The side's own state on these faces in the middle of a step of length `dt`, arrays of shape (faces,).
+            fn trace<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyDict>> {
+                self.0.trace(py, dt)
+            }
 
-    /// Makes a step of length `dt` with the surface as given.
-    #[pyo3(signature = (dt, pressure=None, velocity=None, power=None))]
-    fn step(
-        &self,
-        py: Python<'_>,
-        dt: f64,
-        pressure: MaybeArray<'_>,
-        velocity: MaybeArray<'_>,
-        power: MaybeArray<'_>,
-    ) -> PyResult<()> {
-        self.0.step(py, dt, [pressure, velocity, power])
-    }
+            /// Makes a step of length `dt` with the surface as given.
+            #[pyo3(signature = (dt, pressure=None, velocity=None, power=None))]
+            fn step(
+                &self,
+                py: Python<'_>,
+                dt: f64,
+                pressure: MaybeArray<'_>,
+                velocity: MaybeArray<'_>,
+                power: MaybeArray<'_>,
+            ) -> PyResult<()> {
+                self.0.step(py, dt, [pressure, velocity, power])
+            }
 
-    /// Mean pressure of the last step on the faces, Pa.
-    #[getter]
-    fn surface_pressure<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        self.0.surface(py, |wall| wall.pressure)
-    }
+            fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+                fields::cells(py, &self.0.parts()?.solver)
+            }
 
-    /// Equivalent radius of the gas, m.
-    #[getter]
-    fn equivalent_radius(&self) -> PyResult<f64> {
-        Ok(self.0.parts()?.solver.bubble().equivalent_radius)
-    }
+            fn sample<'py>(
+                &self,
+                py: Python<'py>,
+                z: PyReadonlyArray1<'py, f64>,
+                r: PyReadonlyArray1<'py, f64>,
+            ) -> PyResult<Bound<'py, PyDict>> {
+                fields::sample(py, &self.0.parts()?.solver, &z, &r)
+            }
 
-    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        fields::cells(py, &self.0.parts()?.solver)
-    }
-
-    fn sample<'py>(
-        &self,
-        py: Python<'py>,
-        z: PyReadonlyArray1<'py, f64>,
-        r: PyReadonlyArray1<'py, f64>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        fields::sample(py, &self.0.parts()?.solver, &z, &r)
-    }
+            $($own)*
+        }
+    };
 }
 
-/// The solid of a case without its fluid.
-#[pyclass(frozen, module = "pycav._pycav")]
-pub struct SolidSolver(Alone<solid::SolidSolver<BLOCK>>);
+solver_class!(
+    /// The fluid of a case without its solid.
+    FluidSolver,
+    fluid::FluidSolver<BLOCK>,
+    {
+        /// Mean pressure of the last step on the faces, Pa.
+        #[getter]
+        fn surface_pressure<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+            self.0.surface(py, |wall| wall.pressure)
+        }
 
-#[pymethods]
-impl SolidSolver {
-    #[new]
-    #[pyo3(signature = (case, initial=None, threads=None))]
-    fn new(
-        py: Python<'_>,
-        case: &Case,
-        initial: Option<Py<PyAny>>,
-        threads: Option<usize>,
-    ) -> PyResult<Self> {
-        Alone::new(py, case, initial.as_ref(), threads).map(Self)
+        /// Equivalent radius of the gas, m.
+        #[getter]
+        fn equivalent_radius(&self) -> PyResult<f64> {
+            Ok(self.0.parts()?.solver.bubble().equivalent_radius)
+        }
     }
+);
 
-    #[getter]
-    fn time(&self) -> PyResult<f64> {
-        Ok(self.0.parts()?.solver.time())
+solver_class!(
+    /// The solid of a case without its fluid.
+    SolidSolver,
+    solid::SolidSolver<BLOCK>,
+    {
+        /// Mean velocity of the last step on the faces, m/s.
+        #[getter]
+        fn surface_velocity<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+            self.0.surface(py, |face| face.velocity)
+        }
     }
-
-    #[getter]
-    fn steps(&self) -> PyResult<u64> {
-        Ok(self.0.parts()?.solver.steps())
-    }
-
-    /// The longest step that the case's Courant number allows, s.
-    fn time_step_limit(&self) -> PyResult<f64> {
-        self.0.time_step_limit()
-    }
-
-    /// Outer radii of the faces of the surface, m, shape (faces,); empty where the case has no fluid.
-    #[getter]
-    fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        self.0.surface_edges(py)
-    }
-
-    /// The solid's own state on its surface in the middle of a step of length `dt`, arrays of shape (faces,).
-    fn trace<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyDict>> {
-        self.0.trace(py, dt)
-    }
-
-    /// Makes a step of length `dt` with the surface as given.
-    #[pyo3(signature = (dt, pressure=None, velocity=None, power=None))]
-    fn step(
-        &self,
-        py: Python<'_>,
-        dt: f64,
-        pressure: MaybeArray<'_>,
-        velocity: MaybeArray<'_>,
-        power: MaybeArray<'_>,
-    ) -> PyResult<()> {
-        self.0.step(py, dt, [pressure, velocity, power])
-    }
-
-    /// Mean velocity of the last step on the faces, m/s.
-    #[getter]
-    fn surface_velocity<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        self.0.surface(py, |face| face.velocity)
-    }
-
-    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        fields::cells(py, &self.0.parts()?.solver)
-    }
-
-    fn sample<'py>(
-        &self,
-        py: Python<'py>,
-        z: PyReadonlyArray1<'py, f64>,
-        r: PyReadonlyArray1<'py, f64>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        fields::sample(py, &self.0.parts()?.solver, &z, &r)
-    }
-}
+);

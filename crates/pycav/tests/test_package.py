@@ -34,7 +34,6 @@ def test_the_package_brings_the_program_under_both_names():
         assert done.stdout.split() == [name, pycav.__version__], done.stdout
 
 
-
 def test_types_are_strict(environment):
     source = CONFIGURATION.parent / "python" / "pycav"
     told = run("-m", "mypy", "--config-file", CONFIGURATION, source, env=environment)

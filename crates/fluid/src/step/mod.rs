@@ -15,11 +15,13 @@ mod stages;
 use mesh::{BlockId, StageTimer};
 
 pub use scratch::BlockScratch;
-pub(crate) use scratch::split_block;
+pub(crate) use scratch::{split_block, take_wall};
 pub(crate) use stages::{block_sides, reconstruct};
 
 use crate::physics::FluidStep;
+use crate::step::clips::Clips;
 use crate::step::report::BlockReport;
+use crate::terms::super_stepping::{SpreadBlock, Spreading};
 use crate::two_phase::BlockGas;
 
 /// The stages of a step, in their order.
@@ -50,7 +52,20 @@ struct BlockStep<'a, const N: usize> {
     gas: BlockGas<'a, N>,
     limited_predictions: u64,
     clipped_roots: u64,
-    bounded_viscosities: u64,
+    /// What terms were bounded in.
+    bounded: Clips,
+}
+
+/// Begins what spreads in stages in a block, see [`SpreadBlock::begin`].
+pub(crate) fn begin_spreading<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    of: &dyn Spreading,
+    scratch: &mut BlockScratch<N>,
+) -> (SpreadBlock, f64) {
+    let block = BlockStep::assemble(ctx, slot, scratch);
+    block.predict(scratch);
+    block.begin_spreading(of, scratch)
 }
 
 /// Advances one block by one step from `ctx.old` into `new`; `fluxes` is its part of the flux register.
@@ -67,6 +82,7 @@ pub(crate) fn step_block<const N: usize>(
     let mut block = BlockStep::assemble(ctx, slot, scratch);
     done(Stage::Assemble);
     block.predict(scratch);
+    block.predict_terms(scratch);
     done(Stage::Predict);
     block.impose_boundaries(scratch);
     done(Stage::Boundary);

@@ -1,11 +1,10 @@
 //! The stages of a block's step; the faces have a file of their own.
 
-use mesh::{Padded, Side, limited_differences};
+use mesh::{FaceState, Padded, Side, limited_differences};
 
 use super::BlockStep;
 use super::jumps::find_jumps;
-use super::scratch::{BlockScratch, split_block};
-use crate::Boundary;
+use super::scratch::{BlockScratch, split_block, take_wall};
 use crate::capillarity::{CapillaryRows, cell_at_wall};
 use crate::components::carried::CarriedCells;
 use crate::phase_change::{BlockPlace, Exchange};
@@ -21,8 +20,10 @@ use crate::step::reflux::register_fluxes;
 use crate::step::report::{BlockReport, boundary_inflow, count_kept, far_field_gains};
 use crate::step::rows;
 use crate::step::update::{Extremes, Metric, NewCells, update};
-use crate::terms::TermBlock;
+use crate::terms::super_stepping::{SpreadBlock, Spreading, View};
+use crate::terms::{FinishedCells, HeatBeyond, TermBlock};
 use crate::two_phase::{Before, BlockGas, may_have_gas};
+use crate::{Boundary, WallHeat};
 
 /// Assembles a block with its ghosts: primitive variables in `cells`.
 ///
@@ -108,10 +109,19 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if let Some(gas) = gas.phases() {
             gas.shares(scratch);
         }
+        if ctx.model.terms.is_diffusive {
+            take_wall(ctx.mesh, ctx.interface, slot, &mut scratch.wall);
+        }
+        if let Some(memory) = &ctx.model.wall_memory
+            && ctx.mesh.touches(slot, Side::ZMin)
+        {
+            memory.temperatures(ctx.mesh, id, ctx.dt, &mut scratch.wall_temperatures);
+        }
         if let Some(tension) = ctx.model.terms.surface_tension() {
             find_jumps(ctx, slot, tension, gas.is_present(), scratch);
         }
-        Self { ctx, slot, id, inverse_h, gas, limited_predictions, clipped_roots: 0, bounded_viscosities: 0 }
+        let bounded = Clips::default();
+        Self { ctx, slot, id, inverse_h, gas, limited_predictions, clipped_roots: 0, bounded }
     }
 
     /// - `face_weight`, `inverse_weight`: as [`BlockStep::assemble`] has left them.
@@ -132,8 +142,17 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         metric: &'b Metric<'b>,
         inverse_r: &'b [f64],
         [state, before]: [Rows<'b>; 2],
-        capillary: &'b CapillaryRows,
+        more: MoreForTerms<'b>,
     ) -> TermBlock<'b> {
+        let MoreForTerms { capillary, gas_shares, wall, wall_temperatures } = more;
+        let heat_beyond = match (&self.ctx.model.wall_heat, &self.ctx.model.wall_memory) {
+            (WallHeat::Isothermal(temperature), _) => HeatBeyond::Kept(*temperature),
+            (_, Some(memory)) => HeatBeyond::Wall {
+                temperatures: wall_temperatures,
+                resistance: memory.resistance(self.ctx.dt),
+            },
+            _ => HeatBeyond::Nothing,
+        };
         TermBlock {
             cells: N,
             metric,
@@ -141,8 +160,11 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             state,
             before,
             sides: block_sides(self.ctx, self.slot),
-            wall: self.ctx.interface.states_of::<N>(self.slot),
+            wall: (!wall.is_empty()).then_some(wall),
             capillary,
+            gas: self.gas.mass(gas_shares),
+            heat_beyond,
+            spread: View::of(self.ctx.prepared, self.ctx.mesh, self.slot),
         }
     }
 
@@ -179,15 +201,41 @@ impl<'a, const N: usize> BlockStep<'a, N> {
                 scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);
             }
         }
-        if self.ctx.model.terms.is_viscous {
-            let BlockScratch {
-                cells, half, inverse_r, face_weight, inverse_weight, works, capillary, ..
-            } = scratch;
-            let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
-            let block = self.term_block(&metric, inverse_r, [rows; 2], capillary);
-            let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
-            self.ctx.model.terms.predict(&block, [v_z, v_r], works);
+    }
+
+    /// What terms add to the states at mid-step.
+    pub(super) fn predict_terms(&self, scratch: &mut BlockScratch<N>) {
+        let terms = &self.ctx.model.terms;
+        if !terms.is_diffusive {
+            return;
         }
+        let BlockScratch { cells, half, inverse_r, face_weight, inverse_weight, works, capillary, .. } =
+            scratch;
+        let BlockScratch { gas_shares, wall, wall_temperatures, .. } = scratch;
+        let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
+        let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
+        let block = self.term_block(&metric, inverse_r, [rows; 2], more);
+        let [_, v_z, v_r, p, _] = half.split_mut::<COUNT>();
+        if terms.is_viscous {
+            terms.predict(&block, [v_z, v_r], works);
+        }
+        if terms.conducts {
+            terms.predict_pressure(&block, p, works);
+        }
+    }
+
+    /// Begins what spreads in stages, see [`SpreadBlock::begin`]; the block has been predicted.
+    pub(super) fn begin_spreading(
+        &self,
+        of: &dyn Spreading,
+        scratch: &mut BlockScratch<N>,
+    ) -> (SpreadBlock, f64) {
+        let BlockScratch { cells, half, inverse_r, face_weight, inverse_weight, capillary, .. } = scratch;
+        let BlockScratch { gas_shares, wall, wall_temperatures, spread_work, .. } = scratch;
+        let metric = self.metric(face_weight, inverse_weight);
+        let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
+        let block = self.term_block(&metric, inverse_r, [half.split(), cells.split()], more);
+        SpreadBlock::begin(self.slot, of, &block, spread_work)
     }
 
     /// States beyond the sides of the domain, and cells that make this step at first order.
@@ -212,13 +260,15 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         if !ctx.model.terms.is_empty() {
             let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } =
                 scratch;
-            let BlockScratch { cells, inverse_r, works, capillary, .. } = scratch;
+            let BlockScratch { cells, inverse_r, works, capillary, gas_shares, .. } = scratch;
+            let BlockScratch { wall, wall_temperatures, .. } = scratch;
             let metric = &self.metric(face_weight, inverse_weight);
-            let block = self.term_block(metric, inverse_r, [half.split(), cells.split()], capillary);
+            let rows = [half.split(), cells.split()];
+            let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
+            let block = self.term_block(metric, inverse_r, rows, more);
             with_sources.clear();
             with_sources.extend_from_slice(ctx.old.block(self.slot));
-            let bounded = ctx.model.terms.add(&block, [z_faces, r_faces], works, with_sources);
-            self.bounded_viscosities = bounded;
+            self.bounded = ctx.model.terms.add(&block, [z_faces, r_faces], works, with_sources);
         }
         let BlockScratch { cells, carried, gas_shares, z_faces, r_faces, .. } = scratch;
         let own = ctx.model.carried.iter().zip(ctx.model.carried_components());
@@ -284,9 +334,25 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             let rows = component * N * N..(component + 1) * N * N;
             carried.update::<N>(&old[rows.clone()], &metric, &mut new[rows]);
         }
+        if ctx.model.terms.is_diffusive && self.gas.phases().is_some() {
+            self.finish_terms(scratch, new);
+        }
         if let Some(exchange) = &ctx.model.exchange {
             self.change_phase(exchange, scratch, new, report);
         }
+    }
+
+    /// What terms do to the cells of both phases at the end of the step.
+    fn finish_terms(&self, scratch: &mut BlockScratch<N>, new: &mut [f64]) {
+        let BlockScratch { cells, face_weight, inverse_weight, speeds, works, .. } = scratch;
+        let mut cells = FinishedCells {
+            cells: N,
+            metric: &self.metric(face_weight, inverse_weight),
+            phi: cells.component(PHI),
+            new,
+            speeds: speeds.split_mut::<3>().map(|row| &mut row[..N * N]),
+        };
+        self.ctx.model.terms.finish(&mut cells, works);
     }
 
     /// What goes from one phase to the other at the end of the step.
@@ -331,8 +397,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             halved_slopes: u64::from(halved),
             limited_predictions: self.limited_predictions,
             clipped_roots: self.clipped_roots,
-            bounded_viscosities: self.bounded_viscosities,
-            ..Clips::default()
+            ..self.bounded
         };
         let speeds = scratch.speeds.split::<3>().map(|row| &row[..N * N]);
         let [_, _, floor] = speeds;
@@ -350,25 +415,43 @@ impl<'a, const N: usize> BlockStep<'a, N> {
                 report.contact = found.map(|cell| cell as u32);
             }
         }
-        let BlockScratch { z_faces, r_faces, face_weight, half, .. } = &*scratch;
+        let BlockScratch { z_faces, r_faces, face_weight, half, works, .. } = &*scratch;
         if ctx.mesh.touches(self.slot, Side::ZMin) {
             for (j, pressure) in report.wall_pressure.iter_mut().enumerate() {
                 *pressure = z_faces.pressure[Padded::<N>::index(-1, j as isize)];
             }
         }
-        if ctx.model.terms.is_viscous {
+        if ctx.model.terms.is_diffusive {
             report.diffusivity = ctx.model.diffusivity::<N>(new);
-            if ctx.mesh.touches(self.slot, Side::ZMin) {
-                let wall = ctx.interface.states_of::<N>(self.slot);
-                // Through a wall at rest no mass carries any momentum along.
-                let of_rest = |j: usize| -z_faces.shear[Padded::<N>::index(-1, j as isize)];
-                report.wall_shear =
-                    std::array::from_fn(|j| wall.map_or_else(|| of_rest(j), |wall| wall[j].shear));
-            }
+        }
+        if ctx.model.terms.is_viscous && ctx.mesh.touches(self.slot, Side::ZMin) {
+            let wall = ctx.interface.states_of::<N>(self.slot);
+            // Through a wall at rest no mass carries any momentum along.
+            let of_rest = |j: usize| -z_faces.shear[Padded::<N>::index(-1, j as isize)];
+            report.wall_shear =
+                std::array::from_fn(|j| wall.map_or_else(|| of_rest(j), |wall| wall[j].shear));
+        }
+        if ctx.model.has_wall()
+            && ctx.mesh.touches(self.slot, Side::ZMin)
+            && let Some([flux, temperature]) = ctx.model.terms.wall_heat(works, Padded::<N>::LEN)
+        {
+            report.wall_heat.copy_from_slice(flux);
+            report.wall_temperature.copy_from_slice(temperature);
         }
         report.inflow = boundary_inflow(ctx, self.slot, z_faces, r_faces, face_weight);
         report.impulse = far_field_gains(ctx, self.slot, half, z_faces, r_faces);
     }
+}
+
+/// What of the scratch terms need besides.
+struct MoreForTerms<'a> {
+    capillary: &'a CapillaryRows,
+    /// m_g/ρ of the padded cells.
+    gas_shares: &'a [f64],
+    /// See [`TermBlock::wall`]; empty where there is none.
+    wall: &'a [FaceState],
+    /// See [`HeatBeyond::Wall`].
+    wall_temperatures: &'a [f64],
 }
 
 /// What bounds the domain on the sides of a block; `None` where other blocks are.

@@ -20,6 +20,7 @@ use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
 use crate::step::update::{Metric, NewCells};
 use crate::step::{BlockScratch, split_block};
+use crate::terms::GasMass;
 use crate::{Boundary, Mixture, RiemannSolver};
 
 /// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
@@ -71,6 +72,17 @@ impl<'a, const N: usize> BlockGas<'a, N> {
     /// Whether the kernels serve mixed cells, too.
     pub fn is_of_kernels(&self) -> bool {
         matches!(self, Self::Fraction)
+    }
+
+    /// The gas's part of the mass, as terms see it.
+    ///
+    /// - `shares`: m_g/ρ of the padded cells, see [`GasBlock::shares`].
+    pub fn mass<'b>(&self, shares: &'b [f64]) -> GasMass<'b> {
+        match self {
+            Self::Fraction => GasMass::Unknown,
+            Self::Absent => GasMass::Absent,
+            Self::Phases(_) => GasMass::Shares(shares),
+        }
     }
 
     pub fn phases(&self) -> Option<&GasBlock<'a, N>> {

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from .paraview import paraview_state
     from .sweeps import bends, consistent_runs, failures, refine, save_map, stand_off_map, sweep, with_uncertainty
 
+    __version__: str
+
 __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
     "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "bends", "collapse",
@@ -58,6 +60,8 @@ _PLACES = {
 def __getattr__(name: str) -> Any:
     if name in ("plot", "theory"):
         return import_module(f".{name}", __name__)
+    if name == "__version__":
+        return import_module("importlib.metadata").version(__name__)
     if name not in _PLACES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     found = getattr(import_module(f".{_PLACES[name]}", __name__), "open_run" if name == "open" else name)
@@ -66,4 +70,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *__all__, "__version__"})

@@ -27,10 +27,10 @@ class Cost:
 
 
 def _run_time(text: str) -> float:
-    """The estimate of the check, which is for a number of threads, as time of one core."""
+    """The estimate of the check, which is for a number of threads, as time of one core: the first time of its line, with all cells."""
     line = next((line for line in text.splitlines() if line.startswith("run time")), "")
     threads = re.search(r"with (\d+) threads", line)
-    told = re.search(r"(?:at most|about) ((?:\d+(?:s|min|m|h|days|day)\s*)+)", line)
+    told = re.match(r"run time\s+(?:about )?((?:\d+(?:s|min|m|h|days|day)\s*)+)", line)
     if not told:
         return 0.0
     parts = re.findall(r"(\d+)(days|day|min|m|h|s)", told[1])
