@@ -3,7 +3,7 @@
 use mesh::{Field, GHOSTS, Mesh, Padded, Side};
 
 use super::initial::curvature_at;
-use super::jumps::{FaceJumps, share_of_jump};
+use super::jumps::{FaceJumps, Tension, share_of_jump};
 use super::patch::WidePatch;
 use crate::reconstruction::Rows;
 use crate::step::update::Metric;
@@ -38,8 +38,8 @@ pub(crate) struct CapillaryRows {
     patch: WidePatch,
     /// ψ of the cells.
     share: Vec<f64>,
-    /// J and J Δψ on the faces along z and r, Pa.
-    tension: [Vec<f64>; 2],
+    /// J beside the faces along z and r, and what the pressure rises by across them, Pa.
+    tension: [Vec<Tension>; 2],
     jump: [Vec<f64>; 2],
     /// Cells of the block and of the first layer around it that have a face with a jump.
     cells: Vec<usize>,
@@ -67,7 +67,7 @@ impl CapillaryRows {
         })
     }
 
-    /// J Δψ on the faces along z and r; `None` where there is none.
+    /// What the pressure rises by on the faces along z and r, Pa; `None` where there is none.
     pub fn jumps(&self) -> Option<[&[f64]; 2]> {
         self.is_present.then(|| [&self.jump[0][..], &self.jump[1][..]])
     }
@@ -79,8 +79,8 @@ impl CapillaryRows {
 
     /// Finds the jumps of a block.
     ///
-    /// On a face J = σκ with the mean of both cells' curvatures, weighted by φ(1 − φ): what lies far from the middle of the interface
-    /// knows less of it.
+    /// J = σκ passes from one cell's to the other's where their mean weighted by φ(1 − φ) is that of the face: what lies far from the
+    /// middle of the interface knows less of it. A cell without a height function has the other's.
     ///
     /// - `cells`: the padded cells, primitive; `gas_shares`: the gas's part of their mass.
     pub fn find<const N: usize>(&mut self, block: &Interfaces<'_, N>, cells: Rows<'_>, gas_shares: &[f64]) {
@@ -102,9 +102,11 @@ impl CapillaryRows {
         }
         self.is_present = true;
         let len = Padded::<N>::LEN;
-        for row in self.tension.iter_mut().chain(&mut self.jump) {
-            row.clear();
-            row.resize(len, 0.0);
+        for (tension, jump) in self.tension.iter_mut().zip(&mut self.jump) {
+            tension.clear();
+            tension.resize(len, Tension::default());
+            jump.clear();
+            jump.resize(len, 0.0);
         }
         self.share.clear();
         let shares =
@@ -123,15 +125,10 @@ impl CapillaryRows {
                 });
                 *own
             });
-            let weight = below[1] + above[1];
-            let kappa = if weight > 0.0 {
-                (below[0] * below[1] + above[0] * above[1]) / weight
-            } else {
-                0.5 * (below[0] + above[0])
-            };
+            let tension = between([below, above], [phi[k], phi[k + step]], block.tension);
             let axis = usize::from(step != 1);
-            self.tension[axis][k] = block.tension * kappa;
-            self.jump[axis][k] = block.tension * kappa * (self.share[k + step] - self.share[k]);
+            self.tension[axis][k] = tension;
+            self.jump[axis][k] = tension.rise([self.share[k], self.share[k + step]]);
         }
         self.list_cells::<N>();
     }
@@ -178,6 +175,21 @@ impl CapillaryRows {
                 gain(j * n + i, [row.axial(east, -west), radial, work]);
             }
         }
+    }
+}
+
+/// The tension beside a face.
+///
+/// - `cells`: κ and its weight, below and above; `phi`: the gas fractions there; `sigma`: N/m.
+fn between([below, above]: [[f64; 2]; 2], phi: [f64; 2], sigma: f64) -> Tension {
+    let weight = below[1] + above[1];
+    let part = if weight > 0.0 { below[1] / weight } else { 0.5 };
+    let mean = part * below[0] + (1.0 - part) * above[0];
+    let both_have_heights = below[1] > 0.0 && above[1] > 0.0;
+    let curvatures = if both_have_heights { [below[0], above[0]] } else { [mean; 2] };
+    Tension {
+        of_cells: curvatures.map(|kappa| sigma * kappa),
+        passes_at: (1.0 - part) * phi[0] + part * phi[1],
     }
 }
 
