@@ -6,6 +6,8 @@ use super::initial::curvature_at;
 use super::jumps::{FaceJumps, Tension, share_of_jump};
 use super::patch::WidePatch;
 use crate::reconstruction::Rows;
+use crate::state::finished::{FinishedCell, measure_cell};
+use crate::state::{ConservedCell, primitive_of};
 use crate::step::update::Metric;
 use crate::two_phase::is_compliant;
 use crate::{Boundary, Mixture};
@@ -41,6 +43,8 @@ pub(crate) struct CapillaryRows {
     /// J beside the faces along z and r, and what the pressure rises by across them, Pa.
     tension: [Vec<Tension>; 2],
     jump: [Vec<f64>; 2],
+    /// The largest J beside a cell's faces, Pa.
+    largest: Vec<f64>,
     /// Cells of the block and of the first layer around it that have a face with a jump.
     cells: Vec<usize>,
     is_present: bool,
@@ -77,6 +81,21 @@ impl CapillaryRows {
         &self.cells
     }
 
+    /// A cell below the pressure floor, if its gas is not in tension: that is at p + (1 − ψ)J, where the cell has p, see
+    /// [`share_of_jump`]. Around a bubble whose gas has less than σκ the liquid is in tension.
+    ///
+    /// - `k`: its padded index; `u`, `gas`: the cell and its m_g after the step.
+    pub fn borne(&self, k: usize, u: ConservedCell, gas: f64, mixture: &Mixture) -> Option<FinishedCell> {
+        let largest = if self.is_present { self.largest[k] } else { 0.0 };
+        if largest <= 0.0 {
+            return None;
+        }
+        let [rho, _, _, pressure, phi] = primitive_of::<true>(u, gas, mixture);
+        let of_gas = pressure + (1.0 - share_of_jump(phi, rho, gas, mixture)) * largest;
+        let cell = (of_gas >= mixture.pressure_floor(1.0)).then(|| measure_cell(u, gas, mixture));
+        cell.filter(FinishedCell::is_admissible)
+    }
+
     /// Finds the jumps of a block.
     ///
     /// J = σκ passes from one cell's to the other's where their mean weighted by φ(1 − φ) is that of the face: what lies far from the
@@ -108,6 +127,8 @@ impl CapillaryRows {
             jump.clear();
             jump.resize(len, 0.0);
         }
+        self.largest.clear();
+        self.largest.resize(len, 0.0);
         self.share.clear();
         let shares =
             (0..len).map(|k| share_of_jump(phi[k], density[k], density[k] * gas_shares[k], block.mixture));
@@ -128,6 +149,9 @@ impl CapillaryRows {
             let tension = between([below, above], [phi[k], phi[k + step]], block.tension);
             let axis = usize::from(step != 1);
             self.tension[axis][k] = tension;
+            for (cell, own) in [k, k + step].into_iter().zip(tension.of_cells) {
+                self.largest[cell] = self.largest[cell].max(own);
+            }
             self.jump[axis][k] = tension.rise([self.share[k], self.share[k + step]]);
         }
         self.list_cells::<N>();

@@ -308,6 +308,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             inverse_r,
             with_sources,
             carried,
+            capillary,
             ..
         } = scratch;
         let metric = self.metric(face_weight, inverse_weight);
@@ -325,7 +326,8 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             NewCells { conserved: split_block::<N>(state), speeds: speeds.each_mut().map(|row| &mut **row) };
         update::<N>(old_rows, faces, &metric, (self.gas.is_present(), gas_after), &ctx.model.mixture, rows);
         if let Some(block) = self.gas.phases() {
-            let before = Before { old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
+            let pressure = cells.component(PRESSURE);
+            let before = Before { old, pressure, inverse_r, metric: &metric, capillary };
             block.update(gas, before, faces, new, speeds, report);
         } else if !self.gas.is_present() {
             new[PHI * N * N..].fill(0.0);
