@@ -192,7 +192,8 @@ fn study_of_oscillations() {
             for viscosity in [0.0, VISCOSITY] {
                 let exact = if viscosity > 0.0 { prosperetti(inside, viscosity) } else { [1.0, 0.0] };
                 for riemann in [RiemannSolver::Hllc, RiemannSolver::HllcLowMach] {
-                    for cells in [10, 20, 40] {
+                    let is_default = kind == SHARP && riemann == RiemannSolver::Hllc;
+                    for &cells in if is_default { &[10, 20, 40][..] } else { &[10, 20] } {
                         let [frequency, damping] = oscillation(kind, inside, cells, riemann, viscosity);
                         eprintln!(
                             "{name} {inside:?} {viscosity} {riemann:?} {cells}: {frequency:.4}, {damping:+.4}, exact {exact:.4?}"

@@ -192,3 +192,38 @@ fn an_interface_at_a_wall_is_refused_without_an_angle() {
     assert!(refused.to_string().contains("fluid.terms.contact_angle = 90"), "{refused}");
     assert!(at(true).is_ok());
 }
+
+/// The gas of a bubble of 10 µm in water has 1 kPa, its jump 14.6 kPa: the liquid is at −13.6 kPa, and mixed cells are in between.
+#[test]
+fn liquid_in_tension_around_a_small_bubble_stays_at_rest() {
+    let (radius, sigma, gas_pressure) = (1e-5, 0.0728, 1e3);
+    let length = 3.0 * radius;
+    let domain = Domain { geometry: AXIAL, z: [-length, length], r: [0.0, length] };
+    let tension = SurfaceTension { coefficient: sigma, density: 1000.0, may_touch_walls: false };
+    let setup = FluidSetup {
+        surface_tension: Some(tension),
+        scales: Scales { pressure: 1e5, density: 1e3 },
+        ..FluidSetup::new(domain, [96, 48], CYLINDER)
+    };
+    let initial = InitialCondition {
+        ambient: state(Phase::Liquid, 1000.0, gas_pressure - 2.0 * sigma / radius),
+        pressure: InitialPressure::Uniform,
+        regions: vec![Region {
+            shape: Shape::Sphere { centre: [0.3 * length / 48.0, 0.0], radius },
+            state: state(Phase::Gas, 0.012, gas_pressure),
+        }],
+        pulses: vec![],
+    };
+    let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
+    for _ in 0..200 {
+        fluid.step_at(CFL).unwrap();
+    }
+    let (fastest, gas, liquid) = at_rest(&fluid);
+    let jump = (gas - liquid) * radius / (2.0 * sigma);
+    let speed = (sigma / (1000.0 * radius)).sqrt();
+    eprintln!("{:.1e} of the capillary speed, jump {jump:.5}", fastest / speed);
+    assert!(liquid < 0.0 && (jump - 1.0).abs() < 5e-3, "{gas} {liquid}");
+    assert!(fastest < 5e-4 * speed, "{fastest}");
+    let fixups = fluid.fixups();
+    assert!(fixups.clips.expanded_cells == 0 && fixups.floored == 0, "{fixups:?}");
+}
