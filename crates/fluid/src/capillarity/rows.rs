@@ -9,7 +9,7 @@ use crate::reconstruction::Rows;
 use crate::state::finished::{FinishedCell, measure_cell};
 use crate::state::{ConservedCell, primitive_of};
 use crate::step::update::Metric;
-use crate::two_phase::is_compliant;
+use crate::two_phase::{Compression, is_compliant, is_mixed, phase_densities};
 use crate::{Boundary, Mixture};
 
 /// A block whose interfaces have a tension.
@@ -26,6 +26,8 @@ pub(crate) struct Interfaces<'a, const N: usize> {
     pub tension: f64,
     /// Whether only cells with face states of their own have interfaces, as in the five-equation model.
     pub has_phases: bool,
+    /// Whether the gas fraction follows the closure of the phases' compression.
+    pub has_closure: bool,
 }
 
 /// Gas fractions of two cells that differ by less have no interface between them.
@@ -43,8 +45,10 @@ pub(crate) struct CapillaryRows {
     /// J beside the faces along z and r, and what the pressure rises by across them, Pa.
     tension: [Vec<Tension>; 2],
     jump: [Vec<f64>; 2],
-    /// The largest J beside a cell's faces, Pa.
-    largest: Vec<f64>,
+    /// J of the cells, Pa: the largest beside their faces.
+    own: Vec<f64>,
+    /// What tension takes from a cell's energy per unit of its dilatation, Pa, see [`CapillaryRows::for_gains`].
+    stretched: Vec<f64>,
     /// Cells of the block and of the first layer around it that have a face with a jump.
     cells: Vec<usize>,
     is_present: bool,
@@ -86,12 +90,12 @@ impl CapillaryRows {
     ///
     /// - `k`: its padded index; `u`, `gas`: the cell and its m_g after the step.
     pub fn borne(&self, k: usize, u: ConservedCell, gas: f64, mixture: &Mixture) -> Option<FinishedCell> {
-        let largest = if self.is_present { self.largest[k] } else { 0.0 };
-        if largest <= 0.0 {
+        let own = if self.is_present { self.own[k] } else { 0.0 };
+        if own <= 0.0 {
             return None;
         }
         let [rho, _, _, pressure, phi] = primitive_of::<true>(u, gas, mixture);
-        let of_gas = pressure + (1.0 - share_of_jump(phi, rho, gas, mixture)) * largest;
+        let of_gas = pressure + (1.0 - share_of_jump(phi, rho, gas, mixture)) * own;
         let cell = (of_gas >= mixture.pressure_floor(1.0)).then(|| measure_cell(u, gas, mixture));
         cell.filter(FinishedCell::is_admissible)
     }
@@ -127,8 +131,10 @@ impl CapillaryRows {
             jump.clear();
             jump.resize(len, 0.0);
         }
-        self.largest.clear();
-        self.largest.resize(len, 0.0);
+        for row in [&mut self.own, &mut self.stretched] {
+            row.clear();
+            row.resize(len, 0.0);
+        }
         self.share.clear();
         let shares =
             (0..len).map(|k| share_of_jump(phi[k], density[k], density[k] * gas_shares[k], block.mixture));
@@ -150,11 +156,22 @@ impl CapillaryRows {
             let axis = usize::from(step != 1);
             self.tension[axis][k] = tension;
             for (cell, own) in [k, k + step].into_iter().zip(tension.of_cells) {
-                self.largest[cell] = self.largest[cell].max(own);
+                if own.abs() > self.own[cell].abs() {
+                    self.own[cell] = own;
+                }
             }
             self.jump[axis][k] = tension.rise([self.share[k], self.share[k + step]]);
         }
         self.list_cells::<N>();
+        if !block.has_closure {
+            return;
+        }
+        for &k in &self.cells {
+            let of_gas = (1.0 - self.share[k]) * self.own[k];
+            let densities = phase_densities(density[k], gas_shares[k], phi[k], block.mixture);
+            let closure = Compression::at(pressure[k] + of_gas, phi[k], densities, block.mixture, true);
+            self.stretched[k] = if is_mixed(phi[k]) { of_gas * closure.expansion(phi[k]) } else { 0.0 };
+        }
     }
 
     fn list_cells<const N: usize>(&mut self) {
@@ -173,6 +190,9 @@ impl CapillaryRows {
 
     /// What the axial and radial momentum and the energy of cells gain in a step per volume: half of the jump on each of their faces,
     /// and that times the face's velocity, see [`FaceJumps::settle`].
+    ///
+    /// The work of tension is −J ∂φ/∂t: J v·∇φ, and −J times what φ grows by where the gas of a mixed cell expands. So gas does the work of its
+    /// own pressure, p + (1 − ψ)J, not that of the cell's.
     ///
     /// - `n`: cells along the block's side; `velocities`: normal to the faces along z and r; `gain`: gets j N + i and the gains.
     pub fn for_gains(
@@ -194,6 +214,9 @@ impl CapillaryRows {
                 let [north, south] = [k, below].map(|face| 0.5 * self.jump[1][face]);
                 let work = row.axial(z_velocity[k] * east, -(z_velocity[k - 1] * west))
                     + row.radial(r_velocity[k] * north, -(r_velocity[below] * south));
+                let dilatation = row.axial(z_velocity[k], z_velocity[k - 1])
+                    + row.radial(r_velocity[k], r_velocity[below]);
+                let work = work - self.stretched[k] * dilatation;
                 // As the pressure's, the radial force has no weights.
                 let radial = metric.dt * metric.inverse_h[1] * (north + south);
                 gain(j * n + i, [row.axial(east, -west), radial, work]);
