@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use fluid::{
     Boundary, Conduction, EvaporationLaw, FarField, FluidSetup, FluidSolver, InitialCondition,
     InitialPressure, Mixture, NobleAbelStiffenedGas, Phase, PhaseChange, PhaseState, PressureHistory,
-    Primitive, Region, RiemannSolver, Shape, ThinGas, WallHeat,
+    Primitive, Region, RiemannSolver, Shape, SurfaceTension, ThinGas, WallHeat,
 };
 use mesh::Domain;
 
@@ -172,6 +172,10 @@ fn radius(fluid: &FluidSolver<8>) -> f64 {
 }
 
 /// Scriven's problem from R = 10 to 20 µm with so many cells in the last one's radius.
+///
+/// A little surface tension, 2σ/R of 1 % of the superheat at first, keeps the bubble round: a bump of it would reach hotter liquid and grow.
+///
+/// - returns: the error of R.
 fn scriven(cells: usize, law: EvaporationLaw, jakob: f64) -> f64 {
     let (density, latent, conductivity) = (60.0, 2.18e6, 1.4);
     let [liquid, gas] = laws(density, latent);
@@ -210,6 +214,7 @@ fn scriven(cells: usize, law: EvaporationLaw, jakob: f64) -> f64 {
         phase_change: Some(PhaseChange { law, vapour_fraction: 1.0, cavitation: None }),
         far_field: FarField::of(&initial, &mixture, &domain, sides, None, 1.0).ok(),
         riemann: RiemannSolver::HllcLowMach,
+        surface_tension: Some(SurfaceTension { coefficient: 1e-3, density, may_touch_walls: false }),
         ..FluidSetup::new(domain, [3 * cells; 2], sides)
     };
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
@@ -281,7 +286,8 @@ fn study_of_superheated_fronts() {
 #[test]
 #[ignore = "minutes"]
 fn study_of_scrivens_bubbles() {
-    for cells in [8, 16, 32] {
-        scriven(cells, EvaporationLaw::Equilibrium, 1.0);
+    for (cells, most) in [(16, 0.04), (32, 0.02)] {
+        let wrong = scriven(cells, EvaporationLaw::Equilibrium, 1.0);
+        assert!(wrong.abs() < most, "{wrong}");
     }
 }
