@@ -20,7 +20,7 @@ use crate::state::primitive::PHI;
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
-use crate::{Boundary, FluidSetup, Mixture};
+use crate::{Boundary, EvaporationLaw, FluidSetup, Mixture};
 use conduction::ConductionTerm;
 use super_stepping::{Spreading, View};
 
@@ -250,7 +250,8 @@ impl Terms {
     /// Those that a setup asks for.
     pub fn of(setup: &FluidSetup) -> Self {
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let conduction = setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture));
+        let boils = setup.phase_change.is_some_and(|asked| asked.law == EvaporationLaw::Equilibrium);
+        let conduction = setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture, boils));
         let (is_viscous, conducts) = (setup.viscosity.is_some(), conduction.is_some());
         let all: [Option<Box<dyn Term>>; 4] = [
             setup.gravity.map(|gravity| Box::new(gravity) as _),
