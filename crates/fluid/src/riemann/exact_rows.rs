@@ -75,6 +75,8 @@ struct Chunk {
     f_right: Lane,
     /// 0 before the iteration has ended, 1 after it, 2 where there is no state.
     done: Lane,
+    /// Both sides' wave curves at the iterate.
+    curves: [Curve; 2],
 }
 
 impl Chunk {
@@ -103,6 +105,7 @@ impl Chunk {
             f_left: ZERO,
             f_right: ZERO,
             done: ZERO,
+            curves: [Curve::ZERO; 2],
         }
     }
 }
@@ -267,29 +270,49 @@ fn prepare<const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
     }
 }
 
-/// f_K and its derivatives by P, times P and P², as `curve` of the scalar solver.
+/// What a wave curve is at the iterate: f_K and its derivatives by P, times P and P².
+#[derive(Clone, Copy)]
+struct Curve {
+    f: Lane,
+    slope: Lane,
+    curvature: Lane,
+}
+
+impl Curve {
+    const ZERO: Self = Self { f: [0.0; LANES], slope: [0.0; LANES], curvature: [0.0; LANES] };
+}
+
+/// The wave curve of one side, as `curve` of the scalar solver, in two loops: the logarithms, and what is made of them. In one, and
+/// with both sides in it, the processor would not see the next faces before these are through.
 #[inline(always)]
-fn curve(s: &Sides, k: usize, p: f64, shifted: f64) -> [f64; 3] {
-    let (m, inverse_base) = (s.m[k], s.inverse_base[k]);
-    let a = 1.0 - m;
-    let per_gamma = s.c[k] * (1.0 - 2.0 * m);
-    let x = (p - s.p[k]) * inverse_base;
-    let ratio = (shifted + s.offset[k]) * inverse_base;
-    let lever = shifted * inverse_base;
-    let shock = x > 0.0;
-    // Both waves are made, with one division between them, and one is chosen.
-    let inverse = 1.0 / if shock { 1.0 + a * x } else { ratio };
-    let scale = per_gamma * inverse.sqrt();
-    let (power, less_one) = exp_and_less_one(m * ln_of(ratio, x));
-    let slope_shock = scale * inverse * (1.0 + 0.5 * a * x) * lever;
-    let slope_fan = per_gamma * power * (lever * inverse);
-    let curvature_shock = -scale * (inverse * inverse) * a * (1.0 + 0.25 * a * x) * (lever * lever);
-    let curvature_fan = -a * slope_fan * (lever * inverse);
-    [
-        if shock { scale * x } else { s.escape[k] * less_one },
-        if shock { slope_shock } else { slope_fan },
-        if shock { curvature_shock } else { curvature_fan },
-    ]
+fn curve(n: usize, s: &Sides, p: &Lane, shifted: &Lane, curve: &mut Curve) {
+    let Curve { f, slope, curvature } = curve;
+    let exponent = &mut *f;
+    for k in 0..n.min(LANES) {
+        let x = (p[k] - s.p[k]) * s.inverse_base[k];
+        let ratio = (shifted[k] + s.offset[k]) * s.inverse_base[k];
+        exponent[k] = s.m[k] * ln_of(ratio, x);
+    }
+    for k in 0..n.min(LANES) {
+        let (m, inverse_base) = (s.m[k], s.inverse_base[k]);
+        let a = 1.0 - m;
+        let per_gamma = s.c[k] * (1.0 - 2.0 * m);
+        let x = (p[k] - s.p[k]) * inverse_base;
+        let ratio = (shifted[k] + s.offset[k]) * inverse_base;
+        let lever = shifted[k] * inverse_base;
+        let shock = x > 0.0;
+        // Both waves are made, with one division between them, and one is chosen.
+        let inverse = 1.0 / if shock { 1.0 + a * x } else { ratio };
+        let scale = per_gamma * inverse.sqrt();
+        let (power, less_one) = exp_and_less_one(f[k]);
+        let slope_shock = scale * inverse * (1.0 + 0.5 * a * x) * lever;
+        let slope_fan = per_gamma * power * (lever * inverse);
+        let curvature_shock = -scale * (inverse * inverse) * a * (1.0 + 0.25 * a * x) * (lever * lever);
+        let curvature_fan = -a * slope_fan * (lever * inverse);
+        f[k] = if shock { scale * x } else { s.escape[k] * less_one };
+        slope[k] = if shock { slope_shock } else { slope_fan };
+        curvature[k] = if shock { curvature_shock } else { curvature_fan };
+    }
 }
 
 /// One step of all faces that are not done.
@@ -298,11 +321,14 @@ fn curve(s: &Sides, k: usize, p: f64, shifted: f64) -> [f64; 3] {
 /// one that stays above Newton's in ln P, which ends above it.
 #[inline(always)]
 fn advance(n: usize, chunk: &mut Chunk) {
-    let Chunk { left, right, pi, p, shifted, f_left, f_right, done } = chunk;
+    let Chunk { left, right, pi, p, shifted, f_left, f_right, done, curves } = chunk;
+    let [on_left, on_right] = curves;
+    curve(n, left, p, shifted, on_left);
+    curve(n, right, p, shifted, on_right);
     for k in 0..n.min(LANES) {
         let (p_old, shifted_old) = (p[k], shifted[k]);
-        let [f_l, slope_l, curvature_l] = curve(left, k, p_old, shifted_old);
-        let [f_r, slope_r, curvature_r] = curve(right, k, p_old, shifted_old);
+        let [f_l, slope_l, curvature_l] = [on_left.f[k], on_left.slope[k], on_left.curvature[k]];
+        let [f_r, slope_r, curvature_r] = [on_right.f[k], on_right.slope[k], on_right.curvature[k]];
         let inverse = 1.0 / (slope_l + slope_r);
         let x = ((f_l + f_r) + (right.u[k] - left.u[k])) * inverse;
         let bend = x * ((curvature_l + curvature_r) * inverse);

@@ -13,10 +13,10 @@ use crate::reconstruction::dispersion::AlongFaces;
 use crate::riemann::exact_rows::exact_faces;
 use crate::riemann::godunov::flux_exact;
 use crate::riemann::hllc::{flux_hllc, flux_hllc_low_mach};
+use crate::riemann::hllc_rows::{has_roots, hllc_faces};
 use crate::state::COUNT;
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
 use crate::step::face_rows::{FaceRows, used_face};
-use crate::step::rows::{self};
 use crate::two_phase::FaceState;
 
 impl<const N: usize> BlockStep<'_, N> {
@@ -99,7 +99,7 @@ fn faces<const N: usize>(
         riemann @ (RiemannSolver::Hllc | RiemannSolver::HllcLowMach) => {
             let (stride, mixture) = (Padded::<N>::STRIDE, &ctx.model.mixture);
             let is_low_mach = riemann == RiemannSolver::HllcLowMach;
-            if rows::hllc_faces(cells, step, stride, range.clone(), mixture, is_low_mach, faces) {
+            if hllc_faces(cells, step, stride, range.clone(), mixture, is_low_mach, faces) {
                 return 0;
             }
             // Mixed cells of the five-equation model have states and fluxes of their own: their share is −0.
@@ -109,7 +109,7 @@ fn faces<const N: usize>(
                     && replaced != Some(*k % Padded::<N>::STRIDE)
                     && !(is_own(*k) || is_own(*k + step))
             };
-            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, mixture)).count() as u64
+            range.filter(counts).filter(|k| !has_roots(cells, *k, step, mixture)).count() as u64
         }
         RiemannSolver::Exact => {
             let stride = Padded::<N>::STRIDE;
