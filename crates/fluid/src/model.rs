@@ -2,7 +2,7 @@
 
 use mesh::{
     Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Side, StageTimer,
+    ScratchPool, Side, StageTimer, Tile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +19,7 @@ use crate::step::clips::{CountedAnalysis, SharedCount};
 use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::BlockReport;
 use crate::step::update::Extremes;
-use crate::step::{BlockScratch, STAGES, step_block};
+use crate::step::{BlockScratch, STAGES, is_one, step_tile};
 use crate::{Boundary, BoundaryLedger, Fixups, FluidError, PhaseLedger, near_wall};
 
 /// What of a fluid changes in time besides its cells.
@@ -96,7 +96,31 @@ impl<const N: usize> Model<N> for Fluid {
         scratch: &mut BlockScratch<N>,
         timer: &mut StageTimer,
     ) -> BlockReport<N> {
-        step_block(step, slot, new, register, scratch, timer)
+        let mut report = [BlockReport::default()];
+        step_tile(step, Tile::one(slot), (new, register), &mut report, (scratch, timer));
+        let [report] = report;
+        report
+    }
+
+    fn step_tile(
+        &self,
+        step: &FluidStep<'_, N>,
+        tile: Tile,
+        new: &mut [f64],
+        register: &mut [f64],
+        reports: &mut [BlockReport<N>],
+        scratch: &mut BlockScratch<N>,
+        timer: &mut StageTimer,
+    ) {
+        if let Some(of_four) = scratch.of_four.as_mut().filter(|_| !tile.is_one() && is_one(step, tile)) {
+            step_tile(step, tile, (new, register), reports, (of_four, timer));
+            return;
+        }
+        let (len, registered) = (new.len() / tile.blocks(), register.len() / tile.blocks());
+        let parts = new.chunks_exact_mut(len).zip(register.chunks_exact_mut(registered));
+        for ((slot, report), parts) in tile.slots().zip(reports.chunks_exact_mut(1)).zip(parts) {
+            step_tile(step, Tile::one(slot), parts, report, (scratch, timer));
+        }
     }
 
     fn correct(
@@ -182,7 +206,8 @@ impl<const N: usize> Model<N> for Fluid {
         fixups.gas_mass_added += report.phase_mass_added[0];
         fixups.liquid_mass_added += report.phase_mass_added[1];
         fixups.clips += report.clips;
-        for (side, [mass, momentum, energy, gas_mass]) in report.inflow.into_iter().enumerate() {
+        let sides = report.sides.as_deref();
+        for (side, [mass, momentum, energy, gas_mass]) in sides.iter().flat_map(|s| s.inflow).enumerate() {
             ledger.mass[side] += mass;
             ledger.momentum[side] += momentum;
             ledger.energy[side] += energy;
@@ -199,9 +224,9 @@ impl<const N: usize> Model<N> for Fluid {
                 ledger.wall_work += dt * area * state.power;
             }
         }
-        for side in Side::ALL {
+        for (side, sides) in Side::ALL.into_iter().filter_map(|side| Some((side, sides?))) {
             if self.boundaries.has_far_field(side) && mesh.touches(slot, side) {
-                for (along, gain) in report.impulse[side as usize].0.into_iter().enumerate() {
+                for (along, gain) in sides.impulse[side as usize].0.into_iter().enumerate() {
                     self.far.impulses.add(side, id.level, id.first_face::<N>(side) + along, gain);
                 }
             }

@@ -144,7 +144,8 @@ impl<const N: usize> FluidSolver<N> {
     pub fn wall_face_pressures(&self, pressures: &mut Vec<f64>) {
         pressures.clear();
         for slot in self.interface().blocks() {
-            pressures.extend_from_slice(&self.reports().pending[*slot].wall_pressure);
+            let sides = self.reports().pending[*slot].sides.as_deref();
+            pressures.extend_from_slice(sides.map_or(&[0.0; N], |sides| &sides.wall_pressure));
         }
     }
 
@@ -156,7 +157,8 @@ impl<const N: usize> FluidSolver<N> {
             return;
         }
         for slot in self.interface().blocks() {
-            shears.extend_from_slice(&self.reports().pending[*slot].wall_shear);
+            let sides = self.reports().pending[*slot].sides.as_deref();
+            shears.extend_from_slice(sides.map_or(&[0.0; N], |sides| &sides.wall_shear));
         }
     }
 

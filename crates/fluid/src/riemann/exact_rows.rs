@@ -121,7 +121,7 @@ pub(crate) fn exact_faces(
     step: usize,
     stride: usize,
     range: std::ops::Range<usize>,
-    used: fn(usize, usize) -> bool,
+    used: &dyn Fn(usize) -> bool,
     mixture: &Mixture,
     faces: &mut FaceRows,
 ) {
@@ -140,7 +140,7 @@ fn exact_rows<const B: bool>(
     cells: &Reconstruction<'_>,
     step: usize,
     range: Range<usize>,
-    used: fn(usize, usize) -> bool,
+    used: &dyn Fn(usize) -> bool,
     mixture: &Mixture,
     faces: &mut FaceRows,
 ) {
@@ -166,7 +166,7 @@ fn exact_rows<const B: bool>(
         );
         if count(&solved, n) < n {
             for k in 0..n {
-                if solved[k] == 0.0 && used(first + k, step) {
+                if solved[k] == 0.0 && used(first + k) {
                     let at = |s: &Sides| [s.rho[k], s.u[k], s.v[k], s.p[k], s.phi[k]];
                     let shares = [chunk.left.gas_share[k], chunk.right.gas_share[k]];
                     faces.set(first + k, flux_exact(at(&chunk.left), at(&chunk.right), shares, mixture));

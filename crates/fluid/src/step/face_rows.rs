@@ -1,6 +1,6 @@
 //! The fluxes through the faces of a padded block.
 
-use mesh::{AlignedRow, Padded};
+use mesh::{AlignedRow, Frame};
 
 use crate::riemann::hllc::Face;
 
@@ -88,11 +88,11 @@ pub(crate) fn set_face(
     phi[k] = face.phi;
 }
 
-/// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block.
-pub(crate) fn used_face<const N: usize>(k: usize, step: usize) -> bool {
-    let (i, j) = (k % Padded::<N>::STRIDE, k / Padded::<N>::STRIDE);
-    let inner = mesh::GHOSTS..mesh::GHOSTS + N;
-    let faces = mesh::GHOSTS - 1..mesh::GHOSTS + N;
+/// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block or tile.
+pub(crate) fn used_face(frame: Frame, k: usize, step: usize) -> bool {
+    let (i, j) = (k % frame.stride(), k / frame.stride());
+    let inner = mesh::GHOSTS..mesh::GHOSTS + frame.cells();
+    let faces = mesh::GHOSTS - 1..mesh::GHOSTS + frame.cells();
     if step == 1 {
         faces.contains(&i) && inner.contains(&j)
     } else {

@@ -1,6 +1,6 @@
 //! The part of a block's step that only the five-equation model has, where there is gas.
 
-use mesh::{Padded, Side};
+use mesh::{Frame, Padded, Side, Tile, TileRows};
 
 use super::cells::Cells;
 use super::expansion::{Gas, expanded};
@@ -47,9 +47,10 @@ pub(crate) enum BlockGas<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> BlockGas<'a, N> {
-    /// - `may_have_gas`: see [`may_have_gas`]; what a neighbour has may be farther away. `cells`: the padded cells, primitive.
-    pub fn of(ctx: &'a FluidStep<'a, N>, slot: usize, may_have_gas: bool, cells: &Padded<N>) -> Self {
+    /// - `may_have_gas`: see [`may_have_gas`]; what a neighbour has may be farther away. `cells`: the padded cells of the tile, primitive.
+    pub fn of(ctx: &'a FluidStep<'a, N>, tile: Tile, may_have_gas: bool, cells: &TileRows<N>) -> Self {
         let PhaseModel::FiveEquation(options) = ctx.model.scheme.phases else { return Self::Fraction };
+        let slot = tile.first();
         let has_gas = || {
             !ctx.marks.is_empty()
                 || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
@@ -157,8 +158,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
                 continue;
             }
             for along in 0..N {
-                let [inner, ghost] =
-                    crate::boundary::beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+                let [inner, ghost] = crate::boundary::beside(side, Frame::of(N), along as isize);
                 let given =
                     self.ctx.model.boundaries.initial_gas_share(self.ctx.mesh, self.slot, side, along);
                 shares[ghost] = given.unwrap_or(shares[inner]);

@@ -4,7 +4,7 @@
 //! lists of the others and puts their fluxes in the place of the kernels'.
 
 use crate::state::primitive::VELOCITY;
-use mesh::{GHOSTS, Padded, Side};
+use mesh::{Frame, GHOSTS, Padded, Side};
 
 use super::cells::{Cells, FaceState, RowKinds, find_interface};
 use super::closure::{Compression, is_mixed, phase_densities};
@@ -58,7 +58,7 @@ struct Problem {
 impl MixedCells {
     pub fn new<const N: usize>() -> Self {
         let (len, stride) = (Padded::<N>::LEN, Padded::<N>::STRIDE);
-        let is_used = |k: usize, step: usize| u8::from(used_face::<N>(k, step));
+        let is_used = |k: usize, step: usize| u8::from(used_face(Frame::of(N), k, step));
         Self {
             is_used: (0..len).map(|k| is_used(k, 1) | is_used(k, stride) << 1).collect(),
             index: vec![NONE; len],
@@ -135,8 +135,8 @@ impl MixedCells {
         let own_windows = self.windows.len();
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Block) {
             let ghost = |along: usize| {
-                let [_, (i, j)] = beside(side, N, along as isize);
-                Padded::<N>::index(i, j)
+                let [_, ghost] = beside(side, Frame::of(N), along as isize);
+                ghost
             };
             let bit =
                 |k: usize| self.kinds[k / Padded::<N>::STRIDE].at_interface >> (k % Padded::<N>::STRIDE) & 1;
@@ -157,7 +157,7 @@ impl MixedCells {
         }
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Mirror) {
             for along in 0..N {
-                let [inner, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+                let [inner, ghost] = beside(side, Frame::of(N), along as isize);
                 if self.index[inner] != NONE {
                     let states = [0, 1, 2, 3].map(|face| self.states.of(self.index[inner] as usize, face));
                     let place = self.states.push(mirrored(states, side));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::multiresolution::radial::{RadialRow, RadialTable};
-use crate::{BlockId, GHOSTS, Geometry, Neighbour, Padded, Quadtree, Side};
+use crate::{BlockId, Geometry, Neighbour, Quadtree, Side};
 
 /// The rectangle that a medium fills.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -220,14 +220,6 @@ impl<const N: usize> Mesh<N> {
     pub fn volume(&self, id: BlockId, j: usize) -> f64 {
         let [hz, hr] = self.widths(id.level);
         self.weight(self.centre(id, 0, j)[1]) * hr * hz
-    }
-
-    /// Fills padded rows of a block with 1/r at the cells' centres, in planar geometry with 0.
-    pub fn inverse_radii(&self, id: BlockId, cells: &mut [f64]) {
-        let rows = cells.chunks_exact_mut(Padded::<N>::STRIDE);
-        for (j, row) in (-(GHOSTS as isize)..).zip(rows) {
-            row.fill(self.inverse_radius(id, j));
-        }
     }
 
     /// 1/r at the centres of row `j` of a block, which may lie beyond it; in planar geometry 0.
