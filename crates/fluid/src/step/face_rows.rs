@@ -46,6 +46,11 @@ impl FaceRows {
         (&mut self.gas, &self.mass)
     }
 
+    /// Gas may pass.
+    pub fn with_gas(&mut self) {
+        self.has_gas = true;
+    }
+
     /// No gas passes; most blocks leave it at that.
     pub fn without_gas(&mut self) {
         if std::mem::take(&mut self.has_gas) {

@@ -40,6 +40,10 @@ impl<const N: usize> TileStep<'_, N> {
             r_faces,
             ..
         } = scratch;
+        if self.gas.is_present() {
+            z_faces.with_gas();
+            r_faces.with_gas();
+        }
         let [rho, v_z, v_r, p, phi] = half.split::<COUNT>();
         let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_z.split::<COUNT>();
         let along_z = Reconstruction {

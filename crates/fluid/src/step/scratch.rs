@@ -5,7 +5,7 @@ use mesh::{AlignedRow, Frame, Patch, TileRows};
 use crate::capillarity::CapillaryRows;
 use crate::components::carried::CarriedScratch;
 use crate::state::COUNT;
-use crate::state::conserved::{GAS, PHI};
+use crate::state::conserved::PHI;
 use crate::step::face_rows::FaceRows;
 use crate::two_phase::GasScratch;
 
@@ -83,12 +83,16 @@ impl<const N: usize> BlockScratch<N> {
     }
 
     /// There is no gas in the block; most leave it at that.
-    pub(super) fn without_gas(&mut self) {
+    ///
+    /// - `gas`: the component of its mass, if it has one.
+    pub(super) fn without_gas(&mut self, gas: Option<usize>) {
         if std::mem::take(&mut self.has_gas) {
             for rows in [&mut self.cells, &mut self.s_z, &mut self.s_r, &mut self.half] {
                 rows.component_mut(PHI).fill(0.0);
             }
-            self.cells.component_mut(GAS).fill(0.0);
+            if let Some(gas) = gas {
+                self.cells.component_mut(gas).fill(0.0);
+            }
         }
         self.z_faces.without_gas();
         self.r_faces.without_gas();

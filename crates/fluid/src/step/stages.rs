@@ -22,7 +22,7 @@ use crate::step::report::{BlockReport, SideReport, boundary_inflow, count_kept, 
 use crate::step::rows;
 use crate::step::update::{Metric, NewCells, extremes, update};
 use crate::terms::TermBlock;
-use crate::two_phase::{Before, BlockGas, is_zero, may_have_gas};
+use crate::two_phase::{Before, BlockGas, is_zero, may_have_gas, remove_traces};
 
 /// Assembles a tile with its ghosts: primitive variables in `cells`.
 ///
@@ -35,7 +35,7 @@ fn assemble<const N: usize>(
     scratch: &mut BlockScratch<N>,
 ) -> u64 {
     if !with_gas {
-        scratch.without_gas();
+        scratch.without_gas(ctx.model.scheme.phases.gas_component());
     }
     scratch.has_gas = with_gas;
     let BlockScratch { cells, patch, inverse_r, s_z, s_r, half, .. } = scratch;
@@ -111,7 +111,7 @@ impl<'a, const N: usize> TileStep<'a, N> {
         let limited_predictions = assemble(ctx, tile, may_have_gas, scratch);
         let gas = BlockGas::of(ctx, tile, may_have_gas, &scratch.cells);
         if !gas.is_present() {
-            scratch.without_gas();
+            scratch.without_gas(ctx.model.scheme.phases.gas_component());
         }
         if let Some(gas) = gas.phases() {
             gas.shares(scratch);
@@ -309,7 +309,11 @@ impl<'a, const N: usize> TileStep<'a, N> {
         if let Some(block) = self.gas.phases() {
             let before = Before { old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
             block.update(gas, before, faces, new, speeds, report);
-        } else if !self.gas.is_present() && !is_zero(&new[PHI * N * N..]) {
+        } else if self.gas.is_present() {
+            let (is_left, removed) = remove_traces(&mut new[PHI * N * N..(PHI + 1) * N * N]);
+            report.has_gas = is_left;
+            report.clips.removed_traces += removed;
+        } else if !is_zero(&new[PHI * N * N..]) {
             // Mostly there is nothing but zeros; to write them would be a fourth of what a step writes.
             new[PHI * N * N..].fill(0.0);
         }

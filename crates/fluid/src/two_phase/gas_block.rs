@@ -25,12 +25,10 @@ use crate::{Boundary, Mixture, RiemannSolver};
 /// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
 const NOT_THEIRS: f64 = -0.0;
 
-/// Whether there may be gas in a block's padded cells. Where there is gas the paper's mixture does not know: its traces
-/// are nearly everywhere.
+/// Whether there may be gas in a block's padded cells.
 pub(crate) fn may_have_gas<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> bool {
     let has_gas = |slot: &usize| ctx.model.has_gas[*slot];
-    matches!(ctx.model.scheme.phases, PhaseModel::Mixture)
-        || has_gas(&slot)
+    has_gas(&slot)
         || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
         || (ctx.mesh.tree().neighbours(slot).iter())
             .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot)))
@@ -38,10 +36,10 @@ pub(crate) fn may_have_gas<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) 
 
 /// What a block's step has to do about gas: decided once per block.
 pub(crate) enum BlockGas<'a, const N: usize> {
-    /// The paper's mixture: the kernels carry the gas fraction, in all cells.
-    Fraction,
-    /// The five-equation model with no gas in the padded cells.
+    /// No gas in the padded cells.
     Absent,
+    /// The paper's mixture with gas in them: the kernels carry the gas fraction.
+    Fraction,
     /// The five-equation model with gas in them.
     Phases(GasBlock<'a, N>),
 }
@@ -49,16 +47,18 @@ pub(crate) enum BlockGas<'a, const N: usize> {
 impl<'a, const N: usize> BlockGas<'a, N> {
     /// - `may_have_gas`: see [`may_have_gas`]; what a neighbour has may be farther away. `cells`: the padded cells of the tile, primitive.
     pub fn of(ctx: &'a FluidStep<'a, N>, tile: Tile, may_have_gas: bool, cells: &TileRows<N>) -> Self {
-        let PhaseModel::FiveEquation(options) = ctx.model.scheme.phases else { return Self::Fraction };
+        let phases = ctx.model.scheme.phases;
         let slot = tile.first();
+        let components = [Some(PHI), phases.gas_component()];
         let has_gas = || {
             !ctx.marks.is_empty()
-                || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
-                || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)))
+                || tile.slots().any(|slot| ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot))
+                || components.into_iter().flatten().any(|component| !is_zero(cells.component(component)))
         };
         if !(may_have_gas && has_gas()) {
             return Self::Absent;
         }
+        let PhaseModel::FiveEquation(options) = phases else { return Self::Fraction };
         let level = ctx.mesh.tree().leaves()[slot].level;
         let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
         Self::Phases(GasBlock { ctx, slot, options, inverse_h })
