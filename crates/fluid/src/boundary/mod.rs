@@ -7,7 +7,7 @@ pub(crate) mod wall_trace;
 
 use crate::state::PrimitiveCell;
 use crate::state::primitive::VELOCITY;
-use mesh::{Domain, FaceState, Frame, Mesh, Side, SideStates, Tile, TileRows};
+use mesh::{BlockId, Domain, FaceState, Frame, Mesh, Side, SideStates, Tile, TileRows};
 
 use crate::boundary::far_field::{FarField, Inner, SideImpulses, SourceHistory};
 use crate::reconstruction::Reconstruction;
@@ -136,15 +136,8 @@ impl Boundaries {
         }
     }
 
-    /// The gas's part of the mass that open sides hold outside; `None` at other sides.
-    pub fn initial_gas_share<const N: usize>(
-        &self,
-        mesh: &Mesh<N>,
-        slot: usize,
-        side: Side,
-        along: usize,
-    ) -> Option<f64> {
-        let id = mesh.tree().leaves()[slot];
+    /// The gas's part of the mass that open sides hold outside a face, so many from a block's first one; `None` at other sides.
+    pub fn initial_gas_share<const N: usize>(&self, id: BlockId, side: Side, along: usize) -> Option<f64> {
         let first = id.first_face::<N>(side);
         self.kind(side).is_open().then(|| self.initial.at(side, id.level, first + along).1)
     }

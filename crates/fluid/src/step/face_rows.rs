@@ -93,6 +93,13 @@ pub(crate) fn set_face(
     phi[k] = face.phi;
 }
 
+/// 1 at the cells above which the face counts, see [`used_face`], else 0.
+pub(crate) fn used_faces(frame: Frame, step: usize) -> AlignedRow {
+    let mut used = AlignedRow::zeros(frame.len(), frame.stride());
+    (0..frame.len()).filter(|k| used_face(frame, *k, step)).for_each(|k| used[k] = 1.0);
+    used
+}
+
 /// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block or tile.
 pub(crate) fn used_face(frame: Frame, k: usize, step: usize) -> bool {
     let (i, j) = (k % frame.stride(), k / frame.stride());

@@ -36,6 +36,7 @@ impl<const N: usize> TileStep<'_, N> {
             inverse_r,
             gas,
             capillary,
+            used_faces,
             z_faces,
             r_faces,
             ..
@@ -60,7 +61,8 @@ impl<const N: usize> TileStep<'_, N> {
         // A tile of four does not touch the interface.
         let wall = ctx.interface.states_of::<N>(self.slot);
         let replaced = wall.map(|_| mesh::GHOSTS - 1);
-        self.clips.clipped_roots = faces(ctx, frame, &along_z, 1, z_range, replaced, z_faces);
+        self.clips.clipped_roots =
+            faces(ctx, &along_z, Faces { frame, step: 1, used: &used_faces[0] }, z_range, replaced, z_faces);
         if let Some(block) = self.gas.phases() {
             block.solve_faces(0, &along_z, inverse_r, capillary.along::<N>(0), gas, z_faces);
         } else if let Some(jumps) = capillary.along::<N>(0) {
@@ -79,7 +81,8 @@ impl<const N: usize> TileStep<'_, N> {
             ..along_z
         };
         let r_range = frame.index(0, -1)..frame.index(last, last) + 1;
-        self.clips.clipped_roots += faces(ctx, frame, &along_r, stride, r_range, None, r_faces);
+        self.clips.clipped_roots +=
+            faces(ctx, &along_r, Faces { frame, step: stride, used: &used_faces[1] }, r_range, None, r_faces);
         if let Some(block) = self.gas.phases() {
             block.solve_faces(1, &along_r, inverse_r, capillary.along::<N>(1), gas, r_faces);
             block.gas_fluxes(gas, gas_shares, [z_faces, r_faces]);
@@ -89,15 +92,24 @@ impl<const N: usize> TileStep<'_, N> {
     }
 }
 
-/// Solves the faces of a tile along z (`step` 1) or r.
+/// Faces of a tile along z or r.
+#[derive(Clone, Copy)]
+struct Faces<'a> {
+    frame: Frame,
+    /// Distance of the cells on both sides: 1 or that of the rows.
+    step: usize,
+    /// See [`crate::step::face_rows::used_faces`].
+    used: &'a [f64],
+}
+
+/// Solves the faces of a tile along z or r.
 ///
 /// - `replaced`: the column of padded cells whose upper faces get other fluxes.
 /// - returns: at how many of the faces that count HLLC's sound speed was bounded.
 fn faces<const N: usize>(
     ctx: &FluidStep<'_, N>,
-    frame: Frame,
     cells: &Reconstruction<'_>,
-    step: usize,
+    Faces { frame, step, used }: Faces<'_>,
     range: std::ops::Range<usize>,
     replaced: Option<usize>,
     faces: &mut FaceRows,
@@ -119,8 +131,7 @@ fn faces<const N: usize>(
             range.filter(counts).filter(|k| !has_roots(cells, *k, step, mixture)).count() as u64
         }
         RiemannSolver::Exact => {
-            let is_used = |k: usize| used_face(frame, k, step);
-            exact_faces(cells, step, frame.stride(), range, &is_used, &ctx.model.mixture, faces);
+            exact_faces(cells, step, frame.stride(), range, used, &ctx.model.mixture, faces);
             0
         }
     }

@@ -23,7 +23,7 @@ pub(crate) use stages::{block_sides, reconstruct};
 use crate::physics::{Fluid, FluidStep};
 use crate::step::clips::Clips;
 use crate::step::report::BlockReport;
-use crate::two_phase::{BlockGas, PhaseModel, may_have_gas};
+use crate::two_phase::BlockGas;
 
 /// The stages of a step, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,17 +63,11 @@ struct TileStep<'a, const N: usize> {
 
 /// Whether the blocks of a tile are stepped as one: where nothing has a say but their cells' own fluxes.
 ///
-/// Cells that hold both phases of the five-equation model, terms, what the mass carries, phase change and the wall to the solid are made
-/// block by block.
+/// Terms, what the mass carries, phase change and the wall to the solid are made block by block.
 pub(crate) fn is_one<const N: usize>(ctx: &FluidStep<'_, N>, tile: Tile) -> bool {
-    let Fluid { terms, exchange, carried, scheme, has_tiles, .. } = ctx.model;
+    let Fluid { terms, exchange, carried, has_tiles, .. } = ctx.model;
     let is_plain = terms.is_empty() && exchange.is_none() && carried.is_empty();
-    let is_mixture = matches!(scheme.phases, PhaseModel::Mixture);
-    let mut slots = tile.slots();
-    *has_tiles
-        && is_plain
-        && slots
-            .all(|slot| ctx.interface.first_face(slot).is_none() && (is_mixture || !may_have_gas(ctx, slot)))
+    *has_tiles && is_plain && tile.slots().all(|slot| ctx.interface.first_face(slot).is_none())
 }
 
 /// Advances the blocks of a tile by one step from `ctx.old` into `new`; `fluxes` is their part of the flux register.

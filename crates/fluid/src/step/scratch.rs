@@ -6,7 +6,7 @@ use crate::capillarity::CapillaryRows;
 use crate::components::carried::CarriedScratch;
 use crate::state::COUNT;
 use crate::state::conserved::PHI;
-use crate::step::face_rows::FaceRows;
+use crate::step::face_rows::{FaceRows, used_faces};
 use crate::two_phase::GasScratch;
 
 /// Scratch of one thread, for a block.
@@ -24,6 +24,8 @@ pub struct BlockScratch<const N: usize> {
     /// m_g/ρ of the padded cells, where phases have masses of their own and there is gas.
     pub(crate) gas_shares: AlignedRow,
     pub(crate) inverse_r: Vec<f64>,
+    /// 1 at the cells above which faces along z and r count, else 0.
+    pub(super) used_faces: [AlignedRow; 2],
     pub(super) z_faces: FaceRows,
     pub(super) r_faces: FaceRows,
     pub(super) speeds: TileRows<N>,
@@ -68,6 +70,7 @@ impl<const N: usize> BlockScratch<N> {
             sound: AlignedRow::zeros(len, stride),
             gas_shares: AlignedRow::zeros(len, stride),
             inverse_r: vec![0.0; len],
+            used_faces: [1, stride].map(|step| used_faces(frame, step)),
             z_faces: FaceRows::zeros(len, stride),
             r_faces: FaceRows::zeros(len, stride),
             speeds: TileRows::zeros(3),
@@ -76,7 +79,7 @@ impl<const N: usize> BlockScratch<N> {
             with_sources: Vec::new(),
             works: Vec::new(),
             carried: (0..carried).map(|_| CarriedScratch::new::<N>()).collect(),
-            gas: GasScratch::new::<N>(),
+            gas: GasScratch::new(frame),
             capillary: CapillaryRows::default(),
             has_gas: false,
         }

@@ -105,7 +105,6 @@ impl<'a, const N: usize> TileStep<'a, N> {
                 *inverse = 1.0 / ctx.mesh.weight(ctx.mesh.centre(id, 0, j)[1]);
             }
         }
-        // Of a tile of four with gas in the five-equation model the blocks are stepped one by one.
         let slot = tile.first();
         let may_have_gas = tile.slots().any(|slot| may_have_gas(ctx, slot));
         let limited_predictions = assemble(ctx, tile, may_have_gas, scratch);
@@ -308,7 +307,7 @@ impl<'a, const N: usize> TileStep<'a, N> {
         update::<N>(old_rows, faces, &metric, (self.gas.is_present(), gas_after), &ctx.model.mixture, rows);
         if let Some(block) = self.gas.phases() {
             let before = Before { old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
-            block.update(gas, before, faces, new, speeds, report);
+            block.update(number, gas, before, faces, new, speeds, report);
         } else if self.gas.is_present() {
             let (is_left, removed) = remove_traces(&mut new[PHI * N * N..(PHI + 1) * N * N]);
             report.has_gas = is_left;
