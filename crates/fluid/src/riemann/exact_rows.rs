@@ -221,13 +221,13 @@ fn take<const WITH_GAS: bool, const B: bool>(
 /// - returns: whether all waves are weak and the flow between them is slower than half the sound, so that no wave stands at the face.
 #[inline(always)]
 fn solve<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) -> bool {
-    prepare::<WITH_GAS, B>(n, chunk, mixture);
-    let are_weak = advance(n, chunk);
+    let are_acoustic = prepare::<WITH_GAS, B>(n, chunk, mixture);
+    let are_weak = advance(n, are_acoustic, chunk);
     if count(&chunk.done, n) == n {
         return are_weak && are_slow(n, &chunk.left) && are_slow(n, &chunk.right);
     }
     for _ in 1..MOST_STEPS {
-        advance(n, chunk);
+        advance(n, false, chunk);
         if count(&chunk.done, n) == n {
             break;
         }
@@ -246,9 +246,12 @@ fn are_slow(n: usize, s: &Sides) -> bool {
 }
 
 /// The wave curves and the first guess, see `first_guess` of the scalar solver.
+///
+/// - returns: whether all guesses are the acoustic ones.
 #[inline(always)]
-fn prepare<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
+fn prepare<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) -> bool {
     let Chunk { left, right, pi, p, shifted, done, .. } = chunk;
+    let mut others = 0;
     for k in 0..n.min(LANES) {
         // (m, π, c) of one side: γ = (1 + β₁)/β₁, π = β₂/(1 + β₁), with a covolume of what is in the free volume.
         let law = |rho: f64, p: f64, phi: f64, share: f64| {
@@ -286,7 +289,9 @@ fn prepare<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mix
         let z_low = if right_is_lower { z_r } else { z_l };
         let acoustic = low + (z_low * (high - low) - (z_l * z_r) * du) / (z_l + z_r);
         let fallback = if low > -lowest_pi { low } else { high };
-        let guess = if acoustic + lowest_pi > 0.1 * (fallback + lowest_pi) { acoustic } else { fallback };
+        let is_acoustic = acoustic + lowest_pi > 0.1 * (fallback + lowest_pi);
+        let guess = if is_acoustic { acoustic } else { fallback };
+        others += u64::from(!is_acoustic);
         let state =
             (left.rho[k] > 0.0) & (right.rho[k] > 0.0) & (base_l > 0.0) & (base_r > 0.0) & (guess < f64::MAX);
         let state = if B { state & (free_l > 0.0) & (free_r > 0.0) } else { state };
@@ -295,6 +300,7 @@ fn prepare<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mix
         shifted[k] = guess + lowest_pi;
         done[k] = if state { 0.0 } else { 2.0 };
     }
+    others == 0
 }
 
 /// One step of all faces that are not done.
@@ -302,23 +308,24 @@ fn prepare<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mix
 /// Halley's step in P. Where P is far too low it is Newton's, which ends below the root; where it is far too high,
 /// one that stays above Newton's in ln P, which ends above it.
 ///
-/// - returns: whether all waves at the iterate before were weak.
+/// - `are_acoustic`: whether all iterates are acoustic guesses; where the waves are weak as well, they are 4·10⁻⁶ off at most.
+/// - returns: whether they are, and all waves weak.
 #[inline(always)]
-fn advance(n: usize, chunk: &mut Chunk) -> bool {
+fn advance(n: usize, are_acoustic: bool, chunk: &mut Chunk) -> bool {
     let Chunk { left, right, p, shifted, curves: [on_left, on_right], .. } = chunk;
     let is_left_weak = curve(n, left, p, shifted, on_left);
-    let are_weak = curve(n, right, p, shifted, on_right) && is_left_weak;
-    if are_weak {
+    let are_near = curve(n, right, p, shifted, on_right) && is_left_weak && are_acoustic;
+    if are_near {
         step::<true>(n, chunk);
     } else {
         step::<false>(n, chunk);
     }
-    are_weak
+    are_near
 }
 
-/// - `WEAK`: whether all waves are weak: then no step goes far.
+/// - `NEAR`: whether no step goes far.
 #[inline(always)]
-fn step<const WEAK: bool>(n: usize, chunk: &mut Chunk) {
+fn step<const NEAR: bool>(n: usize, chunk: &mut Chunk) {
     let Chunk { left, right, pi, p, shifted, f_left, f_right, done, curves: [on_left, on_right] } = chunk;
     for k in 0..n.min(LANES) {
         let (p_old, shifted_old) = (p[k], shifted[k]);
@@ -329,8 +336,8 @@ fn step<const WEAK: bool>(n: usize, chunk: &mut Chunk) {
         let bend = x * ((curvature_l + curvature_r) * inverse);
         // P is multiplied by 1 + over/under.
         let (over, under) = (-2.0 * x, 2.0 - bend);
-        let far_down = !WEAK & (10.0 * (over + under) < under);
-        let far_up = !WEAK & (x < -1.0);
+        let far_down = !NEAR & (10.0 * (over + under) < under);
+        let far_up = !NEAR & (x < -1.0);
         let over = if far_down { -x * (1.0 + 0.5 * x) } else { over };
         let under = if far_down { 1.0 + x * (1.0 + 0.5 * x) } else { under };
         let over = if far_up { -x } else { over };
