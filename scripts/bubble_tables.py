@@ -9,8 +9,8 @@
     python3 scripts/bubble_tables.py stand-off [--cells 40]         collapse time and jet against the stand-off
     python3 scripts/bubble_tables.py sides [--cells 16]             near sides against far ones
 
-Runs `cav` (target/release/cav, or --cav) in a directory of its own (--out) and prints Markdown. Needs
-scripts/requirements.txt.
+Runs `cav` (target/release/cav, or --cav) in a directory of its own (--out), with changes of the cases given by --set, and prints
+Markdown. Needs scripts/requirements.txt.
 """
 
 from pathlib import Path
@@ -27,6 +27,7 @@ TABLES = {
 def add_options(parser):
     parser.add_argument("--cells", type=int, nargs="+", help="cells per radius")
     parser.add_argument("--model", default="five-equation", help="of round: the two-phase model")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a change of every case")
     parser.add_argument("--picture", type=Path, help="of stand-off: draws the curves, too")
 
 

@@ -47,8 +47,9 @@ def aspect(z, r, fraction):
 
 
 def table(options):
-    """Aspect ratio by the moments of the gas, and the extremes of the surface over its mean."""
-    print("| bubble | cells per radius | R/R₀ | aspect ratio − 1 | surface, nearest and farthest of its mean |\n|---|---|---|---|---|")
+    """Aspect ratio by the moments of the gas, that of the surface, on the axis over the equator, and its extremes over its mean."""
+    print("| bubble | cells per radius | R/R₀ | aspect ratio − 1 | of the surface | nearest and farthest of its mean |")
+    print("|---|---|---|---|---|---|")
     for name, pressure, content, _, end, _, smallest, curve in CASES:
         radii = [radius for radius in RADII if radius > smallest]
         times = [when(curve, radius) for radius in radii]
@@ -56,7 +57,7 @@ def table(options):
             result, code = run(options, f"round-{name}-{cells}", pressure=pressure, gas=content, radius=RADIUS, centre=0.0,
                                side=box_side(RADIUS), cells=cells, end=times[-1] * 1.001, snapshots=times, model=options.model)
             if code:
-                print(f"| {name} | {cells} | exit code {code} | | |", flush=True)
+                print(f"| {name} | {cells} | exit code {code} | | | |", flush=True)
                 continue
             for radius, time in zip(radii, times):
                 z, r, fraction = gas(result.result.fluid.at(time), 1.6 * radius * RADIUS)
@@ -64,4 +65,4 @@ def table(options):
                 mean = np.average(found, weights=np.sin(ANGLES))
                 low, high = found.min() / mean - 1, found.max() / mean - 1
                 print(f"| {name} | {cells} | {mean / RADIUS:.3f} | {100 * (aspect(z, r, fraction) - 1):+.2f} % "
-                      f"| {100 * low:+.1f} %, {100 * high:+.1f} % |", flush=True)
+                      f"| {100 * (found[0] / found[-1] - 1):+.1f} % | {100 * low:+.1f} %, {100 * high:+.1f} % |", flush=True)

@@ -70,8 +70,8 @@ def case(*, pressure, gas, radius, centre, side, cells, end, model="five-equatio
 
 
 def run(options, name, **parameters):
-    """Runs a case unless its directory is already complete; returns the run and the command's exit code."""
-    result, code = program.solve(options, name, case(**parameters).to_toml())
+    """Runs a case with the changes of --set unless its directory is already complete; the run and the command's exit code."""
+    result, code = program.solve(options, name, case(**parameters).to_toml(), options.set)
     return result and Run(result), code
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .euler import euler
 from .runs import run
 from .spherical import gilmore
 
@@ -11,16 +12,30 @@ NAVIER_STOKES = 0.067626, 1.01107, 0.8064, 1.8338
 # Their R/R0 on the way, at shares of 0.915 R0 √(ρ/Δp).
 ON_THE_WAY = {0.2: 0.983048, 0.4: 0.929863, 0.6: 0.831044, 0.8: 0.658094, 0.9: 0.512490, 0.95: 0.401064, 0.99: 0.253741}
 UNIT = 0.915 * RADIUS * np.sqrt(DENSITY / (PRESSURE - GAS))
-# Of the gas's first volume: 1.5e-3 m³/kg by 1.2 kg/m³ at 1e5 Pa, brought to GAS along the isentrope.
-COVOLUME = 1.5e-3 * 1.2 * (GAS / 1e5) ** (1 / 1.4)
+# m³/kg, and what the gas has at GAS: 1.2 kg/m³ at 1e5 Pa, brought there along its isentrope, on which p (1/ρ − b)^γ stays.
+COVOLUME = 1.5e-3
+GAS_DENSITY = 1.0 / (COVOLUME + (1.0 / 1.2 - COVOLUME) * (1e5 / GAS) ** (1 / 1.4))
 SIDE = 4.8  # of the box from the centre, over the radius
 
 
-def extremes(time, radius):
-    """Smallest radius, when; largest after it, when."""
+def turn(time, values, k, reach, sign):
+    """An extremum near row k by a polynomial through what lies within `reach`: its value and time; sign -1 of a smallest one."""
+    near = np.abs(time - time[k]) <= reach
+    curve = np.polynomial.Polynomial.fit(time[near], sign * values[near], 4 if near.sum() > 20 else 2)
+    fine = np.linspace(time[near][0], time[near][-1], 4001)
+    most = int(curve(fine).argmax())
+    return sign * curve(fine)[most], fine[most]
+
+
+def key_numbers(time, radius):
+    """Smallest radius, when; largest after it, when; R0 and UNIT. The rebound is flat, so its time needs a fit."""
+    time, radius = time / UNIT, radius / RADIUS
     k = int(radius.argmin())
-    m = k + int(radius[k:].argmax())
-    return radius[k] / RADIUS, time[k] / UNIT, radius[m] / RADIUS, time[m] / UNIT
+    near = max(abs(time[min(k + 1, len(time) - 1)] - time[k]), abs(time[k] - time[k - 1]))
+    smallest = turn(time, radius, k, near * 1.01, -1.0)
+    if time[-1] < 1.5:
+        return *smallest, np.nan, np.nan
+    return *smallest, *turn(time, radius, k + int(radius[k:].argmax()), 0.08, 1.0)
 
 
 def row(name, found):
@@ -30,13 +45,16 @@ def row(name, found):
 def table(options):
     print("| | smallest R/R₀ | at | rebound R/R₀ | at |\n|---|---|---|---|---|")
     row("Denner & Schenke: Navier–Stokes, covolume", NAVIER_STOKES)
-    for name, covolume in (("Gilmore, covolume", COVOLUME), ("Gilmore, ideal gas", 0.0)):
-        row(name, extremes(*gilmore(RADIUS, GAS, PRESSURE, DENSITY, 180e-6, covolume=covolume)))
+    for name, covolume in (("Gilmore, covolume", COVOLUME * GAS_DENSITY), ("Gilmore, ideal gas", 0.0)):
+        row(name, key_numbers(*gilmore(RADIUS, GAS, PRESSURE, DENSITY, 180e-6, covolume=covolume)))
+    for name, covolume in (("Euler, covolume", COVOLUME), ("Euler, ideal gas", 0.0)):
+        found = euler(RADIUS, GAS, PRESSURE, DENSITY, 180e-6, gas_density=GAS_DENSITY, cells=200, covolume=covolume)
+        row(name, key_numbers(*found[:2]))
     farthest = {}
     for cells in options.cells or [20, 40, 80]:
         done = run(options, "free-collapse", f"{cells}", {"fluid.levels": round(np.log2(cells * SIDE / 3))})
         if done:
-            row(f"this program, ideal gas, {cells} cells per radius", extremes(done.time, done.radius))
+            row(f"this program, ideal gas, {cells} cells per radius", key_numbers(done.time, done.radius))
             found = np.interp(np.array(list(ON_THE_WAY)) * UNIT, done.time, done.radius / RADIUS)
             farthest[cells] = np.abs(found - list(ON_THE_WAY.values())).max()
     print("\nOn the way, at 0.2 to 0.99 of the collapse, R/R₀ is off by at most "

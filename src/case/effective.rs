@@ -5,14 +5,15 @@ mod bubble;
 use std::fmt::Write as _;
 
 use coupler::Scheme;
-use fluid::{PhaseState, PulseShape, Shape, ThinGas, Viscosity};
+use fluid::{PhaseState, PulseShape, Shape};
 use mesh::{LevelBound, Side, Zone};
 use sha2::{Digest, Sha256};
 use solid::plasticity::Hardening;
 
-use super::{Case, FluidCase, GridCase, LoadCase, SolidCase, TermsCase};
+use super::{Case, FluidCase, GridCase, LoadCase, SolidCase};
 
 mod phase_change;
+mod terms;
 
 impl Case {
     /// The case as TOML with all defaults filled in; reading it gives this case again.
@@ -115,30 +116,6 @@ impl Case {
     }
 }
 
-fn write_terms(text: &mut Lines, terms: &TermsCase) {
-    if *terms == TermsCase::default() {
-        return;
-    }
-    text.head("[fluid.terms]");
-    if let Some(sigma) = terms.surface_tension {
-        text.number("surface_tension", sigma);
-    }
-    if let Some(angle) = terms.contact_angle {
-        text.number("contact_angle", angle);
-    }
-    if let Some(Viscosity { liquid, gas, thin_gas }) = terms.viscosity {
-        text.head("[fluid.terms.viscosity]");
-        text.number("liquid", liquid.shear);
-        text.number("gas", gas.shear);
-        text.number("bulk_liquid", liquid.bulk);
-        text.number("bulk_gas", gas.bulk);
-        text.name("thin_gas", &ThinGas::NAMES, thin_gas);
-    }
-    if let Some(change) = terms.phase_change {
-        phase_change::write(text, change);
-    }
-}
-
 fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
     text.head("[fluid]");
     write_grid(text, &fluid.grid);
@@ -176,7 +153,7 @@ fn write_fluid(text: &mut Lines, fluid: &FluidCase, scheme: Scheme) {
             text.number("entropy", heat.entropy);
         }
     }
-    write_terms(text, &fluid.terms);
+    terms::write(text, &fluid.terms);
     text.head("[fluid.ambient]");
     write_state(text, &fluid.initial.ambient);
     for region in &fluid.initial.regions {

@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 
 use fluid::{Heat, NamedFluid};
-use solid::Material;
 use solid::plasticity::{Hardening, JohnsonCook, MaterialHardening, RateFactor, ThermalSoftening};
+use solid::{Material, MaterialHeat};
 
 /// The materials known by name.
 pub fn materials_table() -> String {
     let mut text = format!(
-        "{:<25}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}  source\n{:<25}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}\n",
+        "{:<25}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}{:>10}{:>10}  source\n{:<25}{:>9}{:>7}{:>7}{:>9}{:>9}{:>9}{:>10}{:>10}\n",
         "name",
         "density",
         "c1",
@@ -17,19 +17,26 @@ pub fn materials_table() -> String {
         "young",
         "poisson",
         "yield",
+        "conduct.",
+        "c",
         "",
         "kg/m3",
         "m/s",
         "m/s",
         "GPa",
         "1",
-        "MPa"
+        "MPa",
+        "W/(m K)",
+        "J/(kg K)"
     );
     for material in Material::library() {
         let strength = material.yield_strength().map_or("-".to_owned(), |y| format!("{:.0}", y / 1e6));
+        let heat = |of: fn(&MaterialHeat) -> f64| {
+            material.heat().as_ref().map_or("-".to_owned(), |heat| of(heat).to_string())
+        };
         let _ = writeln!(
             text,
-            "{:<25}{:>9.0}{:>7.0}{:>7.0}{:>9.4}{:>9.4}{:>9}  {}",
+            "{:<25}{:>9.0}{:>7.0}{:>7.0}{:>9.4}{:>9.4}{:>9}{:>10}{:>10}  {}",
             material.name(),
             material.density(),
             material.c1(),
@@ -37,6 +44,8 @@ pub fn materials_table() -> String {
             material.young() / 1e9,
             material.poisson(),
             strength,
+            heat(|heat| heat.conductivity),
+            heat(|heat| heat.capacity),
             material.source()
         );
     }

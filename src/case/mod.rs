@@ -2,6 +2,7 @@
 
 mod bubble;
 mod check;
+mod contact;
 mod cross;
 mod effective;
 mod error;
@@ -17,6 +18,7 @@ pub mod new;
 mod read;
 mod read_adaptation;
 mod read_bubble;
+mod read_conduction;
 mod read_coupling;
 mod read_fluid;
 mod read_grid;

@@ -12,8 +12,8 @@ use super::keys::{records, time as of_time};
 use super::reader::{Faults, Table, array};
 use super::shared::{Context, PlacedProbe, name_of};
 use super::{
-    Case, Medium, OutputCase, Probe, Time, cross, read_coupling, read_fluid, read_sensors, read_solid,
-    scales, steps, thresholds,
+    Case, Medium, OutputCase, Probe, Time, cross, read_conduction, read_coupling, read_fluid, read_sensors,
+    read_solid, scales, steps, thresholds,
 };
 
 /// More snapshots than this are a mistake.
@@ -38,8 +38,12 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     let local_steps = time.as_ref().is_some_and(|time| time.local_steps);
     let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value), local_steps };
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
-    let mut fluid =
+    let fluid =
         root.table("fluid", &mut faults).and_then(|table| read_fluid::fluid(table, context, &mut faults));
+    let (mut fluid, conduction) = match fluid {
+        Some((fluid, place, conduction)) => (Some((fluid, place)), conduction),
+        None => (None, None),
+    };
     let fluid_pressure = fluid.as_ref().map(|(fluid, _)| fluid.scale_pressure);
     let acting = scales::Acting { fluid: fluid_pressure, load: coupling.load.as_ref() };
     let mut solid = (root.table("solid", &mut faults))
@@ -62,6 +66,10 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
             fluid.as_ref().is_some_and(|(fluid, _)| fluid.terms.viscosity.is_some()),
             &mut faults,
         );
+    }
+    if let (Some(asked), Some((fluid, _))) = (&conduction, &mut fluid) {
+        let (laws, solid) = ([fluid.liquid, fluid.gas], solid.as_ref().map(|(solid, _)| &solid.material));
+        fluid.terms.conduction = read_conduction::settle(asked, laws, (fluid.boundary, solid), &mut faults);
     }
     let ignores_solid = context.scheme == Some(Scheme::Rigid) && has_solid;
     let solid = if ignores_solid {

@@ -1,7 +1,8 @@
 //! `[fluid.bubble]`: a bubble by what is in it.
 
 use fluid::{
-    BubbleContent, GasState, InitialCondition, NobleAbelStiffenedGas, Phase, PhaseState, Region, Shape,
+    BubbleContent, GasState, InitialCondition, NobleAbelStiffenedGas, Phase, PhaseState, Region, Saturation,
+    Shape,
 };
 use mesh::Geometry;
 
@@ -232,6 +233,9 @@ fn region(
         );
         return None;
     }
+    if vapour.is_some_and(|vapour| is_supercritical(table, case.temperature, vapour, faults)) {
+        return None;
+    }
     let (centre, radius, given) = (numbers.centre.as_ref()?, radius?, given?);
     let content = case.content(ambient.pressure, gas);
     let own = own_gas(&content, numbers, radius.value, given, faults)?;
@@ -249,6 +253,31 @@ fn region(
     let shape = Shape::Sphere { centre: centre.value, radius: radius.value };
     let state = PhaseState { phase: Phase::Gas, density, pressure, velocity: [0.0; 2] };
     Some((Region { shape, state }, gamma))
+}
+
+/// Whether it is no vapour any more, which is refused: water's, as its density is.
+fn is_supercritical(table: &Table<'_>, temperature: f64, vapour: &Given<f64>, faults: &mut Faults) -> bool {
+    let [critical_temperature, critical_pressure] = Saturation::CRITICAL;
+    if vapour.value >= critical_pressure {
+        let message = format!(
+            "the vapour's {:?} Pa are not below water's critical {critical_pressure:e} Pa",
+            vapour.value
+        );
+        faults.of(vapour, message, "water has 2339 Pa at 20 °C; give what is denser as `gas_pressure`");
+        return true;
+    }
+    let is_hot = vapour.value > 0.0 && temperature >= critical_temperature;
+    if let Some(given) = table.place("temperature").filter(|_| is_hot) {
+        let message = format!(
+            "{temperature:?} K are not below water's critical {critical_temperature} K: it has no vapour"
+        );
+        faults.of(
+            &given,
+            message,
+            "give a lower temperature, 293.15 K by default, or remove `vapour_pressure`",
+        );
+    }
+    is_hot
 }
 
 /// The gas at the start, without the vapour.

@@ -17,7 +17,10 @@ use super::read_shape::body;
 use super::read_terms::{TermsCase, terms};
 use super::reader::{Faults, Given, Table};
 use super::shared::{Context, boundaries, history};
-use super::{FluidCase, GridCase, Inflow, far_field, initial_pressure, read_phase_change, scales};
+use super::{
+    FluidCase, GridCase, Inflow, contact, far_field, initial_pressure, read_conduction, read_phase_change,
+    scales,
+};
 
 /// Equations of state as far as they could be read, and the grid likewise.
 struct Setting {
@@ -40,7 +43,7 @@ pub(super) fn fluid(
     mut table: Table<'_>,
     context: Context,
     faults: &mut Faults,
-) -> Option<(FluidCase, GridPlace)> {
+) -> Option<(FluidCase, GridPlace, Option<read_conduction::Asked>)> {
     let mut placed = grid(&mut table, context, Side::ZMin, faults);
     let near_wall = near_wall(&mut table, placed.as_mut().map(|(grid, _)| grid), context, faults);
     let liquid = if table.has("liquid") {
@@ -66,7 +69,8 @@ pub(super) fn fluid(
         grid: placed.as_ref().map(|(grid, _)| grid.clone()),
         geometry: context.geometry,
     };
-    let (terms, change) = terms(&mut table, faults);
+    let acting = (table.path_of("terms"), table.place("terms").map_or(0..0, |place| place.span));
+    let (terms, pending) = terms(&mut table, faults);
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
     let (mut initial, bubble) = initial(&mut table, pressure.as_ref(), &terms, &mut setting, faults);
     let gravity = match &initial {
@@ -80,6 +84,9 @@ pub(super) fn fluid(
         initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
         let is_free = pressure.is_none() && bubble.as_ref().is_some_and(|bubble| bubble.is_largest);
         initial_pressure::at_rest(is_free, initial, grid, boundary, context);
+        if context.scheme.is_some() {
+            contact::check((&acting.0, &acting.1), &terms, initial, grid, boundary, faults);
+        }
     }
     let inflow = inflow(&mut table, boundary, liquid, faults);
     if let (Some(initial), Some(grid)) = (&initial, &setting.grid) {
@@ -110,7 +117,10 @@ pub(super) fn fluid(
     table.finish(faults);
     let (grid, place) = placed?;
     let (liquid, gas, initial) = (liquid?, gas?, initial?);
-    if let Some(change) = &change {
+    if let Some(asked) = &pending.conduction {
+        read_conduction::refuse_mixture(asked, model, faults);
+    }
+    if let Some(change) = &pending.phase_change {
         read_phase_change::check(change, [liquid, gas], model, &initial, faults);
     }
     let eos = setting.eos(initial.ambient.phase)?;
@@ -136,7 +146,7 @@ pub(super) fn fluid(
         terms,
         tracer,
     };
-    Some((case, place))
+    Some((case, place, pending.conduction))
 }
 
 /// Gravity along z, under which the pressure of the ambient liquid is that of the case on z_min.

@@ -1,8 +1,9 @@
 //! `[fluid.terms]`: what acts on the fluid besides the waves of two-phase flow.
 
-use fluid::{PhaseChange, PhaseViscosity, ThinGas, Viscosity};
+use fluid::{Conduction, PhaseChange, PhaseViscosity, ThinGas, Viscosity};
 
-use super::read_phase_change::{Asked, phase_change};
+use super::read_conduction::{self, conduction};
+use super::read_phase_change::{self, phase_change};
 use super::reader::{Faults, Given, Table};
 
 /// The terms of a case; each is off where it is absent.
@@ -10,6 +11,8 @@ use super::reader::{Faults, Given, Table};
 pub struct TermsCase {
     /// Viscosity of both phases.
     pub viscosity: Option<Viscosity>,
+    /// Conduction of heat in both phases.
+    pub conduction: Option<Conduction>,
     /// Surface tension σ between liquid and gas, N/m.
     pub surface_tension: Option<f64>,
     /// The angle between an interface and a wall in the liquid, degrees; interfaces may meet walls only where it is given.
@@ -18,17 +21,31 @@ pub struct TermsCase {
     pub phase_change: Option<PhaseChange>,
 }
 
-/// The terms, and where phase change is asked for: whether the phases can is looked at when they are known.
-pub(super) fn terms(table: &mut Table<'_>, faults: &mut Faults) -> (TermsCase, Option<Asked>) {
-    let Some(mut table) = table.table("terms", faults) else { return (TermsCase::default(), None) };
+/// Terms that hang on what is read after them, with where they are asked for.
+#[derive(Default)]
+pub(super) struct Pending {
+    pub phase_change: Option<read_phase_change::Asked>,
+    pub conduction: Option<read_conduction::Asked>,
+}
+
+/// The terms, and those of which it is looked at when the rest is known whether the fluid can have them.
+pub(super) fn terms(table: &mut Table<'_>, faults: &mut Faults) -> (TermsCase, Pending) {
+    let Some(mut table) = table.table("terms", faults) else { return Default::default() };
     let viscosity = table.table("viscosity", faults).and_then(|table| viscosity(table, faults));
     let surface_tension = not_negative(&mut table, "surface_tension", faults);
     let surface_tension = surface_tension.filter(|sigma| *sigma > 0.0);
     let contact_angle = contact_angle(&mut table, surface_tension, faults);
+    let conduction = conduction(&mut table, faults);
     let change = phase_change(&mut table, faults);
     table.finish(faults);
-    let phase_change = change.as_ref().map(|change| change.value);
-    (TermsCase { viscosity, surface_tension, contact_angle, phase_change }, change)
+    let terms = TermsCase {
+        viscosity,
+        conduction: None,
+        surface_tension,
+        contact_angle,
+        phase_change: change.as_ref().map(|change| change.value),
+    };
+    (terms, Pending { phase_change: change, conduction })
 }
 
 /// The contact angle, of which there is one.
@@ -71,7 +88,7 @@ fn viscosity(mut table: Table<'_>, faults: &mut Faults) -> Option<Viscosity> {
     (!(is_none(viscosity.liquid) && is_none(viscosity.gas))).then_some(viscosity)
 }
 
-fn not_negative(table: &mut Table<'_>, key: &'static str, faults: &mut Faults) -> Option<f64> {
+pub(super) fn not_negative(table: &mut Table<'_>, key: &'static str, faults: &mut Faults) -> Option<f64> {
     let given: Given<f64> = table.number(key, faults)?;
     if given.value < 0.0 {
         let unit = table.unit(key);

@@ -53,6 +53,7 @@ pub fn fluid_setup(case: &Case, fluid: &FluidCase) -> FluidSetup {
         scales: scales(fluid),
         gravity: fluid.gravity,
         viscosity: fluid.terms.viscosity,
+        conduction: fluid.terms.conduction,
         followed: fluid.followed_bubble(),
         surface_tension: surface_tension(fluid),
         phase_change: fluid.terms.phase_change,

@@ -34,6 +34,16 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Append("[fluid.gas]\ngamma = 1.4\npi = 1e5\n[fluid.bubble]\ncentre = [0.004, 0.0]\nradius = 1e-4\nequilibrium_radius = 1e-3"), &["fluid.bubble: describes an ideal gas, and fluid.gas.pi is 100000.0 Pa", "fluid.gas.pi = 0"]),
     (Append("[fluid.gas]\ngamma = 1.4\ncovolume = 1e-3\n[fluid.bubble]\ncentre = [0.004, 0.0]\nradius = 1e-5\nequilibrium_radius = 1e-3"), &["fluid.bubble.equilibrium_radius: the gas would have", "a density below 1/covolume"]),
     (Edit::Sets(&["geometry=planar", "fluid.bubble={ region = 0 }"]), &["fluid.bubble: describes a sphere, and the geometry is planar", "take geometry = \"axisymmetric\""]),
+    (Append("[fluid.bubble]\ncentre = [0.004, 0.0]\nradius_max = -1e-3\ngas_pressure = 1e3"), &["fluid.bubble.radius_max: must be positive, got -0.001", "in m"]),
+    (Append("[fluid.bubble]\ncentre = [0.004, 0.0]\nradius = 0.0\ngas_pressure = 1e3"), &["fluid.bubble.radius: must be positive, got 0.0", "in m"]),
+    (Append("[fluid.bubble]\ncentre = [0.004, 0.0]\nradius_max = 1e-3\nequilibrium_radius = -1e-4"), &["fluid.bubble.equilibrium_radius: must be positive, got -0.0001"]),
+    (Append("[fluid.bubble]\ncentre = [0.004, 0.0]\nradius_max = 1e-3\ngas_pressure = 1e3\ngas_density = 0"), &["fluid.bubble.gas_density: must be positive, got 0.0", "in kg/m3"]),
+    (Append("[fluid.bubble]\ncentre = [0.004, 0.0]\nradius_max = 1e-3\ngas_pressure = 1e3\ntemperature = -20"), &["fluid.bubble.temperature: must be positive, got -20.0", "in K"]),
+    (Append("[fluid.bubble]\ncentre = [0.004, 0.0]\nradius_max = 1e-3\ngas_pressure = 1e3\nvapour_pressure = 2339\ntemperature = 700"), &["fluid.bubble.temperature: 700.0 K are not below water's critical 647.096 K", "293.15 K by default"]),
+    (Append("[fluid.bubble]\ncentre = [0.004, 0.0]\nradius = 1e-4\nequilibrium_radius = 1e-3\nreset = { equilibrium_radius = 0 }"), &["fluid.bubble.reset.equilibrium_radius: must be positive, got 0.0"]),
+    (Append("[fluid.bubble]\ncentre = [0.004, 0.0]\nradius = 1e-4\nequilibrium_radius = 1e-3\nreset = { gas_share = -0.1 }"), &["fluid.bubble.reset.gas_share: must lie in (0, 1), got -0.1"]),
+    (Edit::Sets(&["fluid.ambient={density=1010.0, pressure=5e7}", "fluid.bubble={centre=[0.004, 0.0], radius_max=1e-3, gas_pressure=1e3, vapour_pressure=3e7}"]), &["fluid.bubble.vapour_pressure: the vapour's 30000000.0 Pa are not below water's critical", "2339 Pa at 20"]),
+    (Append("[fluid.bubble]\nregion = -1"), &["fluid.bubble.region", "got -1", "whole number from 0"]),
     (Append("[fluid.bubble]\nregoin = 0"), &["fluid.bubble.regoin: unknown key", "did you mean `region`?"]),
 ];
 

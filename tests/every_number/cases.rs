@@ -211,11 +211,26 @@ fn changing() -> String {
     text.concat()
 }
 
+/// With conduction, and a wall that conducts.
+fn conducting() -> String {
+    let text = [
+        "[time]\nend = 1e-6\n[fluid]\n",
+        &grid([0.0, 0.02], 0.02, [16, 16]),
+        "[fluid.liquid]\nfluid = \"water-nasg\"\n[fluid.gas]\nfluid = \"air\"\n",
+        "[fluid.ambient]\ndensity = 1050.0\npressure = 1e6\n",
+        &bubble([0.01, 0.0], 0.004, AIR),
+        "[fluid.terms.conduction]\nliquid = 0.6\ngas = 0.026\nthin_gas = \"super-time-stepping\"\nwall = \"conducting\"\n\
+         wall_temperature = 293.15\nwall_effusivity = 8000.0\n[fluid.terms.viscosity]\nliquid = 1e-3\ngas = 1.8e-5\n\
+         thin_gas = \"super-time-stepping\"\n[coupling]\nscheme = \"rigid\"\n",
+    ];
+    text.concat()
+}
+
 /// The numbers of its `[coupling]` are tried in two processes.
 pub const IN_TWO: &str = "full";
 
 /// By name.
-pub fn all() -> [(&'static str, String); 9] {
+pub fn all() -> [(&'static str, String); 10] {
     [
         ("full", full()),
         ("strong", strong()),
@@ -226,5 +241,6 @@ pub fn all() -> [(&'static str, String); 9] {
         ("laser", laser()),
         ("changing", changing()),
         ("sticky", sticky()),
+        ("conducting", conducting()),
     ]
 }

@@ -218,6 +218,24 @@ fn phases_that_change_into_each_other() {
     check("phases", &fluid_alone(), &[media[0], media[1], terms, "time.local_steps=true"], 17);
 }
 
+/// All terms together, with as much of each as a bubble of micrometres has; heat and momentum spread in stages.
+#[test]
+fn all_terms_above_a_wall_that_conducts() {
+    let _turn = without_processes();
+    let sets = [
+        "fluid.liquid={fluid = \"water-nasg\"}",
+        "fluid.gas={fluid = \"water-vapour\"}",
+        "fluid.terms.surface_tension=700.0",
+        "fluid.terms.contact_angle=90.0",
+        "fluid.terms.viscosity={liquid=1e3, gas=5.0, thin_gas=\"super-time-stepping\"}",
+        "fluid.terms.conduction={liquid=6e5, gas=3e3, thin_gas=\"super-time-stepping\", wall=\"conducting\", wall_temperature=293.15}",
+        "fluid.terms.phase_change={law=\"hertz-knudsen\", accommodation=0.5, vapour_fraction=0.8}",
+        "fluid.terms.cavitation={threshold=-1e5}",
+        "time.local_steps=true",
+    ];
+    check("all terms", &coupled(), &sets, 29);
+}
+
 #[test]
 fn a_solid_under_a_load() {
     let _turn = without_processes();

@@ -12,6 +12,9 @@ pub enum FluidError {
     /// A side is that of a far field, but there is none.
     #[error("a side of the fluid is to have a far field, but there is none for it")]
     NoFarField,
+    /// Heat is to be conducted, but there are no temperatures.
+    #[error("heat is to be conducted, but a phase of the fluid has no heat capacity, and so no temperature")]
+    NoHeatCapacity,
     /// The liquid's pressure cannot be the harmonic one.
     #[error("the initial pressure cannot be Rayleigh's: {0}")]
     Rayleigh(#[from] crate::RayleighError),

@@ -2,7 +2,7 @@
 
 use mesh::{
     Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Side, StageTimer, Tile,
+    ScratchPool, Scratches, Side, StageTimer, Tile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -15,12 +15,17 @@ use crate::diagnostics::bubbles::follow_sources;
 use crate::physics::{Fluid, FluidStep, Tally};
 use crate::state::conserved::{PHI, RHO};
 use crate::state::finished::{FinishedCell, measure_cell};
+use crate::state::{ConservedCell, primitive_of};
 use crate::step::clips::{CountedAnalysis, SharedCount};
 use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::BlockReport;
 use crate::step::update::Extremes;
-use crate::step::{BlockScratch, STAGES, is_one, step_tile};
-use crate::{Boundary, BoundaryLedger, Fixups, FluidError, PhaseLedger, near_wall};
+use crate::step::{BlockScratch, STAGES, begin_spreading, is_one, step_tile};
+use crate::terms::diffusion::most_diffusivity;
+use crate::terms::super_stepping::{Spread, Spreading, spread_in};
+use crate::thermodynamics::temperature::cell_temperature;
+use crate::wall_heat::WallMemory;
+use crate::{Boundary, BoundaryLedger, Fixups, FluidError, PhaseLedger, WallHeat, near_wall};
 
 /// What of a fluid changes in time besides its cells.
 #[derive(Serialize, Deserialize)]
@@ -30,6 +35,7 @@ pub struct FluidMemory {
     ledger: BoundaryLedger,
     bubble: Option<Following>,
     phases: PhaseLedger,
+    wall: Option<WallMemory>,
 }
 
 impl Fluid {
@@ -47,6 +53,33 @@ impl Fluid {
     /// The largest diffusivity of the terms in a block, m²/s.
     pub(crate) fn diffusivity<const N: usize>(&self, block: &[f64]) -> f64 {
         self.terms.diffusivity(&block[RHO * N * N..][..N * N], &block[PHI * N * N..][..N * N])
+    }
+
+    /// How warm the wall on z_min is next to row `j` of a block before anything has passed, K.
+    fn wall_temperature<const N: usize>(&self, block: &[f64], j: usize) -> f64 {
+        match self.wall_heat {
+            WallHeat::Isothermal(temperature) => temperature,
+            WallHeat::Conducting(wall) => wall.temperature,
+            WallHeat::Adiabatic => {
+                let u: ConservedCell = std::array::from_fn(|c| block[c * N * N + j * N]);
+                let gas = self.scheme.phases.gas_component().map(|gas| block[gas * N * N + j * N]);
+                let [rho, _, _, p, phi] = primitive_of::<true>(u, gas.unwrap_or(0.0), &self.mixture);
+                cell_temperature(&self.mixture, [rho, p, phi], gas)
+            }
+        }
+    }
+
+    /// Whether something spreads in a block so far within a step that it takes stages: further than a quarter of what a single one is
+    /// stable with. What blocks beside it hold is taken to stay as it is meanwhile, if it does not spread so far in them.
+    fn spreads_in_stages<const N: usize>(
+        &self,
+        of: &dyn Spreading,
+        step: &FluidStep<'_, N>,
+        slot: usize,
+    ) -> bool {
+        let inverse_h = step.mesh.widths(step.mesh.tree().leaves()[slot].level).map(|h| 1.0 / h);
+        let [density, phi] = [RHO, PHI].map(|component| step.old.component(slot, component));
+        of.diffusivity(density, phi) > 0.25 * most_diffusivity(step.dt, inverse_h)
     }
 
     /// Whether z_min is a wall, rigid or not.
@@ -68,6 +101,7 @@ impl<const N: usize> Model<N> for Fluid {
     type Scratch = BlockScratch<N>;
     type Error = FluidError;
     type Memory = FluidMemory;
+    type Prepared = Spread;
     const STAGES: &'static [&'static str] = STAGES;
     const RETRIES: bool = true;
 
@@ -85,6 +119,28 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn watched(&self) -> &[usize] {
         &self.axis_blocks
+    }
+
+    fn prepares(&self) -> bool {
+        self.terms.spreads
+    }
+
+    /// Lets spread in stages what spreads over more than a cell.
+    fn prepare(
+        &self,
+        step: &FluidStep<'_, N>,
+        slots: &[usize],
+        spread: &mut Spread,
+        scratch: Scratches<'_, BlockScratch<N>>,
+    ) {
+        spread.clear();
+        for of in self.terms.spreading() {
+            let is_due = |slot: &&usize| self.spreads_in_stages(of, step, **slot);
+            let due: Vec<usize> = slots.iter().filter(is_due).copied().collect();
+            spread_in(spread, of, step.mesh, &due, step.dt, |slot| {
+                scratch.with(|scratch| begin_spreading(step, slot, of, scratch))
+            });
+        }
     }
 
     fn step_block(
@@ -143,6 +199,10 @@ impl<const N: usize> Model<N> for Fluid {
         (0..N * N).for_each(|cell| extremes.add(&self.measured::<N>(block, cell)));
         report.extremes = extremes;
         report.diffusivity = self.diffusivity::<N>(block);
+        if self.terms.conducts && mesh.touches(slot, Side::ZMin) {
+            let sides = report.sides.get_or_insert_default();
+            sides.wall_temperature = std::array::from_fn(|j| self.wall_temperature::<N>(block, j));
+        }
         report.has_gas = self.scheme.phases.has_gas::<N>(block);
     }
 
@@ -216,6 +276,15 @@ impl<const N: usize> Model<N> for Fluid {
         ledger.tension_impulse += report.tension[0];
         ledger.tension_work += report.tension[1];
         let id = mesh.tree().leaves()[slot];
+        if let Some(sides) = sides.filter(|_| self.terms.conducts && mesh.touches(slot, Side::ZMin)) {
+            let h_r = mesh.widths(id.level)[1];
+            for (j, flux) in sides.wall_heat.iter().enumerate() {
+                ledger.wall_heat += dt * mesh.weight(mesh.centre(id, 0, j)[1]) * h_r * flux;
+            }
+            if let Some(memory) = &mut self.wall_memory {
+                memory.take_from(mesh, id, dt, &sides.wall_heat);
+            }
+        }
         if let Some(states) = interface.states_of::<N>(slot) {
             let h_r = mesh.widths(id.level)[1];
             for (j, state) in states.iter().enumerate() {
@@ -286,11 +355,12 @@ impl<const N: usize> Model<N> for Fluid {
             ledger: self.tally.ledger,
             bubble: self.follower.as_ref().map(|follower| follower.now.clone()),
             phases: self.tally.phases,
+            wall: self.wall_memory.clone(),
         }
     }
 
     fn restore(&mut self, memory: FluidMemory) -> Result<(), Misfit> {
-        let FluidMemory { far, fixups, ledger, bubble, phases } = memory;
+        let FluidMemory { far, fixups, ledger, bubble, phases, wall } = memory;
         if !far.impulses.fits(&self.far.impulses) {
             return Err(Misfit("the far field's faces are not those of the fluid's sides".to_owned()));
         }
@@ -298,6 +368,11 @@ impl<const N: usize> Model<N> for Fluid {
             (Some(own), Some(saved)) => own.now = saved,
             (None, None) => {}
             _ => return Err(Misfit("only one of both follows a bubble".to_owned())),
+        }
+        match (&mut self.wall_memory, wall) {
+            (Some(own), Some(saved)) if own.fits(&saved) => *own = saved,
+            (None, None) => {}
+            _ => return Err(Misfit("the wall does not conduct heat alike".to_owned())),
         }
         self.far = far;
         self.tally = Tally { fixups, ledger, phases, scaled_traces: SharedCount::default() };

@@ -14,7 +14,8 @@ use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
 use crate::terms::Terms;
 use crate::two_phase::PhaseModel;
-use crate::{BoundaryLedger, Fixups, Mixture, NearWall, PhaseLedger, RiemannSolver};
+use crate::wall_heat::WallMemory;
+use crate::{BoundaryLedger, Fixups, Mixture, NearWall, PhaseLedger, RiemannSolver, WallHeat};
 
 /// A fluid of two phases: what its cells obey, and what bounds them.
 pub struct Fluid {
@@ -22,6 +23,10 @@ pub struct Fluid {
     pub(crate) scheme: Scheme,
     pub(crate) boundaries: Boundaries,
     pub(crate) terms: Terms,
+    /// What walls do with heat, and what the wall on z_min remembers of it, if it conducts.
+    pub(crate) wall_heat: WallHeat,
+    /// See `wall_heat`.
+    pub(crate) wall_memory: Option<WallMemory>,
     /// How the phases change into each other, if they do.
     pub(crate) exchange: Option<Exchange>,
     /// What the mass carries besides, in the order of the field's components after the model's own.

@@ -6,8 +6,8 @@ use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
 use crate::{
-    Boundary, FarField, FollowedBubble, Gravity, Model, NearWall, NobleAbelStiffenedGas, PhaseChange,
-    RiemannSolver, Shape, Sharpening, StiffenedGas, SurfaceTension, Viscosity,
+    Boundary, Conduction, FarField, FollowedBubble, Gravity, Model, NearWall, NobleAbelStiffenedGas,
+    PhaseChange, RiemannSolver, Shape, Sharpening, StiffenedGas, SurfaceTension, Viscosity,
 };
 
 /// Everything that defines a fluid.
@@ -47,6 +47,8 @@ pub struct FluidSetup {
     pub gravity: Option<Gravity>,
     /// Viscosity of both phases, if any; the fluid then sticks to walls.
     pub viscosity: Option<Viscosity>,
+    /// Conduction of heat in both phases, if any; both need heat capacities.
+    pub conduction: Option<Conduction>,
     /// The bubble that the grid follows, or whose gas is cut, if any.
     pub followed: Option<FollowedBubble>,
     /// The tension of the interface between gas and liquid, if any.
@@ -79,6 +81,7 @@ impl FluidSetup {
             scales: Scales { pressure: 1e6, density: 1e3 },
             gravity: None,
             viscosity: None,
+            conduction: None,
             followed: None,
             surface_tension: None,
             phase_change: None,

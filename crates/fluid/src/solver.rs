@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use mesh::{BlockSolver, Domain, SavedBlocks, Side, SideStates};
+use mesh::{BlockSolver, Domain, Mesh, SavedBlocks, Side, SideStates};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
@@ -23,9 +23,10 @@ use crate::step::BlockScratch;
 use crate::step::report::BlockReport;
 use crate::terms::Terms;
 use crate::two_phase::PhaseModel;
+use crate::wall_heat::WallMemory;
 use crate::{
     Boundary, BoundaryLedger, Fixups, FluidError, FluidSetup, InitialCondition, Mixture, PhaseLedger,
-    Primitive, RayleighField, components,
+    Primitive, RayleighField, WallHeat, components,
 };
 
 /// The fluid: a [`BlockSolver`] of compressible two-phase flow, which says how it is advanced, adapted, kept and taken up again.
@@ -81,6 +82,9 @@ impl<const N: usize> FluidSolver<N> {
         if kinds.contains(&Boundary::FarField) && setup.far_field.is_none() {
             return Err(FluidError::NoFarField);
         }
+        if setup.conduction.is_some() && [setup.liquid, setup.gas].iter().any(|law| law.heat.is_none()) {
+            return Err(FluidError::NoHeatCapacity);
+        }
         let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
         let mixture = Mixture::new(setup.liquid, setup.gas);
         let components = setup.field_components();
@@ -116,6 +120,8 @@ impl<const N: usize> FluidSolver<N> {
             },
             boundaries,
             terms: Terms::of(setup),
+            wall_heat: setup.conduction.map_or(WallHeat::Adiabatic, |conduction| conduction.wall),
+            wall_memory: wall_memory(setup, &mesh),
             exchange: exchange.filter(|_| has_phases),
             carried: components::of(setup),
             analysis,
@@ -156,6 +162,13 @@ impl<const N: usize> FluidSolver<N> {
     pub fn ledger(&self) -> &BoundaryLedger {
         &self.model().tally.ledger
     }
+}
+
+/// The memory of the wall on z_min, if that conducts heat.
+fn wall_memory<const N: usize>(setup: &FluidSetup, mesh: &Mesh<N>) -> Option<WallMemory> {
+    let WallHeat::Conducting(wall) = setup.conduction?.wall else { return None };
+    let is_wall = setup.boundaries[Side::ZMin as usize].is_wall();
+    is_wall.then(|| WallMemory::new(wall, setup.coarsest[1] << mesh.tree().finest()))
 }
 
 impl<const N: usize> Deref for FluidSolver<N> {

@@ -28,7 +28,7 @@ mod tree;
 
 pub use block_solver::stage_timer::StageTimer;
 pub use block_solver::{
-    BlockSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks, Step,
+    BlockSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks, Scratches, Step,
 };
 pub use cell_fields::CellField;
 pub use ghosts::frame::Frame;

@@ -30,7 +30,7 @@ pub use diagnostics::{CELL_FIELDS, MisesPeak, Snapshot, Totals};
 pub use error::SolidError;
 pub use initial::half_space::{Harmonic, half_space_stress};
 pub use material::yield_criterion::{von_mises, yield_function};
-pub use material::{Material, MaterialError};
+pub use material::{Material, MaterialError, MaterialHeat};
 pub use options::{Boundary, InitialStress, PotentialPulse};
 pub use physics::Solid;
 pub use riemann::WaveSpeeds;

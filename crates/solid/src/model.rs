@@ -30,6 +30,7 @@ impl<const N: usize> Model<N> for Solid {
     type Report = BlockReport;
     type Scratch = BlockScratch<N>;
     type Error = SolidError;
+    type Prepared = ();
     type Memory = SolidMemory;
     const STAGES: &'static [&'static str] = STAGES;
 

@@ -1,9 +1,10 @@
 //! The pages that texts on keys lead to.
 
 /// Name, then the page from the repository's root, with the heading.
-pub(super) const LINKS: [(&str, &str); 22] = [
+pub(super) const LINKS: [(&str, &str); 23] = [
     ("absorbing", "docs/theory/absorbing-sides.md"),
     ("bubble", "docs/theory/bubble-content.md"),
+    ("conduction", "docs/theory/conduction.md"),
     ("eos", "docs/theory/equations-of-state.md"),
     ("far-field", "docs/theory/far-field.md"),
     ("far-sides", "docs/verification/distant-sides.md"),

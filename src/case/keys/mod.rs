@@ -2,6 +2,7 @@
 
 pub(super) mod adaptation;
 pub(super) mod bubble;
+mod conduction;
 pub(super) mod coupling;
 mod declared;
 mod find;
@@ -29,10 +30,11 @@ pub use page::keys_page;
 
 /// All that is declared, in the order in which it is told.
 fn sections() -> impl Iterator<Item = &'static Section> {
-    let parts: [&[Section]; 14] = [
+    let parts: [&[Section]; 15] = [
         &time::TIME,
         &fluid::FLUID,
         &terms::TERMS,
+        &conduction::CONDUCTION,
         &phase_change::PHASE_CHANGE,
         &start::START,
         &bubble::BUBBLE,

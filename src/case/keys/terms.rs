@@ -67,6 +67,10 @@ pub(super) static TERMS: [Section; 2] = [
                 values: Values::Names(&[
                     ("bounded", "it has the viscosity that the step is stable with, which is counted"),
                     ("resolved", "it limits the step"),
+                    (
+                        "super-time-stepping",
+                        "it has all of its viscosity, in stages within the step; neither gas nor liquid limits that",
+                    ),
                 ]),
                 default: Preset::Name("bounded"),
                 about: "What gas does whose momentum spreads over more than a cell in a step.",

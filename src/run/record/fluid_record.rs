@@ -9,7 +9,7 @@ use crate::case::{Case, Medium};
 use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 use crate::run::record::collapse::CollapseFinder;
 use crate::run::record::film::FilmRecord;
-use crate::run::record::interface_history::InterfaceHistory;
+use crate::run::record::interface_history::{InterfaceHistory, OnFaces};
 use crate::run::record::side_files::SideFiles;
 use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
 use crate::run::schedule::Plan;
@@ -44,6 +44,8 @@ pub struct FluidRecord {
     wall_pressures: Vec<f64>,
     /// Of a viscous fluid; else none.
     wall_shears: Vec<f64>,
+    /// Heat fluxes into the wall and its temperatures, where heat is conducted; else none.
+    wall_heat: [Vec<f64>; 2],
     cells: CellCount,
     collapse: CollapseFinder,
     peaks: Peaks,
@@ -76,6 +78,8 @@ impl FluidRecord {
     ) -> Result<Self, OutputError> {
         let mut record = Self::on(case, SideFiles::create(case, directory, files::names(solver))?, solver)?;
         record.cells.see(solver.mesh().cells());
+        let [fluxes, temperatures] = &mut record.wall_heat;
+        solver.wall_face_heat(fluxes, temperatures);
         record.write(solver, 0.0)?;
         record.snapshot(solver)?;
         record.files.history.flush()?;
@@ -128,6 +132,7 @@ impl FluidRecord {
             faces,
             wall_pressures,
             wall_shears: Vec::new(),
+            wall_heat: Default::default(),
             cells: CellCount::default(),
             collapse: CollapseFinder::default(),
             peaks: Peaks::default(),
@@ -169,6 +174,8 @@ impl FluidRecord {
             self.wall_pressures.extend(solver.interface().states().iter().map(|wall| wall.pressure));
         }
         solver.wall_face_shears(&mut self.wall_shears);
+        let [fluxes, temperatures] = &mut self.wall_heat;
+        solver.wall_face_heat(fluxes, temperatures);
         self.write(solver, plan.dt)?;
         if plan.snapshot {
             self.snapshot(solver)?;
@@ -242,8 +249,12 @@ impl FluidRecord {
         // Between the ends of whole steps levels are at different times, and nothing adds up.
         let due = solver.clock().is_over() && self.ticker.is_due(time);
         if let Some(interface) = &mut self.interface {
-            let stresses = [&self.wall_pressures[..], &self.wall_shears];
-            interface.after_step(&self.faces, stresses, (time, dt), history)?;
+            let on_faces = OnFaces {
+                pressures: &self.wall_pressures,
+                stresses: &self.wall_shears,
+                heat: self.wall_heat.each_ref().map(|row| &row[..]),
+            };
+            interface.after_step(&self.faces, on_faces, (time, dt), history)?;
             if due {
                 let velocity =
                     |face: usize| solver.interface().states().get(face).map_or(0.0, |wall| wall.velocity);

@@ -10,6 +10,7 @@ use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
 use crate::run::record::sensors::{SensorState, Sensors};
 use crate::run::record::wall_axis::WallAxis;
+use crate::run::record::wall_heat::WallHeat;
 use crate::run::record::wall_shear::WallShear;
 use crate::run::side::wall_faces::WallFaces;
 
@@ -30,6 +31,26 @@ pub struct InterfaceHistory {
     axis: WallAxis,
     /// Under a viscous fluid.
     shear: Option<WallShear>,
+    /// Under a fluid that conducts heat.
+    heat: Option<WallHeat>,
+}
+
+/// What has happened on the faces in a step, means over it.
+#[derive(Clone, Copy)]
+pub struct OnFaces<'a> {
+    /// Pa.
+    pub pressures: &'a [f64],
+    /// σ_zr, Pa; none without viscosity.
+    pub stresses: &'a [f64],
+    /// Heat fluxes into the wall, W/m², and its temperatures, K; none without conduction.
+    pub heat: [&'a [f64]; 2],
+}
+
+impl<'a> OnFaces<'a> {
+    /// Under a load, of which nothing else is known.
+    pub fn of_pressures(pressures: &'a [f64]) -> Self {
+        Self { pressures, stresses: &[], heat: [&[]; 2] }
+    }
 }
 
 /// What of it changes in time, and what hangs on the faces that there were at t = 0.
@@ -42,6 +63,7 @@ pub struct InterfaceState {
     sensors: Vec<SensorState>,
     axis: WallAxis,
     shear: Option<WallShear>,
+    heat: Option<WallHeat>,
 }
 
 impl InterfaceHistory {
@@ -58,6 +80,7 @@ impl InterfaceHistory {
             sensors,
             axis,
             shear,
+            heat,
         } = self;
         InterfaceState {
             grid: grid.clone(),
@@ -67,6 +90,7 @@ impl InterfaceHistory {
             sensors: sensors.saved(),
             axis: axis.clone(),
             shear: shear.clone(),
+            heat: heat.clone(),
         }
     }
 
@@ -77,7 +101,7 @@ impl InterfaceHistory {
         faces: &WallFaces,
         history: &mut HistoryFile,
     ) -> Result<(), Misfit> {
-        let InterfaceState { grid, initial, pressure, impulse, sensors, axis, shear } = saved;
+        let InterfaceState { grid, initial, pressure, impulse, sensors, axis, shear, heat } = saved;
         if [grid.len(), initial.len(), pressure.len(), impulse.len()] != [self.grid.len(); 4] {
             return Err(Misfit(format!("the interface's history has {} cells", grid.len())));
         }
@@ -85,7 +109,7 @@ impl InterfaceHistory {
             return Err(Misfit("the sensors on the wall are others".to_owned()));
         }
         (self.grid, self.initial, self.pressure, self.impulse) = (grid, initial, pressure, impulse);
-        (self.axis, self.shear) = (axis, shear);
+        (self.axis, self.shear, self.heat) = (axis, shear, heat);
         put_centres(faces.begin(), &self.grid, history);
         self.follow(faces);
         Ok(())
@@ -106,7 +130,9 @@ impl InterfaceHistory {
             .collect();
         put_centres(begin, &grid, history);
         let wide = |name, unit, description| Column { name, unit, description, width: cells };
-        let is_viscous = case.fluid.as_ref().is_some_and(|fluid| fluid.terms.viscosity.is_some());
+        let terms = case.fluid.as_ref().map(|fluid| &fluid.terms);
+        let is_viscous = terms.is_some_and(|terms| terms.viscosity.is_some());
+        let conducts = terms.is_some_and(|terms| terms.conduction.is_some());
         let mut columns = vec![
             column("time", "s", "end of the step"),
             wide("pressure", "Pa", "pressure of the star state, mean over the step"),
@@ -116,6 +142,11 @@ impl InterfaceHistory {
         if is_viscous {
             let about = "shear stress with which the fluid drags the wall along +r, mean over the step";
             columns.push(wide("shear", "Pa", about));
+        }
+        if conducts {
+            let about = "temperature of the wall; of one that lets nothing through that of the fluid on it";
+            columns.push(wide("wall_temperature", "K", about));
+            columns.push(wide("heat_flux", "W/m2", "heat flux into the wall, mean over the step"));
         }
         let series = history.add_series("/interface", &columns)?;
         let zero = vec![0.0; cells];
@@ -130,6 +161,7 @@ impl InterfaceHistory {
             sensors: Sensors::create(case, faces, pressures, history)?,
             axis: WallAxis::new(case.mean_time(), pressures),
             shear: is_viscous.then(|| WallShear::new(cells)),
+            heat: conducts.then(|| WallHeat::new(cells)),
         };
         interface.follow(faces);
         interface.add(pressures, 0.0);
@@ -142,17 +174,20 @@ impl InterfaceHistory {
         self.map.update(faces.begin(), faces.edges(), &self.grid, self.axisymmetric);
     }
 
-    /// Takes notice of a step with these mean pressures and shear stresses on the faces that it follows; sensors get their rows.
+    /// Takes notice of a step with this on the faces that it follows; sensors get their rows.
     pub fn after_step(
         &mut self,
         faces: &WallFaces,
-        [pressures, stresses]: [&[f64]; 2],
+        OnFaces { pressures, stresses, heat: of_heat }: OnFaces<'_>,
         (time, dt): (f64, f64),
         history: &mut HistoryFile,
     ) -> Result<(), OutputError> {
         self.add(pressures, dt);
         if let Some(shear) = self.shear.as_mut().filter(|_| !stresses.is_empty()) {
             shear.after_step(faces, &self.map, stresses, time);
+        }
+        if let Some(heat) = self.heat.as_mut().filter(|_| !of_heat[0].is_empty()) {
+            heat.after_step(faces, &self.map, of_heat, time);
         }
         self.axis.after_step(pressures, (time, dt));
         self.sensors.after_step(faces, pressures, (time, dt), history)
@@ -163,6 +198,7 @@ impl InterfaceHistory {
         let mut part = self.axis.summary();
         part.extend(self.sensors.summary());
         part.extend(self.shear.iter().flat_map(WallShear::summary));
+        part.extend(self.heat.iter().flat_map(WallHeat::summary));
         part
     }
 
@@ -187,12 +223,13 @@ impl InterfaceHistory {
         history: &mut HistoryFile,
     ) -> Result<(), OutputError> {
         let cells = self.grid.len();
-        let mut row = Vec::with_capacity(1 + 4 * cells);
+        let mut row = Vec::with_capacity(1 + 6 * cells);
         row.push(time);
         row.extend_from_slice(&self.pressure);
         self.map.means(true, |k| velocity(self.map.sub_faces()[k].first), |_, mean| row.push(mean));
         row.extend_from_slice(&self.impulse);
         row.extend(self.shear.iter().flat_map(WallShear::means));
+        row.extend(self.heat.iter().flat_map(WallHeat::rows));
         history.push(self.series, &row)
     }
 }

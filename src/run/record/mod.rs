@@ -34,6 +34,7 @@ pub mod surface;
 pub mod timed;
 pub mod two_collapses;
 pub mod wall_axis;
+mod wall_heat;
 mod wall_shear;
 
 use mesh::{BLOCK, Limiter, Mesh, Misfit};

@@ -12,8 +12,8 @@ use crate::state::primitive::{PHI, PRESSURE, RHO, V_R, V_Z};
 use crate::step::block_sides;
 use crate::step::rows::{half_step, rates};
 use crate::step::update::Metric;
-use crate::step::{BlockScratch, reconstruct};
-use crate::terms::{TermBlock, WallCell};
+use crate::step::{BlockScratch, reconstruct, take_wall};
+use crate::terms::{GasMass, HeatBeyond, TermBlock, WallCell};
 use crate::two_phase::{Cells, FaceStates, Window, face_states};
 use crate::{FluidSolver, Mixture, TRACE_GAS};
 
@@ -122,7 +122,8 @@ impl<const N: usize> FluidSolver<N> {
         let (true, Some(wall)) = (terms.is_viscous, self.interface().states_of::<N>(slot)) else {
             return [0.0; N];
         };
-        let BlockScratch { cells, s_z, s_r, half, inverse_r, works, capillary, .. } = scratch;
+        take_wall(ctx.mesh, ctx.interface, slot, &mut scratch.wall);
+        let BlockScratch { cells, s_z, s_r, half, inverse_r, works, capillary, wall: around, .. } = scratch;
         let inverse_h = ctx.mesh.widths(ctx.mesh.tree().leaves()[slot].level).map(|h| 1.0 / h);
         let metric = Metric {
             stride: Padded::<N>::STRIDE,
@@ -141,8 +142,11 @@ impl<const N: usize> FluidSolver<N> {
             state: rows,
             before: rows,
             sides,
-            wall: Some(wall),
+            wall: Some(around),
             capillary,
+            gas: GasMass::Absent,
+            heat_beyond: HeatBeyond::Nothing,
+            spread: None,
         };
         let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
         v_r.fill(0.0);

@@ -75,6 +75,8 @@ pub struct BoundaryLedger {
     pub wall_impulse: f64,
     /// Work of p* on the wall to the solid, J: what the fluid got.
     pub wall_work: f64,
+    /// Heat that the wall on z_min got by conduction, J; the energy through z_min has it, too.
+    pub wall_heat: f64,
     /// Axial impulse of surface tension on the fluid within, N s: nothing but for what the curvatures of the grid's cells leave.
     pub tension_impulse: f64,
     /// Work of surface tension on the fluid within, J: σ times the area that interfaces have lost.

@@ -162,6 +162,21 @@ impl<const N: usize> FluidSolver<N> {
         }
     }
 
+    /// The heat flux into the wall on z_min, W/m², and the wall's temperature, K: means over its level's present or last step on each face, in
+    /// the order of r. None where nothing conducts, or z_min is no wall.
+    pub fn wall_face_heat(&self, fluxes: &mut Vec<f64>, temperatures: &mut Vec<f64>) {
+        fluxes.clear();
+        temperatures.clear();
+        if !(self.model().terms.conducts && self.model().has_wall()) {
+            return;
+        }
+        for slot in self.interface().blocks() {
+            let sides = self.reports().pending[*slot].sides.as_deref();
+            fluxes.extend_from_slice(sides.map_or(&[0.0; N], |sides| &sides.wall_heat));
+            temperatures.extend_from_slice(sides.map_or(&[0.0; N], |sides| &sides.wall_temperature));
+        }
+    }
+
     /// Mass, axial momentum, energy and the gas's mass in the domain, added up row by row and block by block.
     pub fn totals(&self) -> Totals {
         let has_phases = self.model().analysis.has_phases;

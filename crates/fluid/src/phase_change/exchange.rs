@@ -129,7 +129,7 @@ impl Exchange {
         match self.asked.law {
             EvaporationLaw::Equilibrium => to_equilibrium(cell, &self.saturation),
             EvaporationLaw::HertzKnudsen { accommodation } => {
-                let area = area_density(place.phi, k, stride, place.inverse_h);
+                let area = area_density(place.phi, k, stride, place.inverse_h, holds_both);
                 at_finite_rate(cell, accommodation * place.dt * area, &self.saturation)
             }
         }

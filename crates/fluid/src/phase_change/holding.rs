@@ -6,7 +6,8 @@ use super::saturation::Saturation;
 const BOTH: f64 = 1e-3;
 
 /// Whether a cell holds both phases.
-pub(super) fn holds_both(phi: f64) -> bool {
+#[inline(always)]
+pub(crate) fn holds_both(phi: f64) -> bool {
     (phi > BOTH) & (phi < 1.0 - BOTH)
 }
 

@@ -1,16 +1,21 @@
 //! How much interface there is in a cell.
 
-use super::holding::holds_both;
-
 /// The area of the interface in a cell per its volume, 1/m, for cells that hold both phases.
 ///
 /// |∇φ| integrated over a front is its area. Part of that integral lies in pure cells beside it, which cannot change phase: what φ steps by between
 /// a cell of both phases and one of a single phase counts in full, between two of both half for each. Along an axis the areas of a front's
 /// cells then add up to the front's, however many they are.
 ///
-/// - `phi`: of the padded cells; `k`: the cell; `stride`: between cells along r; `inverse_h`: 1/h_z, 1/h_r.
+/// - `phi`: of the padded cells; `k`: the cell; `stride`: between cells along r; `inverse_h`: 1/h_z, 1/h_r; `holds_both`: whether a
+///   cell of a gas fraction does.
 /// - tested by: fronts along and across the grid, a circle.
-pub(super) fn area_density(phi: &[f64], k: usize, stride: usize, inverse_h: [f64; 2]) -> f64 {
+pub(crate) fn area_density(
+    phi: &[f64],
+    k: usize,
+    stride: usize,
+    inverse_h: [f64; 2],
+    holds_both: impl Fn(f64) -> bool,
+) -> f64 {
     let slope = |step: usize, inverse_h: f64| {
         let towards = |other: usize| if holds_both(phi[other]) { 0.5 } else { 1.0 } * (phi[other] - phi[k]);
         (towards(k + step) - towards(k - step)) * inverse_h
@@ -20,6 +25,7 @@ pub(super) fn area_density(phi: &[f64], k: usize, stride: usize, inverse_h: [f64
 
 #[cfg(test)]
 mod tests {
+    use super::super::holding::holds_both;
     use super::*;
 
     const N: usize = 64;
@@ -38,7 +44,7 @@ mod tests {
             .collect();
         let inner = |k: &usize| (1..=N).contains(&(k % stride)) && (1..=N).contains(&(k / stride));
         let both = (0..stride * stride).filter(inner).filter(|k| holds_both(phi[*k]));
-        both.map(|k| area_density(&phi, k, stride, [N as f64; 2]) * h * h).sum()
+        both.map(|k| area_density(&phi, k, stride, [N as f64; 2], holds_both) * h * h).sum()
     }
 
     #[test]

@@ -64,6 +64,8 @@ Clips {
     expanded_cells,
     /// Cells that had no more than the viscosity that the step is stable with.
     bounded_viscosities,
+    /// Cells that conducted no more heat than the step is stable with.
+    bounded_conductivities,
 }
 }
 

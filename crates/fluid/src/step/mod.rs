@@ -11,18 +11,21 @@ mod faces;
 mod jumps;
 mod scratch;
 mod stages;
+mod tell;
 #[cfg(test)]
 mod tile_tests;
+mod with_terms;
 
 use mesh::{BlockId, Frame, StageTimer, Tile};
 
 pub use scratch::BlockScratch;
-pub(crate) use scratch::split_block;
+pub(crate) use scratch::{split_block, take_wall};
 pub(crate) use stages::{block_sides, reconstruct};
 
 use crate::physics::{Fluid, FluidStep};
 use crate::step::clips::Clips;
 use crate::step::report::BlockReport;
+use crate::terms::super_stepping::{SpreadBlock, Spreading};
 use crate::two_phase::BlockGas;
 
 /// The stages of a step, in their order.
@@ -61,6 +64,18 @@ struct TileStep<'a, const N: usize> {
     clips: Clips,
 }
 
+/// Begins what spreads in stages in a block, see [`SpreadBlock::begin`].
+pub(crate) fn begin_spreading<const N: usize>(
+    ctx: &FluidStep<'_, N>,
+    slot: usize,
+    of: &dyn Spreading,
+    scratch: &mut BlockScratch<N>,
+) -> (SpreadBlock, f64) {
+    let mut block = TileStep::assemble(ctx, Tile::one(slot), scratch);
+    block.predict(scratch);
+    block.begin_spreading(of, scratch)
+}
+
 /// Whether the blocks of a tile are stepped as one: where nothing has a say but their cells' own fluxes.
 ///
 /// Terms, what the mass carries, phase change and the wall to the solid are made block by block.
@@ -83,6 +98,7 @@ pub(crate) fn step_tile<const N: usize>(
     done(Stage::Assemble);
     ctx.mesh.look_ahead_of(ctx.old, tile, new, 0, 3);
     step.predict(scratch);
+    step.predict_terms(scratch);
     done(Stage::Predict);
     ctx.mesh.look_ahead_of(ctx.old, tile, new, 1, 3);
     step.impose_boundaries(scratch);

@@ -58,6 +58,13 @@ pub struct SideReport<const N: usize> {
     /// Shear stress σ_zr on the faces of z_min, Pa; 0 in blocks that do not touch it.
     #[serde(with = "mesh::array")]
     pub(crate) wall_shear: [f64; N],
+    /// The heat that the wall on z_min gets on its faces, W/m², and its temperature there, K; 0 in blocks that do not touch it, or
+    /// where nothing conducts.
+    #[serde(with = "mesh::array")]
+    pub(crate) wall_heat: [f64; N],
+    /// See `wall_heat`.
+    #[serde(with = "mesh::array")]
+    pub(crate) wall_temperature: [f64; N],
     /// What the far field's impulse on the faces of each side has gained, Pa s.
     pub(crate) impulse: [FaceRow<N>; 4],
 }
@@ -68,6 +75,8 @@ impl<const N: usize> Default for SideReport<N> {
             inflow: [[0.0; 4]; 4],
             wall_pressure: [0.0; N],
             wall_shear: [0.0; N],
+            wall_heat: [0.0; N],
+            wall_temperature: [0.0; N],
             impulse: [FaceRow([0.0; N]); 4],
         }
     }

@@ -1,6 +1,6 @@
 //! What a thread works in.
 
-use mesh::{AlignedRow, Frame, Patch, TileRows};
+use mesh::{AlignedRow, FaceState, Frame, GHOSTS, Interface, Mesh, Neighbour, Offset, Patch, TileRows};
 
 use crate::capillarity::CapillaryRows;
 use crate::components::carried::CarriedScratch;
@@ -36,6 +36,12 @@ pub struct BlockScratch<const N: usize> {
     pub(super) with_sources: Vec<f64>,
     /// What terms work in, a part for each.
     pub(crate) works: Vec<Vec<f64>>,
+    /// What stages begin with.
+    pub(super) spread_work: Vec<f64>,
+    /// See [`crate::terms::TermBlock::wall`]; empty where the block has none.
+    pub(crate) wall: Vec<FaceState>,
+    /// See [`crate::terms::HeatBeyond::Wall`].
+    pub(super) wall_temperatures: Vec<f64>,
     /// A part for each component that the mass carries.
     pub(super) carried: Vec<CarriedScratch>,
     pub(crate) gas: GasScratch,
@@ -78,6 +84,9 @@ impl<const N: usize> BlockScratch<N> {
             inverse_weight: vec![0.0; across * N],
             with_sources: Vec::new(),
             works: Vec::new(),
+            spread_work: Vec::new(),
+            wall: Vec::with_capacity(N + 2 * GHOSTS),
+            wall_temperatures: vec![0.0; N + 2],
             carried: (0..carried).map(|_| CarriedScratch::new::<N>()).collect(),
             gas: GasScratch::new(frame),
             capillary: CapillaryRows::default(),
@@ -104,6 +113,35 @@ impl<const N: usize> BlockScratch<N> {
 
 /// The most cells along a side of a tile: more do not stay in the second-level cache from stage to stage.
 const MOST_CELLS: usize = 32;
+
+/// Takes the states of a block's faces of the wall to another medium, and of as many more at both ends as there are ghosts: of the block of
+/// its level beside it, or else the block's last. Nothing where it has none.
+pub(crate) fn take_wall<const N: usize>(
+    mesh: &Mesh<N>,
+    interface: &Interface,
+    slot: usize,
+    wall: &mut Vec<FaceState>,
+) {
+    wall.clear();
+    let Some(own) = interface.states_of::<N>(slot) else { return };
+    let neighbours = mesh.tree().neighbours(slot);
+    let beside = |j: i8| {
+        let place = Offset::ALL.iter().position(|offset| *offset == Offset { i: 0, j });
+        match place.map(|place| neighbours[place]) {
+            Some(Neighbour::Same(other)) => interface.states_of::<N>(other),
+            _ => None,
+        }
+    };
+    match beside(-1) {
+        Some(below) => wall.extend_from_slice(&below[N - GHOSTS..]),
+        None => wall.extend([own[0]; GHOSTS]),
+    }
+    wall.extend_from_slice(own);
+    match beside(1) {
+        Some(above) => wall.extend_from_slice(&above[..GHOSTS]),
+        None => wall.extend([own[N - 1]; GHOSTS]),
+    }
+}
 
 /// The first components of one block of a field.
 pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COUNT] {

@@ -4,13 +4,11 @@ use mesh::{Side, Tile, TileRows, limited_differences};
 
 use super::TileStep;
 use super::jumps::find_jumps;
-use super::scratch::{BlockScratch, split_block};
+use super::scratch::{BlockScratch, split_block, take_wall};
 use crate::Boundary;
-use crate::capillarity::{CapillaryRows, cell_at_wall};
 use crate::components::carried::CarriedCells;
 use crate::phase_change::{BlockPlace, Exchange};
 use crate::physics::FluidStep;
-use crate::reconstruction::Rows;
 use crate::reconstruction::capillary::level_slopes;
 use crate::reconstruction::even::{even_slopes, predict_beside_mirrors};
 use crate::reconstruction::predictor::{Predicted, Predictor, predict};
@@ -18,10 +16,9 @@ use crate::state::COUNT;
 use crate::state::primitive::{PHI, PRESSURE, RHO, VELOCITY};
 use crate::step::clips::{Clips, CountedAnalysis};
 use crate::step::reflux::register_fluxes;
-use crate::step::report::{BlockReport, SideReport, boundary_inflow, count_kept, far_field_gains};
+use crate::step::report::BlockReport;
 use crate::step::rows;
-use crate::step::update::{Metric, NewCells, extremes, update};
-use crate::terms::TermBlock;
+use crate::step::update::{Metric, NewCells, update};
 use crate::two_phase::{Before, BlockGas, is_zero, may_have_gas, remove_traces};
 
 /// Assembles a tile with its ghosts: primitive variables in `cells`.
@@ -115,6 +112,14 @@ impl<'a, const N: usize> TileStep<'a, N> {
         if let Some(gas) = gas.phases() {
             gas.shares(scratch);
         }
+        if ctx.model.terms.is_diffusive {
+            take_wall(ctx.mesh, ctx.interface, slot, &mut scratch.wall);
+        }
+        if let Some(memory) = &ctx.model.wall_memory
+            && ctx.mesh.touches(slot, Side::ZMin)
+        {
+            memory.temperatures(ctx.mesh, id, ctx.dt, &mut scratch.wall_temperatures);
+        }
         if let Some(tension) = ctx.model.terms.surface_tension() {
             find_jumps(ctx, slot, tension, gas.is_present(), scratch);
         }
@@ -126,7 +131,12 @@ impl<'a, const N: usize> TileStep<'a, N> {
     /// Of a block of the tile.
     ///
     /// - `face_weight`, `inverse_weight`: as [`TileStep::assemble`] has left them.
-    fn metric_of<'b>(&self, number: usize, face_weight: &'b [f64], inverse_weight: &'b [f64]) -> Metric<'b> {
+    pub(super) fn metric_of<'b>(
+        &self,
+        number: usize,
+        face_weight: &'b [f64],
+        inverse_weight: &'b [f64],
+    ) -> Metric<'b> {
         let place = self.tile.place(number);
         Metric {
             stride: self.frame.stride(),
@@ -139,28 +149,8 @@ impl<'a, const N: usize> TileStep<'a, N> {
     }
 
     /// [`TileStep::metric_of`] of the only block.
-    fn metric<'b>(&self, face_weight: &'b [f64], inverse_weight: &'b [f64]) -> Metric<'b> {
+    pub(super) fn metric<'b>(&self, face_weight: &'b [f64], inverse_weight: &'b [f64]) -> Metric<'b> {
         self.metric_of(0, face_weight, inverse_weight)
-    }
-
-    /// The block as terms see it; `rows`: the padded cells as they are to see them, and at the beginning of the step.
-    fn term_block<'b>(
-        &'b self,
-        metric: &'b Metric<'b>,
-        inverse_r: &'b [f64],
-        [state, before]: [Rows<'b>; 2],
-        capillary: &'b CapillaryRows,
-    ) -> TermBlock<'b> {
-        TermBlock {
-            cells: N,
-            metric,
-            inverse_r,
-            state,
-            before,
-            sides: block_sides(self.ctx, self.slot),
-            wall: self.ctx.interface.states_of::<N>(self.slot),
-            capillary,
-        }
     }
 
     /// Limited differences, and the states at mid-step.
@@ -197,15 +187,6 @@ impl<'a, const N: usize> TileStep<'a, N> {
                 scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);
             }
         }
-        if self.ctx.model.terms.is_viscous {
-            let BlockScratch {
-                cells, half, inverse_r, face_weight, inverse_weight, works, capillary, ..
-            } = scratch;
-            let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
-            let block = self.term_block(&metric, inverse_r, [rows; 2], capillary);
-            let [_, v_z, v_r, ..] = half.split_mut::<COUNT>();
-            self.ctx.model.terms.predict(&block, [v_z, v_r], works);
-        }
     }
 
     /// States beyond the sides of the domain, and cells that make this step at first order.
@@ -229,15 +210,7 @@ impl<'a, const N: usize> TileStep<'a, N> {
     pub(super) fn add_terms(&mut self, scratch: &mut BlockScratch<N>) {
         let ctx = self.ctx;
         if !ctx.model.terms.is_empty() {
-            let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, with_sources, .. } =
-                scratch;
-            let BlockScratch { cells, inverse_r, works, capillary, .. } = scratch;
-            let metric = &self.metric(face_weight, inverse_weight);
-            let block = self.term_block(metric, inverse_r, [half.split(), cells.split()], capillary);
-            with_sources.clear();
-            with_sources.extend_from_slice(ctx.old.block(self.slot));
-            let bounded = ctx.model.terms.add(&block, [z_faces, r_faces], works, with_sources);
-            self.clips.bounded_viscosities = bounded;
+            self.add_to_fluxes(scratch);
         }
         let BlockScratch { cells, carried, gas_shares, z_faces, r_faces, .. } = scratch;
         let own = ctx.model.carried.iter().zip(ctx.model.carried_components());
@@ -306,8 +279,9 @@ impl<'a, const N: usize> TileStep<'a, N> {
             NewCells { conserved: split_block::<N>(state), speeds: speeds.each_mut().map(|row| &mut **row) };
         update::<N>(old_rows, faces, &metric, (self.gas.is_present(), gas_after), &ctx.model.mixture, rows);
         if let Some(block) = self.gas.phases() {
-            let before = Before { old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
-            block.update(number, gas, before, faces, new, speeds, report);
+            let before =
+                Before { number, old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
+            block.update(gas, before, faces, new, speeds, report);
         } else if self.gas.is_present() {
             let (is_left, removed) = remove_traces(&mut new[PHI * N * N..(PHI + 1) * N * N]);
             report.has_gas = is_left;
@@ -319,6 +293,9 @@ impl<'a, const N: usize> TileStep<'a, N> {
         for (component, carried) in ctx.model.carried_components().zip(carried) {
             let rows = component * N * N..(component + 1) * N * N;
             carried.update::<N>(&old[rows.clone()], &metric, &mut new[rows]);
+        }
+        if ctx.model.terms.is_diffusive && self.gas.phases().is_some() {
+            self.finish_terms(scratch, new);
         }
         if let Some(exchange) = &ctx.model.exchange {
             self.change_phase(exchange, scratch, new, report);
@@ -343,87 +320,6 @@ impl<'a, const N: usize> TileStep<'a, N> {
         let mut speeds = scratch.speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
         report.exchange = exchange.act::<N>(&place, new, &mut speeds);
         report.has_gas |= report.exchange.opened > 0;
-    }
-
-    /// The axial momentum and the energy that surface tension has added to the block (per radian).
-    fn tension_gains(&self, scratch: &BlockScratch<N>) -> [f64; 2] {
-        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, capillary, .. } = scratch;
-        let mut gains = [0.0; 2];
-        let metric = self.metric(face_weight, inverse_weight);
-        capillary.for_gains(N, &metric, [&z_faces.velocity, &r_faces.velocity], |cell, [axial, _, work]| {
-            let volume = self.ctx.mesh.volume(self.id, cell / N);
-            gains[0] += volume * axial;
-            gains[1] += volume * work;
-        });
-        gains
-    }
-
-    /// What a block tells of the step.
-    ///
-    /// - arguments: those of [`TileStep::update`].
-    pub(super) fn report(
-        &self,
-        number: usize,
-        scratch: &mut BlockScratch<N>,
-        new: &[f64],
-        report: &mut BlockReport<N>,
-    ) {
-        let (ctx, slot) = (self.ctx, self.slot + number);
-        let (id, at) = (ctx.mesh.tree().leaves()[slot], self.tile.frame_of::<N>(number));
-        if !self.all_keep {
-            let [fallbacks, halved] = count_kept::<N>(&scratch.keep, at.origin(), at.stride());
-            report.fallbacks += fallbacks;
-            report.clips.halved_slopes += u64::from(halved);
-        }
-        if number == 0 {
-            report.clips += self.clips;
-        }
-        let speeds = scratch.speeds.split::<3>().map(|row| &row[..N * N]);
-        let [_, _, floor] = speeds;
-        report.extremes = extremes(&new[PHI * N * N..(PHI + 1) * N * N], speeds);
-        if report.extremes.floor > 0.0 {
-            for (cell, added) in floor.iter().enumerate().filter(|(_, added)| **added > 0.0) {
-                report.marked.insert(cell);
-                report.lift_pressure(*added, ctx.mesh.volume(id, cell / N));
-            }
-        }
-        if scratch.capillary.is_present() {
-            report.tension = self.tension_gains(scratch);
-            if ctx.model.terms.forbids_contact() {
-                let found = cell_at_wall(ctx.mesh, slot, ctx.model.analysis.boundaries, new);
-                report.contact = found.map(|cell| cell as u32);
-            }
-        }
-        if ctx.model.terms.is_viscous {
-            report.diffusivity = ctx.model.diffusivity::<N>(new);
-        }
-        if Side::ALL.into_iter().any(|side| ctx.mesh.touches(slot, side)) {
-            let sides = report.sides.get_or_insert_default();
-            self.report_sides(number, scratch, sides);
-        }
-    }
-
-    /// What a block that touches sides of the domain tells of them.
-    fn report_sides(&self, number: usize, scratch: &BlockScratch<N>, sides: &mut SideReport<N>) {
-        let (ctx, slot) = (self.ctx, self.slot + number);
-        let at = self.tile.frame_of::<N>(number);
-        let BlockScratch { z_faces, r_faces, face_weight, inverse_weight, half, .. } = scratch;
-        let metric = self.metric_of(number, face_weight, inverse_weight);
-        *sides = SideReport {
-            inflow: boundary_inflow(ctx, (slot, at), z_faces, r_faces, metric.face_weight),
-            impulse: far_field_gains(ctx, (slot, at), half, z_faces, r_faces),
-            ..SideReport::default()
-        };
-        if !ctx.mesh.touches(slot, Side::ZMin) {
-            return;
-        }
-        sides.wall_pressure = std::array::from_fn(|j| z_faces.pressure[at.index(-1, j as isize)]);
-        if ctx.model.terms.is_viscous {
-            let wall = ctx.interface.states_of::<N>(slot);
-            // Through a wall at rest no mass carries any momentum along.
-            let of_rest = |j: usize| -z_faces.shear[at.index(-1, j as isize)];
-            sides.wall_shear = std::array::from_fn(|j| wall.map_or_else(|| of_rest(j), |wall| wall[j].shear));
-        }
     }
 }
 

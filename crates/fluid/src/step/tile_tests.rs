@@ -91,7 +91,7 @@ fn tiles_step_as_their_blocks_do_to_the_last_bit() {
             fluid.state().as_slice().iter().map(|value| value.to_bits()).collect()
         };
         assert_eq!(bits(&tiles), bits(&blocks), "{choices:?}");
-        let of = |fluid: &FluidSolver<N>| (fluid.time(), fluid.ledger().clone(), fluid.cell_updates());
+        let of = |fluid: &FluidSolver<N>| (fluid.time(), *fluid.ledger(), fluid.cell_updates());
         assert_eq!(of(&tiles), of(&blocks));
         let speeds = |fluid: &FluidSolver<N>| fluid.largest_speeds();
         assert_eq!(speeds(&tiles), speeds(&blocks));

@@ -161,11 +161,11 @@ fn update_rows<const N: usize, const WITH_GAS: bool, const B: bool>(
 
 /// The rows of faces of a block's N rows of cells, from the face `first` on: each as long as the rows are apart.
 #[inline(always)]
-fn face_rows<'a, const N: usize>(
-    fluxes: [&'a [f64]; 6],
+fn face_rows<const N: usize>(
+    fluxes: [&[f64]; 6],
     first: usize,
     stride: usize,
-) -> impl Iterator<Item = [&'a [f64]; 6]> {
+) -> impl Iterator<Item = [&[f64]; 6]> {
     let [a, b, c, d, e, f] = fluxes.map(|flux| flux[first..][..N * stride].chunks_exact(stride));
     let pairs = a.zip(b).zip(c.zip(d)).zip(e.zip(f));
     pairs.map(|(((a, b), (c, d)), (e, f))| [a, b, c, d, e, f])

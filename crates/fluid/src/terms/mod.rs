@@ -4,17 +4,39 @@
 //! flux registers, subcycling, the first-order fall-back, checkpoints and the coupling take part without knowing of it. Terms that a
 //! case has not are not in the list, and a block's step with an empty list is bitwise that without terms.
 
+pub(crate) mod conduction;
+pub(crate) mod diffusion;
 pub(crate) mod gravity;
+pub(crate) mod super_stepping;
 pub(crate) mod surface_tension;
 pub(crate) mod viscosity;
 
-use mesh::FaceState;
+use mesh::{FaceState, Side};
 
+use crate::boundary::cells_beside;
 use crate::capillarity::CapillaryRows;
 use crate::reconstruction::Rows;
+use crate::state::primitive::PHI;
+use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
-use crate::{Boundary, FluidSetup};
+use crate::{Boundary, FluidSetup, Mixture};
+use conduction::ConductionTerm;
+use super_stepping::{Spreading, View};
+
+/// Cells of which so much is of one phase are not mixed.
+const ONE_PHASE: f64 = 1e-6;
+
+/// The gas's part of the mass in the padded cells, as terms see it.
+#[derive(Clone, Copy)]
+pub(crate) enum GasMass<'a> {
+    /// There is no gas.
+    Absent,
+    /// There may be, and the phases have no masses of their own.
+    Unknown,
+    /// m_g/ρ.
+    Shares(&'a [f64]),
+}
 
 /// A block in a step, as terms see it.
 pub(crate) struct TermBlock<'a> {
@@ -29,10 +51,88 @@ pub(crate) struct TermBlock<'a> {
     pub before: Rows<'a>,
     /// What bounds the domain on the sides of the block; `None` where other blocks are.
     pub sides: [Option<Boundary>; 4],
-    /// The faces of the wall to another medium, in the order of r, where the block has any.
+    /// The faces of the wall to another medium, in the order of r, where the block has any, and as many more at both ends as there are
+    /// ghosts: those of the blocks beside it.
     pub wall: Option<&'a [FaceState]>,
     /// The jumps of pressure across interfaces, where there is surface tension.
     pub capillary: &'a CapillaryRows,
+    /// How much of the mass is gas at the beginning of the step.
+    pub gas: GasMass<'a>,
+    /// What walls do with heat.
+    pub heat_beyond: HeatBeyond<'a>,
+    /// What blocks have found together in stages, if any.
+    pub spread: Option<View<'a>>,
+}
+
+impl TermBlock<'_> {
+    /// The sides of the domain that the block touches.
+    pub fn bounding_sides(&self) -> impl Iterator<Item = (Side, Boundary)> + use<> {
+        let sides = self.sides;
+        Side::ALL.into_iter().filter_map(move |side| Some((side, sides[side as usize]?)))
+    }
+}
+
+/// The padded places of the cell next to a side, `along` cells from its beginning, and of the ghost beyond.
+pub(crate) fn beside_padded(side: Side, cells: usize, metric: &Metric<'_>, along: isize) -> [usize; 2] {
+    let [origin, stride] = [metric.origin, metric.stride].map(|place| place as isize);
+    cells_beside(side, cells, along).map(|(i, j)| (origin + j * stride + i) as usize)
+}
+
+/// What walls do with heat, in a step of a block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum HeatBeyond<'a> {
+    /// They let nothing through.
+    Nothing,
+    /// All have this temperature, K.
+    Kept(f64),
+    /// The wall on z_min has these temperatures without heat coming in, K, on the faces of the block and one more at both ends; and it is
+    /// warmer by this much per flux, m² K/W.
+    Wall { temperatures: &'a [f64], resistance: f64 },
+}
+
+impl HeatBeyond<'_> {
+    /// The temperature beyond a face of a side, K, and the resistance in front of it, m² K/W; `None` where nothing passes.
+    ///
+    /// - `along`: of the face, from −1 to the number of cells.
+    pub fn at(&self, side: Side, kind: Boundary, along: isize) -> Option<[f64; 2]> {
+        match *self {
+            Self::Kept(temperature) if kind.is_wall() => Some([temperature, 0.0]),
+            Self::Wall { temperatures, resistance } if kind.is_wall() && side == Side::ZMin => {
+                Some([temperatures[(along + 1) as usize], resistance])
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Calls `visit` for the padded cells without their ends that have no state at mid-step but on their faces: mixed ones of the five-equation
+/// model. Whether a cell is one does not depend on the block that sees it.
+pub(crate) fn for_cells_without_mid_step(block: &TermBlock<'_>, mut visit: impl FnMut(usize)) {
+    let phi = block.before[PHI];
+    if phi.iter().all(|phi| *phi == 0.0) {
+        return;
+    }
+    let stride = block.metric.stride;
+    let is_beside_another =
+        |k: usize| [k - 1, k + 1, k - stride, k + stride].iter().any(|n| (phi[*n] - phi[k]).abs() > 0.5);
+    for k in stride + 1..phi.len() - stride - 1 {
+        if (phi[k] > ONE_PHASE && phi[k] < 1.0 - ONE_PHASE) || is_beside_another(k) {
+            visit(k);
+        }
+    }
+}
+
+/// The cells of a block at the end of its step.
+pub(crate) struct FinishedCells<'a> {
+    /// Cells along a side.
+    pub cells: usize,
+    pub metric: &'a Metric<'a>,
+    /// φ of the padded cells at the beginning of the step.
+    pub phi: &'a [f64],
+    /// Conserved components `[component][j][i]` without ghosts.
+    pub new: &'a mut [f64],
+    /// |v_z| + c and |v_r| + c of those cells, and the energy that the floor added.
+    pub speeds: [&'a mut [f64]; 3],
 }
 
 /// A cell on the wall to another medium, as terms see it.
@@ -73,11 +173,14 @@ pub(crate) trait Term: Send + Sync {
     /// - `work`: rows to work in, whatever they hold; likewise below.
     fn predict(&self, _block: &TermBlock<'_>, _half: [&mut [f64]; 2], _work: &mut Vec<f64>) {}
 
+    /// Adds what the pressure of a block and its first ghosts gains until mid-step.
+    fn predict_pressure(&self, _block: &TermBlock<'_>, _pressure: &mut [f64], _work: &mut Vec<f64>) {}
+
     /// Adds to the fluxes through the faces of a block along z and r, before they are registered; they hold those of waves.
     ///
     /// - returns: in how many cells of the block it was bounded.
-    fn add_fluxes(&self, _block: &TermBlock<'_>, _faces: [&mut FaceRows; 2], _work: &mut Vec<f64>) -> u64 {
-        0
+    fn add_fluxes(&self, _block: &TermBlock<'_>, _faces: [&mut FaceRows; 2], _work: &mut Vec<f64>) -> Clips {
+        Clips::default()
     }
 
     /// Adds what comes into the cells of a block in the step, per volume.
@@ -91,6 +194,23 @@ pub(crate) trait Term: Send + Sync {
         _work: &[f64],
         _block_rows: &mut [f64],
     ) {
+    }
+
+    /// What it does to cells of both phases at the end of a step, where phases have masses of their own.
+    ///
+    /// - `work`: as its own [`Term::add_fluxes`] has left it.
+    fn finish(&self, _cells: &mut FinishedCells<'_>, _work: &[f64]) {}
+
+    /// The heat that the wall on z_min gets on the faces of a block, W/m², and its temperatures, K.
+    ///
+    /// - `work`: as its own [`Term::add_fluxes`] has left it; `padded`: the length of padded rows.
+    fn wall_heat<'w>(&self, _work: &'w [f64], _padded: usize) -> Option<[&'w [f64]; 2]> {
+        None
+    }
+
+    /// What of it spreads in stages within a step, if it does.
+    fn spreading(&self) -> Option<&dyn Spreading> {
+        None
     }
 
     /// The largest diffusivity in cells of these densities and gas fractions, m²/s.
@@ -117,15 +237,25 @@ pub(crate) struct Terms {
     acceleration: [f64; 2],
     /// Whether there is friction.
     pub is_viscous: bool,
+    /// Whether heat is conducted.
+    pub conducts: bool,
+    /// Whether there is friction or conduction.
+    pub is_diffusive: bool,
+    /// Whether something spreads in stages within a step.
+    pub spreads: bool,
     surface_tension: Option<f64>,
 }
 
 impl Terms {
     /// Those that a setup asks for.
     pub fn of(setup: &FluidSetup) -> Self {
-        let all: [Option<Box<dyn Term>>; 3] = [
+        let mixture = Mixture::new(setup.liquid, setup.gas);
+        let conduction = setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture));
+        let (is_viscous, conducts) = (setup.viscosity.is_some(), conduction.is_some());
+        let all: [Option<Box<dyn Term>>; 4] = [
             setup.gravity.map(|gravity| Box::new(gravity) as _),
             setup.viscosity.map(|viscosity| Box::new(viscosity) as _),
+            conduction.map(|conduction| Box::new(conduction) as _),
             setup.surface_tension.map(|tension| Box::new(tension) as _),
         ];
         let list: Vec<Box<dyn Term>> = all.into_iter().flatten().collect();
@@ -134,7 +264,9 @@ impl Terms {
             [z + more[0], r + more[1]]
         });
         let surface_tension = list.iter().find_map(|term| term.surface_tension());
-        Self { list, acceleration, is_viscous: setup.viscosity.is_some(), surface_tension }
+        let spreads = list.iter().any(|term| term.spreading().is_some());
+        let is_diffusive = is_viscous || conducts;
+        Self { list, acceleration, is_viscous, conducts, is_diffusive, spreads, surface_tension }
     }
 
     /// Whether there is none.
@@ -170,6 +302,31 @@ impl Terms {
         }
     }
 
+    /// Adds what the pressure gains until mid-step, see [`Term::predict_pressure`].
+    pub fn predict_pressure(&self, block: &TermBlock<'_>, pressure: &mut [f64], works: &mut Vec<Vec<f64>>) {
+        works.resize_with(self.list.len(), Vec::new);
+        for (term, work) in self.list.iter().zip(works) {
+            term.predict_pressure(block, pressure, work);
+        }
+    }
+
+    /// See [`Term::wall_heat`].
+    pub fn wall_heat<'w>(&self, works: &'w [Vec<f64>], padded: usize) -> Option<[&'w [f64]; 2]> {
+        self.list.iter().zip(works).find_map(|(term, work)| term.wall_heat(work, padded))
+    }
+
+    /// What spreads in stages within a step.
+    pub fn spreading(&self) -> impl Iterator<Item = &dyn Spreading> {
+        self.list.iter().filter_map(|term| term.spreading())
+    }
+
+    /// See [`Term::finish`].
+    pub fn finish(&self, cells: &mut FinishedCells<'_>, works: &[Vec<f64>]) {
+        for (term, work) in self.list.iter().zip(works) {
+            term.finish(cells, work);
+        }
+    }
+
     /// Adds all terms to the fluxes and to the cells of a block.
     ///
     /// - `works`: rows to work in, of each term.
@@ -180,9 +337,9 @@ impl Terms {
         [z_faces, r_faces]: [&mut FaceRows; 2],
         works: &mut Vec<Vec<f64>>,
         block_rows: &mut [f64],
-    ) -> u64 {
+    ) -> Clips {
         works.resize_with(self.list.len(), Vec::new);
-        let mut bounded = 0;
+        let mut bounded = Clips::default();
         for (term, work) in self.list.iter().zip(&mut *works) {
             bounded += term.add_fluxes(block, [&mut *z_faces, &mut *r_faces], work);
         }

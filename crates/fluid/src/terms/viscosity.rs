@@ -1,35 +1,18 @@
 //! Viscosity of both phases.
 
+mod spread;
 mod stress;
 mod velocities;
 
-use super::{Term, TermBlock, WallCell};
+use super::diffusion::{BY_STAGES, ThinGas, most_diffusivity, step_limit};
+use super::super_stepping::{Spreading, View};
+use super::{Term, TermBlock, WallCell, for_cells_without_mid_step};
 use crate::state::conserved::MOMENTUM_R;
 use crate::state::primitive::{PHI, RHO};
+use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use stress::{FaceStress, Motion, stresses};
 use velocities::Velocities;
-
-/// The most that Δt (η/ρ)(1/h_z² + 1/h_r²) may be in a cell, η = 4μ/3 + κ.
-///
-/// In the plane the midpoint rule is stable up to ½: the largest rate of decay is 4η/ρ(1/h_z² + 1/h_r²), and Δt times it at most 2. Next
-/// to the axis, where the hoop stress damps the radial velocity besides, up to 0.43.
-const MOST_DIFFUSION: f64 = 0.375;
-
-/// What gas does that is so thin that its momentum spreads over more than a cell in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ThinGas {
-    /// It is taken to be as viscous as the step is stable with, which is counted. The liquid alone limits the step.
-    #[default]
-    Bounded,
-    /// It limits the step.
-    Resolved,
-}
-
-impl ThinGas {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 2] = [("bounded", Self::Bounded), ("resolved", Self::Resolved)];
-}
 
 /// Viscosity of a phase, Pa s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -81,13 +64,15 @@ impl Viscosity {
         for (k, phi) in block.state[PHI].iter().enumerate() {
             [shear[k], bulk[k]] = self.at(*phi);
         }
+        // What kernels left of mixed cells differs from block to block.
+        for_cells_without_mid_step(block, |k| [shear[k], bulk[k]] = self.at(block.before[PHI][k]));
         let [z, r] = std::array::from_fn(|_| FaceStress { normal: next(), shear: next(), hoop: next() });
         let metric = block.metric;
         let motion = Motion {
             velocity: [&*v_z, &*v_r],
             shear: &*shear,
             bulk: &*bulk,
-            density: block.state[RHO],
+            density: block.before[RHO],
             stride: metric.stride,
             inverse_h: metric.inverse_h,
             inverse_r: block.inverse_r,
@@ -99,6 +84,11 @@ impl Viscosity {
         let mut stresses_of = Stresses { velocity: [v_z, v_r], z, r };
         stresses(&motion, 0, z_first..end + 1, &mut stresses_of.z);
         stresses(&motion, 1, r_first..end + 1, &mut stresses_of.r);
+        if let Some(view) = &block.spread {
+            let Stresses { z, r, .. } = &mut stresses_of;
+            let rows = [&mut *z.normal, &mut *z.shear, &mut *r.normal, &mut *r.shear, &mut *r.hoop];
+            view.put(View::MOMENTUM, &mut { rows }, &Self::AXES);
+        }
         stresses_of
     }
 }
@@ -111,11 +101,6 @@ struct Stresses<'a> {
     velocity: [&'a [f64]; 2],
     z: FaceStress<'a>,
     r: FaceStress<'a>,
-}
-
-/// The largest (4μ/3 + κ)/ρ that a step is stable with, m²/s; see [`MOST_DIFFUSION`].
-fn most_diffusivity(dt: f64, [inverse_z, inverse_r]: [f64; 2]) -> f64 {
-    MOST_DIFFUSION / (dt * (inverse_z * inverse_z + inverse_r * inverse_r))
 }
 
 /// 4μ/3 + κ.
@@ -155,7 +140,7 @@ impl Term for Viscosity {
         block: &TermBlock<'_>,
         [z_faces, r_faces]: [&mut FaceRows; 2],
         work: &mut Vec<f64>,
-    ) -> u64 {
+    ) -> Clips {
         let stresses = self.stresses(block, work);
         let TermBlock { cells: n, metric, .. } = *block;
         if block.wall.is_some() {
@@ -179,7 +164,11 @@ impl Term for Viscosity {
                 energy[k] -= stress.normal[k] * u + stress.shear[k] * w;
             }
         }
-        self.count_bounded(block)
+        let bounded = match self.thin_gas {
+            ThinGas::SuperTimeStepping => 0,
+            ThinGas::Bounded | ThinGas::Resolved => self.count_bounded(block),
+        };
+        Clips { bounded_viscosities: bounded, ..Clips::default() }
     }
 
     /// (τ_rr − τ_φφ)/r. The flux of τ_rr has no weight, as the pressure's: see `update.rs`.
@@ -201,6 +190,7 @@ impl Term for Viscosity {
         let gas = match self.thin_gas {
             ThinGas::Bounded => PhaseViscosity::default(),
             ThinGas::Resolved => self.gas,
+            ThinGas::SuperTimeStepping => return Spreading::diffusivity(self, density, phi) / BY_STAGES,
         };
         let counted = Self { gas, ..*self };
         let of = |(density, phi): (&f64, &f64)| longitudinal(counted.at(*phi)) / density;
@@ -208,8 +198,12 @@ impl Term for Viscosity {
     }
 
     /// Δt (η/ρ)(1/h_z² + 1/h_r²) ≤ 3/8.
-    fn step_limit(&self, [h_z, h_r]: [f64; 2], diffusivity: f64) -> f64 {
-        MOST_DIFFUSION / (diffusivity * (1.0 / (h_z * h_z) + 1.0 / (h_r * h_r)))
+    fn step_limit(&self, widths: [f64; 2], diffusivity: f64) -> f64 {
+        step_limit(widths, diffusivity)
+    }
+
+    fn spreading(&self) -> Option<&dyn Spreading> {
+        (self.thin_gas == ThinGas::SuperTimeStepping).then_some(self)
     }
 
     /// μ(v_r − v_wall)/(h_z/2).

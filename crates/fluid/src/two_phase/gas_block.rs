@@ -19,6 +19,7 @@ use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
 use crate::step::update::{Metric, NewCells};
 use crate::step::{BlockScratch, split_block};
+use crate::terms::GasMass;
 use crate::{Boundary, Mixture, RiemannSolver};
 
 /// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
@@ -71,6 +72,17 @@ impl<'a, const N: usize> BlockGas<'a, N> {
         matches!(self, Self::Fraction)
     }
 
+    /// The gas's part of the mass, as terms see it.
+    ///
+    /// - `shares`: m_g/ρ of the padded cells, see [`GasBlock::shares`].
+    pub fn mass<'b>(&self, shares: &'b [f64]) -> GasMass<'b> {
+        match self {
+            Self::Fraction => GasMass::Unknown,
+            Self::Absent => GasMass::Absent,
+            Self::Phases(_) => GasMass::Shares(shares),
+        }
+    }
+
     pub fn phases(&self) -> Option<&GasBlock<'a, N>> {
         if let Self::Phases(block) = self { Some(block) } else { None }
     }
@@ -86,6 +98,8 @@ pub(crate) struct GasBlock<'a, const N: usize> {
 
 /// A block at the beginning of a step, and its geometry.
 pub(crate) struct Before<'a> {
+    /// Of the block in the tile.
+    pub number: usize,
     /// Conserved components without ghosts.
     pub old: &'a [f64],
     /// Pressure and 1/r (or 0) of the padded cells.
@@ -196,10 +210,9 @@ impl<'a, const N: usize> GasBlock<'a, N> {
 
     /// Does the update of a block's mixed cells again, with the closure.
     ///
-    /// - `number`: of the block in the tile; `new`: its new components, the gas's mass among them.
+    /// - `new`: its new components, the gas's mass among them.
     pub fn update(
         &self,
-        number: usize,
         gas: &mut GasScratch,
         before: Before<'_>,
         faces: [&FaceRows; 2],
@@ -207,7 +220,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         speeds: [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
-        let Before { old, pressure, inverse_r, metric } = before;
+        let Before { number, old, pressure, inverse_r, metric } = before;
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);

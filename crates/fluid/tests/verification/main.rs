@@ -4,10 +4,14 @@
 
 mod adaptation;
 mod adaptive_error;
+mod all_terms;
 mod beside_fast_gas;
 mod boundaries;
 mod bubble;
 mod bubble_cut;
+mod conduction;
+mod conduction_media;
+mod conduction_walls;
 mod contact;
 mod covolumes;
 mod far_field;
@@ -23,6 +27,8 @@ mod random_trees;
 mod rayleigh_start;
 mod rescue;
 mod shock_tubes;
+mod stefan;
+mod super_stepping;
 mod surface_tension;
 mod symmetry;
 mod tracer;

@@ -3,7 +3,7 @@
 //! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
-use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Step};
+use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Scratches, Step};
 use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part, for_each_tile, for_some_blocks};
 
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
@@ -38,20 +38,34 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         self.finish()
     }
 
-    /// Starts the step of the group of levels that is due, of at most `limit`, see [`LevelClock::start`].
+    /// Starts the step of the group of levels that is due, of at most `limit`, see [`LevelClock::start`], and has its blocks prepared.
     pub fn start(&mut self, limit: f64) -> GroupStep {
-        self.levels.start(limit)
+        let step = self.levels.start(limit);
+        if self.model.prepares() {
+            self.prepare(step);
+        }
+        step
+    }
+
+    fn prepare(&mut self, step: GroupStep) {
+        let mut prepared = std::mem::take(&mut self.prepared);
+        let in_group = |slot: &usize| self.clock().group_of(&self.mesh, *slot) == step.group;
+        let slots: Vec<usize> = (0..self.mesh.blocks()).filter(in_group).collect();
+        self.model.prepare(&self.context(step.dt), &slots, &mut prepared, Scratches(&self.workers));
+        self.prepared = prepared;
     }
 
     /// Makes a part of a step that has been started. The parts of group 0 may be made one after the other.
     ///
     /// - errors: as [`BlockSolver::step`].
     pub fn run(&mut self, step: GroupStep, part: Part) -> Result<(), M::Error> {
-        let Self { model, mesh, state, next, levels, reports, interface, workers, progress, .. } = self;
+        let Self {
+            model, mesh, state, next, levels, reports, interface, workers, progress, prepared, ..
+        } = self;
         let (clock, target, registers) = levels.target(step.group, next);
         let register = registers.own_mut();
         let (time, dt, marks) = (progress.time, step.dt, &NO_MARKS);
-        let context = Step { model: &*model, mesh, old: state, interface, marks, time, dt };
+        let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
         let in_group = |slot: usize| clock.group_of(mesh, slot) == step.group;
         let is_due = |slot: usize| part.has(interface.first_face(slot).is_some()) && in_group(slot);
         let pending = &mut reports.pending;
@@ -116,10 +130,10 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
 
     /// Corrects the cells of a group along finer neighbours.
     fn correct(&mut self, group: usize) -> Result<(), M::Error> {
-        let Self { model, mesh, state, next, levels, reports, interface, progress, .. } = self;
+        let Self { model, mesh, state, next, levels, reports, interface, progress, prepared, .. } = self;
         let (clock, target, registers) = levels.target(group, next);
         let (time, dt, marks) = (progress.time, clock.length(group), &NO_MARKS);
-        let context = Step { model: &*model, mesh, old: state, interface, marks, time, dt };
+        let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
         let is_due = |slot: usize| clock.group_of(mesh, slot) == group && FluxRegister::is_due(mesh, slot);
         for_some_blocks(target, &mut reports.pending, is_due, |slot, new, report| {
             let finer = registers.finer_side(clock, mesh.tree().leaves()[slot].level);

@@ -13,7 +13,7 @@ mod saved;
 use serde::{Deserialize, Serialize};
 
 pub use interface::{FaceState, Interface};
-pub use model::{Marks, Model, Place, Step};
+pub use model::{Marks, Model, Place, Scratches, Step};
 pub use saved::SavedBlocks;
 
 use crate::{
@@ -36,6 +36,7 @@ pub struct BlockSolver<M: Model<N>, const N: usize> {
     adapting: Adapting<N>,
     progress: Progress,
     workers: ScratchPool<Worker<M::Scratch>>,
+    prepared: M::Prepared,
 }
 
 /// No cell falls back.
@@ -128,6 +129,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             },
             progress: Progress::default(),
             workers: ScratchPool::new(|| Worker { scratch: scratch(), timer: StageTimer::default() }),
+            prepared: M::Prepared::default(),
             model,
             mesh,
             state,
@@ -241,8 +243,8 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
 
     /// A step of length `dt` from the present state; of no length, to look at that.
     pub fn context(&self, dt: f64) -> Step<'_, M, N> {
-        let Self { model, mesh, state, interface, progress, .. } = self;
-        Step { model, mesh, old: state, interface, marks: &NO_MARKS, time: progress.time, dt }
+        let Self { model, mesh, state, interface, progress, prepared, .. } = self;
+        Step { model, mesh, old: state, interface, prepared, marks: &NO_MARKS, time: progress.time, dt }
     }
 
     /// Runs `work` with this thread's scratch.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::Worker;
 use crate::{
     Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Patch, Reports,
 };
@@ -41,6 +42,27 @@ pub trait Model<const N: usize>: Sized + Sync {
 
     /// The names of the stages of a block's step, in their order.
     const STAGES: &'static [&'static str];
+
+    /// What blocks find out together before they make a step.
+    type Prepared: Default + Send + Sync;
+
+    /// Finds out what the blocks of a group have to know of each other beyond the state at the beginning of their step: it is in
+    /// `step.prepared` then, until the next group is prepared.
+    ///
+    /// - `slots`: of the group's blocks; `prepared`: what was found last.
+    fn prepare(
+        &self,
+        _step: &Step<'_, Self, N>,
+        _slots: &[usize],
+        _prepared: &mut Self::Prepared,
+        _scratch: Scratches<'_, Self::Scratch>,
+    ) {
+    }
+
+    /// Whether there is anything to prepare.
+    fn prepares(&self) -> bool {
+        false
+    }
 
     /// Advances a block by one step from `step.old` into `new`; `register` is its part of the flux register. Tells the timer the
     /// end of each stage.
@@ -152,7 +174,7 @@ pub trait Model<const N: usize>: Sized + Sync {
 }
 
 /// What all blocks of a step share.
-pub struct Step<'a, M, const N: usize> {
+pub struct Step<'a, M: Model<N>, const N: usize> {
     /// The physics.
     pub model: &'a M,
     /// Where the cells are.
@@ -161,6 +183,8 @@ pub struct Step<'a, M, const N: usize> {
     pub old: &'a Field,
     /// The faces towards the other medium, with their states during the step.
     pub interface: &'a Interface,
+    /// What the blocks of the group have found out together, see [`Model::prepare`].
+    pub prepared: &'a M::Prepared,
     /// Cells that are made at first order.
     pub marks: &'a Marks,
     /// Time at the beginning of the step, s.
@@ -169,10 +193,20 @@ pub struct Step<'a, M, const N: usize> {
     pub dt: f64,
 }
 
-impl<M, const N: usize> Step<'_, M, N> {
+impl<M: Model<N>, const N: usize> Step<'_, M, N> {
     /// The middle of the step, s.
     pub fn middle(&self) -> f64 {
         self.time + 0.5 * self.dt
+    }
+}
+
+/// The scratch of the threads.
+pub struct Scratches<'a, S>(pub(super) &'a ScratchPool<Worker<S>>);
+
+impl<S> Scratches<'_, S> {
+    /// Runs `work` with this thread's.
+    pub fn with<R>(&self, work: impl FnOnce(&mut S) -> R) -> R {
+        self.0.with(|worker| work(&mut worker.scratch))
     }
 }
 

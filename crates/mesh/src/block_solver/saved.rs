@@ -41,6 +41,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             adapting: Adapting { settings: _, horizon, patches: _ },
             progress,
             workers: _,
+            prepared: _,
         } = self;
         SavedBlocks {
             leaves: Cow::Borrowed(mesh.tree().leaves()),

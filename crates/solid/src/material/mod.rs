@@ -54,6 +54,15 @@ pub struct Material {
     source: String,
 }
 
+/// How a material conducts heat at room temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaterialHeat {
+    /// Conductivity λ, W/(m K).
+    pub conductivity: f64,
+    /// Heat capacity c, J/(kg K).
+    pub capacity: f64,
+}
+
 impl Material {
     /// From density ρ (kg/m³) and the speeds c₁, c₂ (m/s) of dilatational and shear waves.
     ///
@@ -192,6 +201,18 @@ impl Material {
         self.density * self.c2
     }
 
+    /// How it conducts heat, where it has the name of one of the library.
+    pub fn heat(&self) -> Option<MaterialHeat> {
+        let entry = LIBRARY.iter().find(|entry| entry.name == self.name)?;
+        let [conductivity, capacity] = entry.heat;
+        Some(MaterialHeat { conductivity, capacity })
+    }
+
+    /// Thermal effusivity √(λρc), J/(m² K s^½), likewise.
+    pub fn effusivity(&self) -> Option<f64> {
+        self.heat().map(|heat| (heat.conductivity * self.density * heat.capacity).sqrt())
+    }
+
     /// The materials known by name.
     pub fn library() -> Vec<Self> {
         LIBRARY
@@ -288,6 +309,8 @@ mod tests {
             assert!(again.is_ok(), "{}", material.name());
             assert!(material.yield_strength().is_none_or(|y| y > 1e6), "{}", material.name());
             assert!(!material.source().is_empty());
+            let heat = material.heat().expect("all of the library have it");
+            assert!((0.1..500.0).contains(&heat.conductivity) && (150.0..5000.0).contains(&heat.capacity));
             assert_eq!(library.iter().filter(|other| other.name() == material.name()).count(), 1);
         }
         for (name, young, poisson) in [
@@ -310,6 +333,7 @@ mod tests {
             (steel.density(), steel.c1(), steel.c2(), steel.yield_strength()),
             (7800.0, 5990.0, 3458.0, Some(250e6))
         );
+        assert_relative_eq!(steel.effusivity().expect("steel"), 14_026.5, max_relative = 1e-4);
         assert!(Material::by_name("unobtainium").is_none());
     }
 }

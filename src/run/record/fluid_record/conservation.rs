@@ -19,11 +19,11 @@ pub fn row(solver: &FluidSolver<BLOCK>) -> Vec<f64> {
     row.push(fixups.gas_mass_added - fixups.liquid_mass_added);
     row.extend([ledger.tension_impulse, ledger.tension_work]);
     let phases = solver.phase_ledger();
-    row.extend([phases.evaporated - phases.condensed, phases.energy]);
+    row.extend([phases.evaporated - phases.condensed, phases.energy, ledger.wall_heat]);
     row
 }
 
-pub const COLUMNS: [Column<'static>; 29] = [
+pub const COLUMNS: [Column<'static>; 30] = [
     column("time", "s", "time"),
     column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
     column("momentum_z", "N s/rad", "axial momentum in the domain"),
@@ -76,5 +76,10 @@ pub const COLUMNS: [Column<'static>; 29] = [
         "energy_from_phase_change",
         "J/rad",
         "what that adds to the energy, which leaves reference energies out",
+    ),
+    column(
+        "heat_to_wall",
+        "J/rad",
+        "heat that the wall on z_min got by conduction; energy_in_z_min has it, too",
     ),
 ];

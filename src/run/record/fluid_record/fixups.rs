@@ -29,6 +29,11 @@ pub const CLIP_COLUMNS: [Column<'static>; Clips::NAMES.len()] = [
     column("fixups/lifted_phases", "1", "cell-steps in which a phase's mass was lifted to zero so far"),
     column("fixups/expanded_cells", "1", "mixed cell-steps left in tension whose gas expanded so far"),
     column("fixups/bounded_viscosities", "1", "cell-steps of gas too thin for the step's viscosity so far"),
+    column(
+        "fixups/bounded_conductivities",
+        "1",
+        "cell-steps of gas too thin for the step's conduction so far",
+    ),
 ];
 
 /// The corrections as the summary has them.

@@ -95,6 +95,7 @@ impl FluidRecord {
             wall_pressures,
             // Made anew after each step.
             wall_shears: _,
+            wall_heat: _,
             cells,
             collapse,
             peaks,

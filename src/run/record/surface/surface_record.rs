@@ -12,7 +12,7 @@ use super::rest::Rest;
 use crate::case::{Case, LoadCase};
 use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
-use crate::run::record::interface_history::{InterfaceHistory, InterfaceState, put_centres};
+use crate::run::record::interface_history::{InterfaceHistory, InterfaceState, OnFaces, put_centres};
 use crate::run::side::wall_faces::WallFaces;
 
 /// Displacement of the surface, the pit in it, and under a load what presses on it.
@@ -146,7 +146,7 @@ impl SurfaceRecord {
             }
             self.pressures.clear();
             self.pressures.extend(solver.interface().states().iter().map(|state| state.pressure));
-            load.after_step(faces, [&self.pressures, &[]], (solver.time(), dt), history)?;
+            load.after_step(faces, OnFaces::of_pressures(&self.pressures), (solver.time(), dt), history)?;
         }
         Ok(())
     }

@@ -1,19 +1,26 @@
 //! The velocities that viscous stresses are made of, with what the sides of the domain make of them.
 
-use mesh::{GHOSTS, Side};
+use mesh::{FaceState, GHOSTS, Side};
 
 use crate::Boundary;
 use crate::boundary::axis;
-use crate::state::primitive::{PHI, V_R, V_Z};
-use crate::terms::TermBlock;
-
-/// Cells of which so much is of one phase are not mixed.
-const ONE_PHASE: f64 = 1e-6;
+use crate::state::primitive::{V_R, V_Z};
+use crate::terms::{TermBlock, for_cells_without_mid_step};
 
 /// Padded rows of v_z and v_r, m/s.
 pub(super) struct Velocities<'a> {
     pub v_z: &'a mut [f64],
     pub v_r: &'a mut [f64],
+}
+
+/// The sides of the domain that a block touches, and where its padded cells are.
+pub(super) struct Sides<'a> {
+    pub cells: usize,
+    pub origin: usize,
+    pub stride: usize,
+    pub kinds: [Option<Boundary>; 4],
+    /// See [`TermBlock::wall`].
+    pub wall: Option<&'a [FaceState]>,
 }
 
 impl Velocities<'_> {
@@ -27,31 +34,32 @@ impl Velocities<'_> {
         for (row, component) in rows {
             row.copy_from_slice(block.state[component]);
         }
-        let stride = block.metric.stride;
-        let phi = block.before[PHI];
-        if phi.iter().any(|phi| *phi != 0.0) {
-            // Mixed cells of the five-equation model have no state at mid-step, but on their faces. Whether a cell is one must not depend
-            // on the block that sees it.
-            let is_beside_another = |k: usize| {
-                [k - 1, k + 1, k - stride, k + stride].iter().any(|n| (phi[*n] - phi[k]).abs() > 0.5)
-            };
-            for k in stride + 1..phi.len() - stride - 1 {
-                if (phi[k] > ONE_PHASE && phi[k] < 1.0 - ONE_PHASE) || is_beside_another(k) {
-                    (self.v_z[k], self.v_r[k]) = (block.before[V_Z][k], block.before[V_R][k]);
-                }
-            }
-        }
+        for_cells_without_mid_step(block, |k| {
+            (self.v_z[k], self.v_r[k]) = (block.before[V_Z][k], block.before[V_R][k]);
+        });
+        let sides = Sides {
+            cells: block.cells,
+            origin: block.metric.origin,
+            stride: block.metric.stride,
+            kinds: block.sides,
+            wall: block.wall,
+        };
+        self.complete_all(&sides);
+    }
+
+    /// Makes the velocities beyond the sides of the domain.
+    pub fn complete_all(&mut self, sides: &Sides<'_>) {
         // r first, as where ghosts are filled: the z sides complete the corners.
         for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
-            if let Some(kind) = block.sides[side as usize] {
-                self.complete(side, kind, block);
+            if let Some(kind) = sides.kinds[side as usize] {
+                self.complete(side, kind, sides);
             }
         }
     }
 
-    fn complete(&mut self, side: Side, kind: Boundary, block: &TermBlock<'_>) {
-        let n = block.cells as isize;
-        let (stride, ghosts) = (block.metric.stride as isize, GHOSTS as isize);
+    fn complete(&mut self, side: Side, kind: Boundary, sides: &Sides<'_>) {
+        let n = sides.cells as isize;
+        let (stride, ghosts) = (sides.stride as isize, GHOSTS as isize);
         let at = |depth: isize, along: isize| {
             let [i, j] = match side {
                 Side::ZMin => [depth, along],
@@ -59,15 +67,15 @@ impl Velocities<'_> {
                 Side::RMin => [along, depth],
                 Side::RMax => [along, n - 1 - depth],
             };
-            (block.metric.origin as isize + j * stride + i) as usize
+            (sides.origin as isize + j * stride + i) as usize
         };
         let rows = [&mut *self.v_z, &mut *self.v_r];
         for (component, row) in rows.into_iter().enumerate() {
             let is_normal = component == axis(side);
             for along in -ghosts..n + ghosts {
                 // The wall's own velocity, twice.
-                let wall = block.wall.filter(|_| kind == Boundary::Interface).map_or(0.0, |wall| {
-                    let state = &wall[along.clamp(0, n - 1) as usize];
+                let wall = sides.wall.filter(|_| kind == Boundary::Interface).map_or(0.0, |wall| {
+                    let state = &wall[(along + ghosts) as usize];
                     2.0 * if is_normal { state.velocity } else { state.tangential_velocity }
                 });
                 for depth in 0..ghosts {

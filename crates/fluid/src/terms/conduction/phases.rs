@@ -1,0 +1,117 @@
+//! What conduction makes of the phases of mixed cells.
+
+use super::ConductionTerm;
+use super::caloric::PhaseHeats;
+use crate::phase_change::{area_density, holds_both};
+use crate::state::ConservedCell;
+use crate::state::conserved::{ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
+use crate::state::finished::{FinishedCell, finish_corrected};
+use crate::terms::FinishedCells;
+
+impl ConductionTerm {
+    /// Gives both phases of mixed cells their parts of the heat that came in, and lets it pass between them.
+    ///
+    /// Mass, momentum and energy of a cell stay; the gas fraction changes, which says how the energy is divided. The heat that came through
+    /// faces is in the energy already.
+    ///
+    /// - `fluxes`: of heat along z and r, W/m².
+    pub(super) fn finish_phases(&self, cells: &mut FinishedCells<'_>, fluxes: [&[f64]; 2]) {
+        let n = cells.cells;
+        for cell in 0..n * n {
+            let at = |component: usize| component * n * n + cell;
+            let (phi, gas) = (cells.new[at(PHI)], cells.new[at(GAS)]);
+            let u = [RHO, MOMENTUM_Z, MOMENTUM_R, ENERGY, PHI].map(|component| cells.new[at(component)]);
+            if !(holds_both(phi) && gas > 0.0 && u[RHO] > gas) {
+                continue;
+            }
+            let k = cells.metric.origin + cell / n * cells.metric.stride + cell % n;
+            let Some(finished) = self.finished((u, gas), cells, fluxes, (k, cell / n)) else { continue };
+            for (component, value) in finished.conserved.into_iter().enumerate() {
+                cells.new[at(component)] = value;
+            }
+            for (row, value) in cells.speeds.iter_mut().zip([finished.speed_z, finished.speed_r]) {
+                row[cell] = value;
+            }
+        }
+    }
+
+    /// A cell with its phases at one pressure again; `None` where it stays as it is.
+    ///
+    /// - `k`, `j`: its padded place, and its row.
+    fn finished(
+        &self,
+        (u, gas): (ConservedCell, f64),
+        cells: &FinishedCells<'_>,
+        fluxes: [&[f64]; 2],
+        (k, j): (usize, usize),
+    ) -> Option<FinishedCell> {
+        let [rho, m_z, m_r, energy, phi] = u;
+        let through = self.heat_through(cells, fluxes, (k, j));
+        let [by_gas, by_liquid, by_either] = through;
+        let internal = energy - 0.5 * (m_z * m_z + m_r * m_r) / rho;
+        let [beta1, beta2] = self.mixture.free_betas::<true>(phi, rho, gas);
+        let pressure = (internal - (by_gas + by_liquid + by_either) - beta2) / beta1;
+        if !(pressure + self.mixture.gas.pi > 0.0) {
+            return None;
+        }
+        let phases = self.caloric.phases([rho, pressure, phi], gas);
+        let [c_g, c_l] = phases.capacities;
+        let split = by_either * c_g / (c_g + c_l);
+        let through = [by_gas + split, by_liquid + (by_either - split)];
+        let heat = phases.shares(through, self.conductance(cells, phi, k) * cells.metric.dt);
+        self.with_heat(u, gas, &phases, heat)
+    }
+
+    fn with_heat(
+        &self,
+        u: ConservedCell,
+        gas: f64,
+        phases: &PhaseHeats,
+        heat: [f64; 2],
+    ) -> Option<FinishedCell> {
+        let [rho, m_z, m_r, energy, phi] = u;
+        let after = phi + phases.growth(heat)?;
+        if !(after > 0.0 && after < 1.0) {
+            return None;
+        }
+        let finished = finish_corrected([rho, m_z, m_r, energy, after], gas, &self.mixture);
+        (finished.floor == 0.0 && finished.is_admissible()).then_some(finished)
+    }
+
+    /// The heat that came into a cell in the step through faces on its gas's side, on its liquid's side, and through those of which the
+    /// neighbour has the same gas fraction, J/m³.
+    fn heat_through(
+        &self,
+        cells: &FinishedCells<'_>,
+        [z, r]: [&[f64]; 2],
+        (k, j): (usize, usize),
+    ) -> [f64; 3] {
+        let (phi, stride, row) = (cells.phi, cells.metric.stride, cells.metric.row(j));
+        let mut through = [0.0; 3];
+        for (other, heat) in [
+            (k - 1, row.axial(0.0, z[k - 1])),
+            (k + 1, row.axial(z[k], 0.0)),
+            (k - stride, row.radial(0.0, r[k - stride])),
+            (k + stride, row.radial(r[k], 0.0)),
+        ] {
+            let side = match phi[other] - phi[k] {
+                rise if rise > 0.0 => 0,
+                rise if rise < 0.0 => 1,
+                _ => 2,
+            };
+            through[side] -= heat;
+        }
+        through
+    }
+
+    /// The conductance between the layers of gas and liquid in a cell, between their middles, per volume, W/(m³ K).
+    ///
+    /// With the area a of the interface per volume they are φ/a and (1 − φ)/a thick. It is no less than that of a front over two cells: what is
+    /// left of an interface somewhere still exchanges heat.
+    fn conductance(&self, cells: &FinishedCells<'_>, phi: f64, k: usize) -> f64 {
+        let inverse_h = cells.metric.inverse_h;
+        let area = area_density(cells.phi, k, cells.metric.stride, inverse_h, holds_both);
+        let area = area.max(0.5 * inverse_h[0].min(inverse_h[1]));
+        2.0 * area * area / self.resistivity.of_cell(phi)
+    }
+}

@@ -1,0 +1,138 @@
+//! Viscosity in many stages within one step.
+
+use super::stress::{FaceStress, Motion, stresses};
+use super::velocities::{Sides, Velocities};
+use super::{PhaseViscosity, Viscosity, longitudinal};
+use crate::state::primitive::{PHI, RHO};
+use crate::terms::super_stepping::{Frame, Spreading, View};
+use crate::terms::{TermBlock, for_cells_without_mid_step};
+
+impl Viscosity {
+    /// The axes of the rows of stresses: τ_zz and τ_zr along z; τ_rr, τ_rz and τ_rr − τ_φφ along r.
+    pub(super) const AXES: [usize; 5] = [0, 0, 1, 1, 1];
+
+    /// μ and κ, no less than those of either phase.
+    fn most(&self) -> f64 {
+        let of = |phase: PhaseViscosity| longitudinal([phase.shear, phase.bulk]);
+        of(self.liquid).max(of(self.gas))
+    }
+}
+
+/// The largest rate at which anything decays, over 4D(1/h_z² + 1/h_r²): next to the axis the hoop stress damps besides.
+const BESIDE_AXIS: f64 = 0.5 / 0.43;
+
+impl Spreading for Viscosity {
+    fn kind(&self) -> usize {
+        View::MOMENTUM
+    }
+
+    /// v_z, v_r.
+    fn variables(&self) -> usize {
+        2
+    }
+
+    /// μ, κ, ρ.
+    fn constants(&self) -> usize {
+        3
+    }
+
+    fn axes(&self) -> &'static [usize] {
+        &Self::AXES
+    }
+
+    /// (4μ/3 + κ)/ρ; of gas that of liquid over its density, which it may have on faces towards mixed cells.
+    fn diffusivity(&self, density: &[f64], phi: &[f64]) -> f64 {
+        let liquid = longitudinal([self.liquid.shear, self.liquid.bulk]);
+        let of = |(density, phi): (&f64, &f64)| {
+            if *phi > 1e-3 { self.most() / density } else { liquid / density }
+        };
+        density.iter().zip(phi).map(of).fold(0.0, f64::max)
+    }
+
+    fn begin(
+        &self,
+        block: &TermBlock<'_>,
+        _work: &mut Vec<f64>,
+        constants: &mut [f64],
+        values: &mut [f64],
+    ) -> f64 {
+        let len = block.state[RHO].len();
+        let (v_z, v_r) = values.split_at_mut(len);
+        Velocities { v_z, v_r }.gather(block);
+        for (k, phi) in block.state[PHI].iter().enumerate() {
+            [constants[k], constants[len + k]] = self.at(*phi);
+        }
+        constants[2 * len..].copy_from_slice(block.state[RHO]);
+        for_cells_without_mid_step(block, |k| {
+            [constants[k], constants[len + k]] = self.at(block.before[PHI][k]);
+            constants[2 * len + k] = block.before[RHO][k];
+        });
+        let (metric, stride) = (block.metric, block.metric.stride);
+        let across: f64 = metric.inverse_h.iter().map(|inverse| inverse * inverse).sum();
+        let mut fastest = 0.0_f64;
+        for j in 0..block.cells {
+            for k in (0..block.cells).map(|i| metric.origin + j * stride + i) {
+                let of = |k: usize| longitudinal([constants[k], constants[len + k]]);
+                let beside = [k - 1, k + 1, k - stride, k + stride].map(of).into_iter().fold(0.0, f64::max);
+                let on_face = (0.5 * (of(k) + beside)).max(of(k));
+                fastest = fastest.max(4.0 * BESIDE_AXIS * on_face / constants[2 * len + k] * across);
+            }
+        }
+        fastest
+    }
+
+    fn conduct(&self, frame: &Frame, constants: &[f64], values: &mut [f64], fluxes: &mut [f64]) {
+        let len = frame.inverse_r.len();
+        let (v_z, v_r) = values.split_at_mut(len);
+        let sides = Sides {
+            cells: frame.cells,
+            origin: frame.origin,
+            stride: frame.stride,
+            kinds: frame.sides,
+            wall: frame.wall.as_deref(),
+        };
+        Velocities { v_z: &mut *v_z, v_r: &mut *v_r }.complete_all(&sides);
+        let row = |number: usize| &constants[number * len..(number + 1) * len];
+        let motion = Motion {
+            velocity: [v_z, v_r],
+            shear: row(0),
+            bulk: row(1),
+            density: row(2),
+            stride: frame.stride,
+            inverse_h: frame.inverse_h,
+            inverse_r: &frame.inverse_r,
+            most: f64::INFINITY,
+        };
+        let mut rows = fluxes.chunks_exact_mut(len);
+        let [z_normal, z_shear, r_normal, r_shear, hoop] =
+            std::array::from_fn(|_| rows.next().expect("as many as there are axes"));
+        let end = frame.origin + (frame.cells - 1) * frame.stride + frame.cells;
+        // Along z nothing asks for the hoop stress: what is written there is written over.
+        let mut z = FaceStress { normal: z_normal, shear: z_shear, hoop: &mut *hoop };
+        stresses(&motion, 0, frame.origin - 1..end, &mut z);
+        let mut r = FaceStress { normal: r_normal, shear: r_shear, hoop };
+        stresses(&motion, 1, frame.origin - frame.stride..end, &mut r);
+    }
+
+    fn change(&self, frame: &Frame, constants: &[f64], fluxes: &[f64], rates: &mut [f64]) {
+        let len = frame.inverse_r.len();
+        let row = |number: usize| &fluxes[number * len..(number + 1) * len];
+        let [z_normal, z_shear, r_normal, r_shear, hoop] = [0, 1, 2, 3, 4].map(row);
+        let density = &constants[2 * len..];
+        let ([inverse_z, inverse_h], stride) = (frame.inverse_h, frame.stride);
+        let (along_z, along_r) = rates.split_at_mut(len);
+        for j in 0..frame.cells {
+            for k in (0..frame.cells).map(|i| frame.origin + j * stride + i) {
+                let inverse_r = frame.inverse_r[k];
+                let [low, high] = [-0.5, 0.5].map(|half| 1.0 + half * inverse_r / inverse_h);
+                let below = k - stride;
+                let force_z = inverse_z * (z_normal[k] - z_normal[k - 1])
+                    + inverse_h * (high * r_shear[k] - low * r_shear[below]);
+                let force_r = inverse_z * (z_shear[k] - z_shear[k - 1])
+                    + inverse_h * (r_normal[k] - r_normal[below])
+                    + 0.5 * inverse_r * (hoop[k] + hoop[below]);
+                (along_z[k], along_r[k]) = (force_z / density[k], force_r / density[k]);
+            }
+        }
+    }
+}
