@@ -13,7 +13,7 @@ pub(crate) mod viscosity;
 
 use mesh::{FaceState, Side};
 
-use crate::boundary::beside;
+use crate::boundary::cells_beside;
 use crate::capillarity::CapillaryRows;
 use crate::reconstruction::Rows;
 use crate::state::primitive::PHI;
@@ -75,7 +75,7 @@ impl TermBlock<'_> {
 /// The padded places of the cell next to a side, `along` cells from its beginning, and of the ghost beyond.
 pub(crate) fn beside_padded(side: Side, cells: usize, metric: &Metric<'_>, along: isize) -> [usize; 2] {
     let [origin, stride] = [metric.origin, metric.stride].map(|place| place as isize);
-    beside(side, cells, along).map(|(i, j)| (origin + j * stride + i) as usize)
+    cells_beside(side, cells, along).map(|(i, j)| (origin + j * stride + i) as usize)
 }
 
 /// What walls do with heat, in a step of a block.
