@@ -5,8 +5,8 @@ use mesh::Side;
 use solid::Material;
 
 use super::error::suggest;
-use super::read_terms::not_negative;
 use super::reader::{Faults, Given, Table};
+use super::shared::not_negative;
 
 /// What walls do with heat, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,6 +5,7 @@ use fluid::{Conduction, PhaseChange, PhaseViscosity, ThinGas, Viscosity};
 use super::read_conduction::{self, conduction};
 use super::read_phase_change::{self, phase_change};
 use super::reader::{Faults, Given, Table};
+use super::shared::not_negative;
 
 /// The terms of a case; each is off where it is absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -86,15 +87,4 @@ fn viscosity(mut table: Table<'_>, faults: &mut Faults) -> Option<Viscosity> {
     };
     let is_none = |phase| phase == PhaseViscosity::default();
     (!(is_none(viscosity.liquid) && is_none(viscosity.gas))).then_some(viscosity)
-}
-
-pub(super) fn not_negative(table: &mut Table<'_>, key: &'static str, faults: &mut Faults) -> Option<f64> {
-    let given: Given<f64> = table.number(key, faults)?;
-    if given.value < 0.0 {
-        let unit = table.unit(key);
-        let message = format!("must not be negative, got {:?} {unit}", given.value);
-        faults.of(&given, message, format!("give a number >= 0 in {unit}; 0 switches it off"));
-        return None;
-    }
-    Some(given.value)
 }

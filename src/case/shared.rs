@@ -114,3 +114,15 @@ pub(super) fn name_of(
     }
     Some(name.value.to_owned())
 }
+
+/// A number that is not below 0; 0 switches off what it is for.
+pub(super) fn not_negative(table: &mut Table<'_>, key: &'static str, faults: &mut Faults) -> Option<f64> {
+    let given: Given<f64> = table.number(key, faults)?;
+    if given.value < 0.0 {
+        let unit = table.unit(key);
+        let message = format!("must not be negative, got {:?} {unit}", given.value);
+        faults.of(&given, message, format!("give a number >= 0 in {unit}; 0 switches it off"));
+        return None;
+    }
+    Some(given.value)
+}

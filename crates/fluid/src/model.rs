@@ -2,7 +2,7 @@
 
 use mesh::{
     Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Scratches, Side, StageTimer,
+    ScratchPool, Scratches, Side, StageTimer, Tile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,7 @@ use crate::step::clips::{CountedAnalysis, SharedCount};
 use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::BlockReport;
 use crate::step::update::Extremes;
-use crate::step::{BlockScratch, STAGES, begin_spreading, step_block};
+use crate::step::{BlockScratch, STAGES, begin_spreading, is_one, step_tile};
 use crate::terms::diffusion::most_diffusivity;
 use crate::terms::super_stepping::{Spread, Spreading, spread_in};
 use crate::thermodynamics::temperature::cell_temperature;
@@ -152,7 +152,31 @@ impl<const N: usize> Model<N> for Fluid {
         scratch: &mut BlockScratch<N>,
         timer: &mut StageTimer,
     ) -> BlockReport<N> {
-        step_block(step, slot, new, register, scratch, timer)
+        let mut report = [BlockReport::default()];
+        step_tile(step, Tile::one(slot), (new, register), &mut report, (scratch, timer));
+        let [report] = report;
+        report
+    }
+
+    fn step_tile(
+        &self,
+        step: &FluidStep<'_, N>,
+        tile: Tile,
+        new: &mut [f64],
+        register: &mut [f64],
+        reports: &mut [BlockReport<N>],
+        scratch: &mut BlockScratch<N>,
+        timer: &mut StageTimer,
+    ) {
+        if let Some(of_four) = scratch.of_four.as_mut().filter(|_| !tile.is_one() && is_one(step, tile)) {
+            step_tile(step, tile, (new, register), reports, (of_four, timer));
+            return;
+        }
+        let (len, registered) = (new.len() / tile.blocks(), register.len() / tile.blocks());
+        let parts = new.chunks_exact_mut(len).zip(register.chunks_exact_mut(registered));
+        for ((slot, report), parts) in tile.slots().zip(reports.chunks_exact_mut(1)).zip(parts) {
+            step_tile(step, Tile::one(slot), parts, report, (scratch, timer));
+        }
     }
 
     fn correct(
@@ -176,7 +200,8 @@ impl<const N: usize> Model<N> for Fluid {
         report.extremes = extremes;
         report.diffusivity = self.diffusivity::<N>(block);
         if self.terms.conducts && mesh.touches(slot, Side::ZMin) {
-            report.wall_temperature = std::array::from_fn(|j| self.wall_temperature::<N>(block, j));
+            let sides = report.sides.get_or_insert_default();
+            sides.wall_temperature = std::array::from_fn(|j| self.wall_temperature::<N>(block, j));
         }
         report.has_gas = self.scheme.phases.has_gas::<N>(block);
     }
@@ -241,7 +266,8 @@ impl<const N: usize> Model<N> for Fluid {
         fixups.gas_mass_added += report.phase_mass_added[0];
         fixups.liquid_mass_added += report.phase_mass_added[1];
         fixups.clips += report.clips;
-        for (side, [mass, momentum, energy, gas_mass]) in report.inflow.into_iter().enumerate() {
+        let sides = report.sides.as_deref();
+        for (side, [mass, momentum, energy, gas_mass]) in sides.iter().flat_map(|s| s.inflow).enumerate() {
             ledger.mass[side] += mass;
             ledger.momentum[side] += momentum;
             ledger.energy[side] += energy;
@@ -250,13 +276,13 @@ impl<const N: usize> Model<N> for Fluid {
         ledger.tension_impulse += report.tension[0];
         ledger.tension_work += report.tension[1];
         let id = mesh.tree().leaves()[slot];
-        if self.terms.conducts && mesh.touches(slot, Side::ZMin) {
+        if let Some(sides) = sides.filter(|_| self.terms.conducts && mesh.touches(slot, Side::ZMin)) {
             let h_r = mesh.widths(id.level)[1];
-            for (j, flux) in report.wall_heat.iter().enumerate() {
+            for (j, flux) in sides.wall_heat.iter().enumerate() {
                 ledger.wall_heat += dt * mesh.weight(mesh.centre(id, 0, j)[1]) * h_r * flux;
             }
             if let Some(memory) = &mut self.wall_memory {
-                memory.take_from(mesh, id, dt, &report.wall_heat);
+                memory.take_from(mesh, id, dt, &sides.wall_heat);
             }
         }
         if let Some(states) = interface.states_of::<N>(slot) {
@@ -267,9 +293,9 @@ impl<const N: usize> Model<N> for Fluid {
                 ledger.wall_work += dt * area * state.power;
             }
         }
-        for side in Side::ALL {
+        for (side, sides) in Side::ALL.into_iter().filter_map(|side| Some((side, sides?))) {
             if self.boundaries.has_far_field(side) && mesh.touches(slot, side) {
-                for (along, gain) in report.impulse[side as usize].0.into_iter().enumerate() {
+                for (along, gain) in sides.impulse[side as usize].0.into_iter().enumerate() {
                     self.far.impulses.add(side, id.level, id.first_face::<N>(side) + along, gain);
                 }
             }

@@ -35,6 +35,8 @@ pub struct Fluid {
     pub(crate) far: FarFieldMemory,
     pub(crate) analysis: Analysis,
     pub(crate) near_wall: NearWall,
+    /// Whether four blocks are stepped as one where they may; what comes of it is the same to the last bit.
+    pub(crate) has_tiles: bool,
     /// The bubble that is followed, if one is.
     pub(crate) follower: Option<Follower>,
     /// Whether there is gas in each block, or will be at the end of the step it is in, as the reports have it.

@@ -126,6 +126,7 @@ impl<const N: usize> FluidSolver<N> {
             carried: components::of(setup),
             analysis,
             near_wall: setup.near_wall,
+            has_tiles: BlockScratch::<N>::HAS_FOUR,
             follower: setup.followed.clone().map(Follower::new),
             tally: Tally::default(),
             mixture,

@@ -5,6 +5,7 @@
 //! - [`Mesh`]: both together: where the cells of a block lie.
 //! - [`Field`]: the cell averages of all blocks, one allocation.
 //! - [`Padded`]: one block with its ghost layers, assembled in scratch; what a kernel works on.
+//! - [`Tile`], [`TileRows`]: four siblings that a step makes as if they were one block.
 //! - [`limited_differences`]: the slopes of a linear reconstruction.
 //! - [`Multiresolution`], [`Patch`], [`Adapted`]: details, the mesh they ask for, and fields carried over to it.
 //! - [`FluxRegister`]: what passes a face between levels.
@@ -30,13 +31,15 @@ pub use block_solver::{
     BlockSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks, Scratches, Step,
 };
 pub use cell_fields::CellField;
+pub use ghosts::frame::Frame;
 pub use ghosts::padded::{GHOSTS, Padded};
 pub use ghosts::side_faces::SideFaces;
 pub use ghosts::side_states::SideStates;
+pub use ghosts::tile_rows::TileRows;
 pub use kernels::aligned::{AlignedRow, whole_lines};
 pub use kernels::dispersion::{dispersion_share, oblique_dispersion_shares};
 pub use kernels::limiter::{Limiter, limited_differences};
-pub use kernels::parallel::{ScratchPool, for_each_block, for_some_blocks};
+pub use kernels::parallel::{ScratchPool, for_each_block, for_each_tile, for_some_blocks};
 pub use kernels::reduce::maximum;
 pub use multiresolution::adaptation::{Adaptation, LevelBound, Zone};
 pub use multiresolution::horizon::Horizon;
@@ -51,6 +54,7 @@ pub use tree::domain::{Domain, Mesh, MeshError, Misfit};
 pub use tree::field::Field;
 pub use tree::geometry::{Geometry, Side};
 pub use tree::quadtree::{BlockId, Neighbour, Offset, Quadtree};
+pub use tree::tile::Tile;
 
 /// Cells along one side of a block, unless a test chooses otherwise.
 pub const BLOCK: usize = 16;

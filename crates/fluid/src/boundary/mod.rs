@@ -7,7 +7,7 @@ pub(crate) mod wall_trace;
 
 use crate::state::PrimitiveCell;
 use crate::state::primitive::VELOCITY;
-use mesh::{Domain, FaceState, Mesh, Padded, Side, SideStates};
+use mesh::{BlockId, Domain, FaceState, Frame, Mesh, Side, SideStates, Tile, TileRows};
 
 use crate::boundary::far_field::{FarField, Inner, SideImpulses, SourceHistory};
 use crate::reconstruction::Reconstruction;
@@ -103,31 +103,32 @@ impl Boundaries {
         )
     }
 
-    /// Fills the ghosts of one block beyond the domain, in primitive variables.
+    /// Fills the ghosts of a tile beyond the domain, in primitive variables.
     ///
     /// - `own_components`: how many the two-phase model has; what follows are mass fractions.
     pub fn fill_ghosts<const N: usize>(
         &self,
         mesh: &Mesh<N>,
-        slot: usize,
+        tile: Tile,
         own_components: usize,
-        cells: &mut Padded<N>,
+        cells: &mut TileRows<N>,
     ) {
         // r first: the z sides then find the ghosts beyond r filled and complete the corners.
         for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
-            if !mesh.touches(slot, side) {
+            if !mesh.tile_touches(tile, side) {
                 continue;
             }
+            let frame = cells.frame();
             for component in 0..cells.components() {
                 let row = cells.component_mut(component);
                 match self.kind(side) {
                     // What comes in through an open side has the mass fractions that are inside.
-                    _ if component >= own_components => Padded::<N>::reflect(row, side, 1.0),
+                    _ if component >= own_components => frame.reflect(row, side, 1.0),
                     Boundary::Axis | Boundary::Wall | Boundary::Symmetry => {
-                        Padded::<N>::reflect(row, side, if component == normal(side) { -1.0 } else { 1.0 });
+                        frame.reflect(row, side, if component == normal(side) { -1.0 } else { 1.0 });
                     }
                     Boundary::NonReflecting | Boundary::FarField | Boundary::Inflow | Boundary::Interface => {
-                        Padded::<N>::extrapolate(row, side)
+                        frame.extrapolate(row, side);
                     }
                     Boundary::Periodic => unreachable!("a periodic side has neighbours"),
                 }
@@ -135,15 +136,8 @@ impl Boundaries {
         }
     }
 
-    /// The gas's part of the mass that open sides hold outside; `None` at other sides.
-    pub fn initial_gas_share<const N: usize>(
-        &self,
-        mesh: &Mesh<N>,
-        slot: usize,
-        side: Side,
-        along: usize,
-    ) -> Option<f64> {
-        let id = mesh.tree().leaves()[slot];
+    /// The gas's part of the mass that open sides hold outside a face, so many from a block's first one; `None` at other sides.
+    pub fn initial_gas_share<const N: usize>(&self, id: BlockId, side: Side, along: usize) -> Option<f64> {
         let first = id.first_face::<N>(side);
         self.kind(side).is_open().then(|| self.initial.at(side, id.level, first + along).1)
     }
@@ -154,15 +148,16 @@ impl Boundaries {
     /// energy (1 + β₁) p*v* + β₂ v* + ½ρ*v*|v|², gas fraction with v*. Without it the liquid would not feel the
     /// wall give way.
     ///
-    /// - `wall`: the states of the wall's faces, in the order of r; `first`: the block's first one.
-    pub fn impose_wall<const N: usize>(
+    /// - `wall`: the states of the wall's faces, in the order of r; `frame`: of the cells.
+    pub fn impose_wall(
         wall: &[FaceState],
+        frame: Frame,
         cells: &Reconstruction<'_>,
         mixture: &Mixture,
         faces: &mut FaceRows,
     ) {
         for (j, state) in wall.iter().enumerate() {
-            let inner = Padded::<N>::index(0, j as isize);
+            let inner = frame.index(0, j as isize);
             let share = if cells.with_gas { cells.gas_shares[inner] } else { 0.0 };
             faces.set(inner - 1, wall_face(cells.face_state(inner, -1.0), share, *state, mixture));
         }
@@ -220,9 +215,14 @@ pub(crate) fn tangential(side: Side) -> usize {
     VELOCITY[1 - axis(side)]
 }
 
-/// The cell next to a side, `along` cells from its beginning, and the ghost beyond.
-pub(crate) fn beside(side: Side, n: usize, along: isize) -> [(isize, isize); 2] {
-    let n = n as isize;
+/// The padded cell next to a side, `along` cells from its beginning, and the ghost beyond.
+pub(crate) fn beside(side: Side, frame: Frame, along: isize) -> [usize; 2] {
+    cells_beside(side, frame.cells(), along).map(|(i, j)| frame.index(i, j))
+}
+
+/// (i, j) of the cell next to a side of a square of so many cells along each, and of the ghost beyond.
+pub(crate) fn cells_beside(side: Side, cells: usize, along: isize) -> [(isize, isize); 2] {
+    let n = cells as isize;
     match side {
         Side::ZMin => [(0, along), (-1, along)],
         Side::ZMax => [(n - 1, along), (n, along)],

@@ -2,7 +2,7 @@
 
 use crate::state::COUNT;
 use crate::state::primitive::PRESSURE;
-use mesh::{Padded, Side};
+use mesh::{Side, Tile, TileRows};
 
 use crate::boundary::far_field::{FarField, Inner, face_centre};
 use crate::boundary::{Boundaries, axis, beside, normal};
@@ -18,19 +18,19 @@ impl Boundaries {
     pub fn impose_outer<const N: usize>(
         &self,
         ctx: &FluidStep<'_, N>,
-        slot: usize,
-        slopes: [&Padded<N>; 2],
-        half: &mut Padded<N>,
+        tile: Tile,
+        slopes: [&TileRows<N>; 2],
+        half: &mut TileRows<N>,
         keep: &mut [f64],
     ) {
-        let (mesh, mixture) = (ctx.mesh, &ctx.model.mixture);
-        let id = mesh.tree().leaves()[slot];
+        let (mesh, mixture, frame) = (ctx.mesh, &ctx.model.mixture, half.frame());
+        let id = mesh.first_of(tile);
         for side in Side::ALL {
             let inflow = match self.kind(side) {
-                Boundary::Wall | Boundary::Symmetry | Boundary::Axis if mesh.touches(slot, side) => {
-                    mirror::<N>(side, half, keep);
+                Boundary::Wall | Boundary::Symmetry | Boundary::Axis if mesh.tile_touches(tile, side) => {
+                    mirror(side, half, keep);
                     if ctx.model.terms.acceleration()[axis(side)] != 0.0 {
-                        meet_on_face::<N>(side, slopes[axis(side)], half, keep);
+                        meet_on_face(side, slopes[axis(side)], half, keep);
                     }
                     continue;
                 }
@@ -38,7 +38,7 @@ impl Boundaries {
                 Boundary::Inflow => self.inflow.as_ref(),
                 _ => continue,
             };
-            if !mesh.touches(slot, side) {
+            if !mesh.tile_touches(tile, side) {
                 continue;
             }
             let first = id.first_face::<N>(side);
@@ -47,12 +47,12 @@ impl Boundaries {
             let per_density =
                 outwards * ctx.model.terms.acceleration()[axis(side)] * mesh.widths(id.level)[axis(side)];
             let far_field = self.far_field.as_ref().filter(|_| self.kind(side) == Boundary::FarField);
-            for along in 0..N {
+            for along in 0..frame.cells() {
                 let (mut state, _) = *self.initial.at(side, id.level, first + along);
                 if per_density != 0.0 {
                     state.pressure += state.density * per_density;
                 }
-                let [inner, k] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+                let [inner, k] = beside(side, frame, along as isize);
                 if let Some(history) = inflow {
                     state = entering(state, side, history.at(ctx.middle()), mixture);
                 }
@@ -128,9 +128,10 @@ fn entering(initial: Primitive, side: Side, p: f64, mixture: &Mixture) -> Primit
 }
 
 /// Makes the ghost cells next to a side the mirror images of the cells within, at mid-step.
-fn mirror<const N: usize>(side: Side, half: &mut Padded<N>, keep: &mut [f64]) {
-    for along in 0..N {
-        let [from, to] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+fn mirror<const N: usize>(side: Side, half: &mut TileRows<N>, keep: &mut [f64]) {
+    let frame = half.frame();
+    for along in 0..frame.cells() {
+        let [from, to] = beside(side, frame, along as isize);
         for component in 0..COUNT {
             let row = half.component_mut(component);
             row[to] = if component == normal(side) { -row[from] } else { row[from] };
@@ -143,11 +144,12 @@ fn mirror<const N: usize>(side: Side, half: &mut Padded<N>, keep: &mut [f64]) {
 /// acceleration the pressure has an odd part, too.
 ///
 /// - `slopes`: differences across the cells, normal to the side.
-fn meet_on_face<const N: usize>(side: Side, slopes: &Padded<N>, half: &mut Padded<N>, keep: &[f64]) {
+fn meet_on_face<const N: usize>(side: Side, slopes: &TileRows<N>, half: &mut TileRows<N>, keep: &[f64]) {
+    let frame = half.frame();
     let (slopes, pressure) = (slopes.component(PRESSURE), half.component_mut(PRESSURE));
     let towards_face = if matches!(side, Side::ZMin | Side::RMin) { -0.5 } else { 0.5 };
-    for along in 0..N {
-        let [from, to] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+    for along in 0..frame.cells() {
+        let [from, to] = beside(side, frame, along as isize);
         pressure[to] = pressure[from] + towards_face * keep[from] * (slopes[from] + slopes[to]);
     }
 }

@@ -1,7 +1,7 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
 use coupler::{FluidTrace, TraceRow};
-use mesh::{GroupStep, Padded};
+use mesh::{GroupStep, Padded, TileRows};
 
 use crate::boundary::wall_trace::Trace;
 use crate::physics::FluidStep;
@@ -191,7 +191,7 @@ impl<const N: usize> FluidSolver<N> {
     }
 
     /// The gas's part of the mass in an assembled cell.
-    fn gas_share(&self, cells: &Padded<N>, k: usize) -> f64 {
+    fn gas_share(&self, cells: &TileRows<N>, k: usize) -> f64 {
         let gas = self.model().scheme.phases.gas_component();
         gas.map_or(0.0, |gas| cells.component(gas)[k] / cells.component(RHO)[k])
     }
@@ -199,7 +199,7 @@ impl<const N: usize> FluidSolver<N> {
     /// The state at mid-step on the wall's face of a cell that holds both phases, and the gas's part of the mass; `None` of other cells.
     fn interface_trace(
         &self,
-        cells: &Padded<N>,
+        cells: &TileRows<N>,
         inverse_r: &[f64],
         inverse_h: [f64; 2],
         k: usize,

@@ -144,7 +144,8 @@ impl<const N: usize> FluidSolver<N> {
     pub fn wall_face_pressures(&self, pressures: &mut Vec<f64>) {
         pressures.clear();
         for slot in self.interface().blocks() {
-            pressures.extend_from_slice(&self.reports().pending[*slot].wall_pressure);
+            let sides = self.reports().pending[*slot].sides.as_deref();
+            pressures.extend_from_slice(sides.map_or(&[0.0; N], |sides| &sides.wall_pressure));
         }
     }
 
@@ -156,7 +157,8 @@ impl<const N: usize> FluidSolver<N> {
             return;
         }
         for slot in self.interface().blocks() {
-            shears.extend_from_slice(&self.reports().pending[*slot].wall_shear);
+            let sides = self.reports().pending[*slot].sides.as_deref();
+            shears.extend_from_slice(sides.map_or(&[0.0; N], |sides| &sides.wall_shear));
         }
     }
 
@@ -169,9 +171,9 @@ impl<const N: usize> FluidSolver<N> {
             return;
         }
         for slot in self.interface().blocks() {
-            let report = &self.reports().pending[*slot];
-            fluxes.extend_from_slice(&report.wall_heat);
-            temperatures.extend_from_slice(&report.wall_temperature);
+            let sides = self.reports().pending[*slot].sides.as_deref();
+            fluxes.extend_from_slice(sides.map_or(&[0.0; N], |sides| &sides.wall_heat));
+            temperatures.extend_from_slice(sides.map_or(&[0.0; N], |sides| &sides.wall_temperature));
         }
     }
 

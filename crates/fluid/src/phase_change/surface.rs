@@ -23,6 +23,21 @@ pub(crate) fn area_density(
     slope(1, inverse_h[0]).hypot(slope(stride, inverse_h[1]))
 }
 
+/// Gas fraction from which on a cell counts as the gas's own.
+const GAS: f64 = 0.9;
+
+/// Whether liquid that boils at once may do so in a cell: one beside it is nearly all gas, or none beside it has more.
+///
+/// Vapour makes its cell expand, and what lies beyond is pushed away. In a cell on the liquid's side of an interface it would
+/// leave liquid behind in the cells on the gas's side, and the interface would become a foam that runs into superheated liquid. So the cell
+/// next to the gas is emptied first; the heat comes there through the mixed cells ([`crate::Conduction`]).
+///
+/// - tested by: superheated liquid beside vapour, `tests/verification/superheated.rs`, which boils 25 % too fast without it.
+pub(super) fn borders_gas(phi: &[f64], k: usize, stride: usize) -> bool {
+    let most = [k - 1, k + 1, k - stride, k + stride].into_iter().map(|k| phi[k]).fold(0.0, f64::max);
+    most >= GAS || most <= phi[k]
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::holding::holds_both;

@@ -1,6 +1,6 @@
 //! Slopes and states at mid-step of cells beside a jump of pressure.
 
-use mesh::Padded;
+use mesh::{Padded, TileRows};
 
 use crate::physics::FluidStep;
 use crate::reconstruction::at;
@@ -33,7 +33,7 @@ pub(crate) fn level_slopes<const N: usize>(
                 slopes.component_mut(PRESSURE)[k] = levelled;
             }
         }
-        let of = |rows: &Padded<N>| at(&rows.split(), k);
+        let of = |rows: &TileRows<N>| at(&rows.split(), k);
         let (w, along_z, along_r) = (of(cells), of(s_z), of(s_r));
         let bound = if mixture.has_covolume() { mixture.bound_beta1::<true>(gas_shares[k]) } else { 0.0 };
         let half_dt = 0.5 * ctx.dt;

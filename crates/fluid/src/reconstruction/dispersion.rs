@@ -42,17 +42,17 @@ impl<'a> AlongFaces<'a> {
         Self { before: differences, behind: differences.map(|row| &row[2 * step..]), step }
     }
 
-    /// `n` cells from `at` on; not to be cut again.
+    /// `n` cells from `at` on; neighbours are found no more.
     #[inline(always)]
     pub fn cut(&self, at: usize, n: usize) -> Self {
         let ([a, b], [c, d], at) = (self.before, self.behind, at - self.step);
         Self { before: [&a[at..][..n], &b[at..][..n]], behind: [&c[at..][..n], &d[at..][..n]], step: 0 }
     }
 
-    /// In cell `k` of what was cut: 0 for v_n, 1 for p.
+    /// Twice the second difference in cell `k` of what was cut: 0 for v_n, 1 for p.
     #[inline(always)]
-    pub fn second_difference(&self, component: usize, k: usize) -> f64 {
-        0.5 * (self.behind[component][k] - self.before[component][k])
+    pub fn twice_second_difference(&self, component: usize, k: usize) -> f64 {
+        self.behind[component][k] - self.before[component][k]
     }
 }
 

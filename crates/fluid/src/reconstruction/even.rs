@@ -1,6 +1,6 @@
 //! Slopes of the cells next to walls and to the axis.
 
-use mesh::{Padded, Side};
+use mesh::{Frame, Side, Tile, TileRows};
 
 use crate::boundary::{axis, beside, tangential};
 use crate::physics::FluidStep;
@@ -22,19 +22,15 @@ const ONE_PHASE: f64 = 1e-6;
 ///
 /// - `scratch`: its slopes have been made with mirror images for ghosts; where the next cell holds another phase they stay.
 /// - tested by: the height of a spherical pulse that a wall throws back.
-pub(crate) fn even_slopes<const N: usize>(
-    ctx: &FluidStep<'_, N>,
-    slot: usize,
-    scratch: &mut BlockScratch<N>,
-) {
+pub(crate) fn even_slopes<const N: usize>(ctx: &FluidStep<'_, N>, tile: Tile, scratch: &mut BlockScratch<N>) {
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     let phi = cells.component(PHI);
-    for side in mirrors(ctx, slot) {
+    for side in mirrors(ctx, tile) {
         let axis = axis(side);
         let slopes = if axis == 0 { &mut *s_z } else { &mut *s_r };
         let acceleration = ctx.model.terms.acceleration()[axis];
-        let width = ctx.mesh.widths(ctx.mesh.tree().leaves()[slot].level)[axis];
-        for [inner, ghost] in along_mirror::<N>(side) {
+        let width = ctx.mesh.widths(ctx.mesh.first_of(tile).level)[axis];
+        for [inner, ghost] in along_mirror(cells.frame(), side) {
             let next = 2 * inner - ghost;
             if (phi[next] - phi[inner]).abs() > ONE_PHASE {
                 continue;
@@ -56,18 +52,19 @@ pub(crate) fn even_slopes<const N: usize>(
 
 /// The states at mid-step of the cells that [`even_slopes`] is about, with their slopes as they are.
 ///
-/// - `inverse_h`: 1/h_z, 1/h_r.
+/// - `inverse_h`: 1/h_z, 1/h_r. returns: whether all of them keep their slopes.
 pub(crate) fn predict_beside_mirrors<const N: usize>(
     ctx: &FluidStep<'_, N>,
-    slot: usize,
+    tile: Tile,
     inverse_h: [f64; 2],
     scratch: &mut BlockScratch<N>,
-) {
+) -> bool {
     let BlockScratch { cells, s_z, s_r, half, keep, inverse_r, gas_shares, has_gas, .. } = scratch;
+    let mut all_keep = true;
     let mixture = &ctx.model.mixture;
-    for side in mirrors(ctx, slot) {
-        for [k, _] in along_mirror::<N>(side) {
-            let of = |rows: &Padded<N>| at(&rows.split(), k);
+    for side in mirrors(ctx, tile) {
+        for [k, _] in along_mirror(cells.frame(), side) {
+            let of = |rows: &TileRows<N>| at(&rows.split(), k);
             let (w, s_z, s_r) = (of(cells), of(s_z), of(s_r));
             let bound = mixture.bound_beta1::<true>(if *has_gas { gas_shares[k] } else { 0.0 });
             let (state, kept) = half_step(w, s_z, s_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, bound, mixture);
@@ -75,18 +72,20 @@ pub(crate) fn predict_beside_mirrors<const N: usize>(
                 half.component_mut(component)[k] = value;
             }
             keep[k] = kept;
+            all_keep &= kept == 1.0;
         }
     }
+    all_keep
 }
 
 /// The padded cells along a side and those beyond it; the first ghosts at both ends, too, which lie along it in other blocks.
-fn along_mirror<const N: usize>(side: Side) -> impl Iterator<Item = [usize; 2]> {
-    (-1..=N as isize).map(move |along| beside(side, N, along).map(|(i, j)| Padded::<N>::index(i, j)))
+fn along_mirror(frame: Frame, side: Side) -> impl Iterator<Item = [usize; 2]> {
+    (-1..=frame.cells() as isize).map(move |along| beside(side, frame, along))
 }
 
-/// The sides of a block that are walls at rest or the axis.
-fn mirrors<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> impl Iterator<Item = Side> {
+/// The sides of a tile that are walls at rest or the axis.
+fn mirrors<const N: usize>(ctx: &FluidStep<'_, N>, tile: Tile) -> impl Iterator<Item = Side> {
     let is_mirror =
-        move |side: &Side| ctx.mesh.touches(slot, *side) && ctx.model.boundaries.kind(*side).is_mirror();
+        move |side: &Side| ctx.mesh.tile_touches(tile, *side) && ctx.model.boundaries.kind(*side).is_mirror();
     Side::ALL.into_iter().filter(is_mirror)
 }

@@ -63,7 +63,7 @@ impl<'a> Reconstruction<'a> {
         stride..self.keep.len() - step - self.along_faces.step
     }
 
-    /// `n` cells from `at` on; not to be cut again.
+    /// `n` cells from `at` on.
     #[inline(always)]
     pub fn cut(&self, at: usize, n: usize) -> Self {
         Self {
@@ -106,9 +106,9 @@ fn left_out(
 ) -> f64 {
     let row = [V_N, PRESSURE][component];
     let across = upper.differences[row][k] - lower.differences[row][k];
-    let low = lower.along_faces.second_difference(component, k);
-    let high = upper.along_faces.second_difference(component, k);
-    shares.left_out(component, kept, across, 0.5 * (low + high))
+    let low = lower.along_faces.twice_second_difference(component, k);
+    let high = upper.along_faces.twice_second_difference(component, k);
+    shares.left_out(component, kept, across, 0.25 * (low + high))
 }
 
 /// The states on both sides of the face between cells `k` of `lower` and of `upper`.

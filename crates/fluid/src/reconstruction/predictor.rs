@@ -82,10 +82,10 @@ impl<'a> Stencil<'a> {
 /// directions at once. The differences are made and used in registers. Nearly all cells keep their slopes; a chunk of
 /// cells in which one does not is predicted again by [`half_step`].
 ///
-/// - `w`: the cells.
+/// - `w`: the cells. returns: whether all of them keep their slopes, those between the rows included.
 /// - tested by: equality with the limiter and [`half_step`], cell by cell.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn predict(w: Rows<'_>, p: Predictor<'_>, out: Predicted<'_>) {
+pub(crate) fn predict(w: Rows<'_>, p: Predictor<'_>, out: Predicted<'_>) -> bool {
     // A function of its own for each, so that the compiler sees what it does.
     let mc = |a, b| Limiter::Mc.difference(a, b);
     let minmod = |a, b| Limiter::Minmod.difference(a, b);
@@ -117,7 +117,8 @@ fn body<const WITH_GAS: bool, const B: bool>(
     w: Rows<'_>,
     p: Predictor<'_>,
     out: Predicted<'_>,
-) {
+) -> bool {
+    let mut all_keep = true;
     let Predicted { s_z, s_r, half, keep, sound } = out;
     let ([z0, z1, z2, z3, z4], [r0, r1, r2, r3, r4], [h0, h1, h2, h3, h4]) = (s_z, s_r, half);
     // The first and the last cell of these rows have neighbours, if not their own; all lines are whole.
@@ -153,6 +154,7 @@ fn body<const WITH_GAS: bool, const B: bool>(
         let dropped: u64 = keep[first..][..n].iter().map(|share| u64::from(*share == 0.0)).sum();
         let [_, _, _, pressure, phi] = cells.here;
         let counts = |k: usize| keep[first + k] == 0.0 && !is_compliant(pressure[k], phi[k], &p.mixture);
+        all_keep &= dropped == 0;
         if dropped > 0 && (p.with_mixed || (0..n).any(counts)) {
             half_again(
                 cells,
@@ -171,6 +173,7 @@ fn body<const WITH_GAS: bool, const B: bool>(
         }
         first += n;
     }
+    all_keep
 }
 
 // A flat list of what is written: of slices in a struct or an array the compiler does not know that they are apart. With

@@ -5,6 +5,7 @@
 //! that has keeps its numbers, so that they do not depend on the company it is solved in. Faces for which more is
 //! needed (a vacuum or nearly one, the inside of a fan, no convergence) are left to the scalar solver.
 
+mod curves;
 mod fluxes;
 mod listed;
 
@@ -13,12 +14,12 @@ use std::ops::Range;
 use mesh::whole_lines;
 
 use crate::Mixture;
-use crate::reconstruction::Reconstruction;
-use crate::reconstruction::states_at_face;
-use crate::riemann::elementary::{exp_and_less_one, ln_of};
+use crate::reconstruction::{Reconstruction, fraction, states_at_face};
 use crate::riemann::godunov::flux_exact;
+use crate::state::primitive::{PHI, PRESSURE, RHO, V_N, V_T};
 use crate::step::face_rows::FaceRows;
 
+use curves::{Curve, curve};
 use fluxes::fluxes;
 pub(crate) use listed::{ListedFaces, exact_fluxes};
 
@@ -75,6 +76,8 @@ struct Chunk {
     f_right: Lane,
     /// 0 before the iteration has ended, 1 after it, 2 where there is no state.
     done: Lane,
+    /// Both sides' wave curves at the iterate.
+    curves: [Curve; 2],
 }
 
 impl Chunk {
@@ -103,6 +106,7 @@ impl Chunk {
             f_left: ZERO,
             f_right: ZERO,
             done: ZERO,
+            curves: [Curve::ZERO; 2],
         }
     }
 }
@@ -110,7 +114,8 @@ impl Chunk {
 /// [`flux_exact`] at the faces between cells `k` and `k + step`, for `k` in `range` and in whatever completes its
 /// lines; `stride` is that of the rows.
 ///
-/// - `used`: whether the face above cell `k` counts. What lies between the rows of a block may be no state at all.
+/// - `used`: 1 at the cells above which the face counts, else 0. What lies between the rows of a block may be no state at all; such faces
+///   are solved as if there were no jump.
 /// - tested by: [`crate::riemann::exact_riemann`] over its extreme and random states.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn exact_faces(
@@ -118,26 +123,27 @@ pub(crate) fn exact_faces(
     step: usize,
     stride: usize,
     range: std::ops::Range<usize>,
-    used: fn(usize, usize) -> bool,
+    used: &[f64],
     mixture: &Mixture,
     faces: &mut FaceRows,
 ) {
     let mixture = *mixture;
     let range = whole_lines(range, cells.lines(step, stride));
-    if mixture.has_covolume() {
-        exact_rows::<true>(cells, step, range, used, &mixture, faces);
-    } else {
-        exact_rows::<false>(cells, step, range, used, &mixture, faces);
+    match (cells.with_gas, mixture.has_covolume()) {
+        (true, true) => exact_rows::<true, true>(cells, step, range, used, &mixture, faces),
+        (true, false) => exact_rows::<true, false>(cells, step, range, used, &mixture, faces),
+        (false, true) => exact_rows::<false, true>(cells, step, range, used, &mixture, faces),
+        (false, false) => exact_rows::<false, false>(cells, step, range, used, &mixture, faces),
     }
 }
 
 /// [`exact_faces`] of whole lines.
 #[inline(always)]
-fn exact_rows<const B: bool>(
+fn exact_rows<const WITH_GAS: bool, const B: bool>(
     cells: &Reconstruction<'_>,
     step: usize,
     range: Range<usize>,
-    used: fn(usize, usize) -> bool,
+    used: &[f64],
     mixture: &Mixture,
     faces: &mut FaceRows,
 ) {
@@ -146,24 +152,23 @@ fn exact_rows<const B: bool>(
     let mut first = range.start;
     while first < range.end {
         let n = LANES.min(range.end - first);
-        take::<B>(n, cells.cut(first, n), cells.cut(first + step, n), &mut chunk.left, &mut chunk.right);
-        solve::<B>(n, &mut chunk, mixture);
-        fluxes::<B>(
-            n,
-            &chunk,
-            mixture,
-            &mut faces.mass[first..][..n],
-            &mut faces.velocity[first..][..n],
-            &mut faces.pressure[first..][..n],
-            &mut faces.shear[first..][..n],
-            &mut faces.energy[first..][..n],
-            &mut faces.phi[first..][..n],
-            &mut compression,
-            &mut solved,
-        );
+        let (lower, upper, used) = (cells.cut(first, n), cells.cut(first + step, n), &used[first..][..n]);
+        take::<WITH_GAS, B>(n, lower, upper, used, &mut chunk.left, &mut chunk.right);
+        let is_slow = solve::<WITH_GAS, B>(n, &mut chunk, mixture);
+        let [mass, velocity, pressure, shear, energy, phi] = faces.fluxes_mut();
+        let (mass, velocity, pressure) =
+            (&mut mass[first..][..n], &mut velocity[first..][..n], &mut pressure[first..][..n]);
+        let (shear, energy, phi) =
+            (&mut shear[first..][..n], &mut energy[first..][..n], &mut phi[first..][..n]);
+        let (more, ok) = (&mut compression, &mut solved);
+        if is_slow {
+            fluxes::<B, true>(n, &chunk, mixture, mass, velocity, pressure, shear, energy, phi, more, ok);
+        } else {
+            fluxes::<B, false>(n, &chunk, mixture, mass, velocity, pressure, shear, energy, phi, more, ok);
+        }
         if count(&solved, n) < n {
             for k in 0..n {
-                if solved[k] == 0.0 && used(first + k, step) {
+                if solved[k] == 0.0 && used[k] != 0.0 {
                     let at = |s: &Sides| [s.rho[k], s.u[k], s.v[k], s.p[k], s.phi[k]];
                     let shares = [chunk.left.gas_share[k], chunk.right.gas_share[k]];
                     faces.set(first + k, flux_exact(at(&chunk.left), at(&chunk.right), shares, mixture));
@@ -185,40 +190,68 @@ fn count(lane: &Lane, n: usize) -> usize {
 }
 
 #[inline(always)]
-fn take<const B: bool>(
+fn take<const WITH_GAS: bool, const B: bool>(
     n: usize,
     lower: Reconstruction<'_>,
     upper: Reconstruction<'_>,
+    used: &[f64],
     left: &mut Sides,
     right: &mut Sides,
 ) {
     for k in 0..n.min(LANES) {
         if B {
-            let share = |cells: &Reconstruction<'_>| if cells.with_gas { cells.gas_shares[k] } else { 0.0 };
+            let share = |cells: &Reconstruction<'_>| cells.gas_share::<WITH_GAS>(k);
             (left.gas_share[k], right.gas_share[k]) = (share(&lower), share(&upper));
         }
-        let [l, r] = states_at_face::<true>(&lower, &upper, k);
-        [left.rho[k], left.u[k], left.v[k], left.p[k], left.phi[k]] = l;
-        [right.rho[k], right.u[k], right.v[k], right.p[k], right.phi[k]] = r;
+        let [l, r] = states_at_face::<WITH_GAS>(&lower, &upper, k);
+        let beyond = |c: usize| if used[k] != 0.0 { r[c] } else { l[c] };
+        [left.rho[k], left.u[k], left.v[k], left.p[k], _] = l;
+        right.rho[k] = beyond(RHO);
+        right.u[k] = beyond(V_N);
+        right.v[k] = beyond(V_T);
+        right.p[k] = beyond(PRESSURE);
+        if WITH_GAS {
+            (left.phi[k], right.phi[k]) = (l[PHI], beyond(PHI));
+        }
     }
 }
 
 /// From the states in a chunk to the pressures and velocity changes of its faces.
+///
+/// - returns: whether all waves are weak and the flow between them is slower than half the sound, so that no wave stands at the face.
 #[inline(always)]
-fn solve<const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
-    prepare::<B>(n, chunk, mixture);
-    for _ in 0..MOST_STEPS {
-        advance(n, chunk);
+fn solve<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) -> bool {
+    let are_acoustic = prepare::<WITH_GAS, B>(n, chunk, mixture);
+    let are_weak = advance(n, are_acoustic, chunk);
+    if count(&chunk.done, n) == n {
+        return are_weak && are_slow(n, &chunk.left) && are_slow(n, &chunk.right);
+    }
+    for _ in 1..MOST_STEPS {
+        advance(n, false, chunk);
         if count(&chunk.done, n) == n {
             break;
         }
     }
+    false
+}
+
+/// Whether all states move slower than half their sound.
+#[inline(always)]
+fn are_slow(n: usize, s: &Sides) -> bool {
+    let mut fast = 0;
+    for k in 0..n.min(LANES) {
+        fast += u64::from(!(2.0 * s.u[k].abs() < s.c[k]));
+    }
+    fast == 0
 }
 
 /// The wave curves and the first guess, see `first_guess` of the scalar solver.
+///
+/// - returns: whether all guesses are the acoustic ones.
 #[inline(always)]
-fn prepare<const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
+fn prepare<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) -> bool {
     let Chunk { left, right, pi, p, shifted, done, .. } = chunk;
+    let mut others = 0;
     for k in 0..n.min(LANES) {
         // (m, π, c) of one side: γ = (1 + β₁)/β₁, π = β₂/(1 + β₁), with a covolume of what is in the free volume.
         let law = |rho: f64, p: f64, phi: f64, share: f64| {
@@ -235,7 +268,7 @@ fn prepare<const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
             let c = (if squared > 0.0 { squared } else { 0.0 }).sqrt();
             (b1, 0.5 * inverse_above, pi, c, rho * c, free)
         };
-        let of = |s: &Sides| law(s.rho[k], s.p[k], s.phi[k], s.gas_share[k]);
+        let of = |s: &Sides| law(s.rho[k], s.p[k], fraction::<WITH_GAS>(s.phi[k]), s.gas_share[k]);
         let (b1_l, m_l, pi_l, c_l, z_l, free_l) = of(left);
         let (b1_r, m_r, pi_r, c_r, z_r, free_r) = of(right);
         if B {
@@ -256,7 +289,9 @@ fn prepare<const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
         let z_low = if right_is_lower { z_r } else { z_l };
         let acoustic = low + (z_low * (high - low) - (z_l * z_r) * du) / (z_l + z_r);
         let fallback = if low > -lowest_pi { low } else { high };
-        let guess = if acoustic + lowest_pi > 0.1 * (fallback + lowest_pi) { acoustic } else { fallback };
+        let is_acoustic = acoustic + lowest_pi > 0.1 * (fallback + lowest_pi);
+        let guess = if is_acoustic { acoustic } else { fallback };
+        others += u64::from(!is_acoustic);
         let state =
             (left.rho[k] > 0.0) & (right.rho[k] > 0.0) & (base_l > 0.0) & (base_r > 0.0) & (guess < f64::MAX);
         let state = if B { state & (free_l > 0.0) & (free_r > 0.0) } else { state };
@@ -265,51 +300,44 @@ fn prepare<const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) {
         shifted[k] = guess + lowest_pi;
         done[k] = if state { 0.0 } else { 2.0 };
     }
-}
-
-/// f_K and its derivatives by P, times P and P², as `curve` of the scalar solver.
-#[inline(always)]
-fn curve(s: &Sides, k: usize, p: f64, shifted: f64) -> [f64; 3] {
-    let (m, inverse_base) = (s.m[k], s.inverse_base[k]);
-    let a = 1.0 - m;
-    let per_gamma = s.c[k] * (1.0 - 2.0 * m);
-    let x = (p - s.p[k]) * inverse_base;
-    let ratio = (shifted + s.offset[k]) * inverse_base;
-    let lever = shifted * inverse_base;
-    let shock = x > 0.0;
-    // Both waves are made, with one division between them, and one is chosen.
-    let inverse = 1.0 / if shock { 1.0 + a * x } else { ratio };
-    let scale = per_gamma * inverse.sqrt();
-    let (power, less_one) = exp_and_less_one(m * ln_of(ratio, x));
-    let slope_shock = scale * inverse * (1.0 + 0.5 * a * x) * lever;
-    let slope_fan = per_gamma * power * (lever * inverse);
-    let curvature_shock = -scale * (inverse * inverse) * a * (1.0 + 0.25 * a * x) * (lever * lever);
-    let curvature_fan = -a * slope_fan * (lever * inverse);
-    [
-        if shock { scale * x } else { s.escape[k] * less_one },
-        if shock { slope_shock } else { slope_fan },
-        if shock { curvature_shock } else { curvature_fan },
-    ]
+    others == 0
 }
 
 /// One step of all faces that are not done.
 ///
 /// Halley's step in P. Where P is far too low it is Newton's, which ends below the root; where it is far too high,
 /// one that stays above Newton's in ln P, which ends above it.
+///
+/// - `are_acoustic`: whether all iterates are acoustic guesses; where the waves are weak as well, they are 4·10⁻⁶ off at most.
+/// - returns: whether they are, and all waves weak.
 #[inline(always)]
-fn advance(n: usize, chunk: &mut Chunk) {
-    let Chunk { left, right, pi, p, shifted, f_left, f_right, done } = chunk;
+fn advance(n: usize, are_acoustic: bool, chunk: &mut Chunk) -> bool {
+    let Chunk { left, right, p, shifted, curves: [on_left, on_right], .. } = chunk;
+    let is_left_weak = curve(n, left, p, shifted, on_left);
+    let are_near = curve(n, right, p, shifted, on_right) && is_left_weak && are_acoustic;
+    if are_near {
+        step::<true>(n, chunk);
+    } else {
+        step::<false>(n, chunk);
+    }
+    are_near
+}
+
+/// - `NEAR`: whether no step goes far.
+#[inline(always)]
+fn step<const NEAR: bool>(n: usize, chunk: &mut Chunk) {
+    let Chunk { left, right, pi, p, shifted, f_left, f_right, done, curves: [on_left, on_right] } = chunk;
     for k in 0..n.min(LANES) {
         let (p_old, shifted_old) = (p[k], shifted[k]);
-        let [f_l, slope_l, curvature_l] = curve(left, k, p_old, shifted_old);
-        let [f_r, slope_r, curvature_r] = curve(right, k, p_old, shifted_old);
+        let [f_l, slope_l, curvature_l] = [on_left.f[k], on_left.slope[k], on_left.curvature[k]];
+        let [f_r, slope_r, curvature_r] = [on_right.f[k], on_right.slope[k], on_right.curvature[k]];
         let inverse = 1.0 / (slope_l + slope_r);
         let x = ((f_l + f_r) + (right.u[k] - left.u[k])) * inverse;
         let bend = x * ((curvature_l + curvature_r) * inverse);
         // P is multiplied by 1 + over/under.
         let (over, under) = (-2.0 * x, 2.0 - bend);
-        let far_down = 10.0 * (over + under) < under;
-        let far_up = x < -1.0;
+        let far_down = !NEAR & (10.0 * (over + under) < under);
+        let far_up = !NEAR & (x < -1.0);
         let over = if far_down { -x * (1.0 + 0.5 * x) } else { over };
         let under = if far_down { 1.0 + x * (1.0 + 0.5 * x) } else { under };
         let over = if far_up { -x } else { over };

@@ -61,70 +61,107 @@ pub fn flux_hllc_low_mach(left: PrimitiveCell, right: PrimitiveCell, mixture: &M
 pub(crate) fn flux_and_roots<const B: bool, const LOW_MACH: bool>(
     left: PrimitiveCell,
     right: PrimitiveCell,
-    [share_l, share_r]: [f64; 2],
+    shares: [f64; 2],
     mixture: &Mixture,
 ) -> (Face, bool) {
-    let [rho_l, u_l, v_l, p_l, phi_l] = left;
-    let [rho_r, u_r, v_r, p_r, phi_r] = right;
-    // c² = ((1 + β₁) p + β₂)/(β₁ρ), below the line with β₁ of the free volume: one division serves both sides, and two square
-    // roots wait for it.
-    let law = |rho: f64, p: f64, phi: f64, share: f64| {
-        let beta1 = mixture.beta1(phi);
-        let [free, _] = mixture.free_betas::<B>(phi, rho, rho * share);
-        ((1.0 + beta1) * p + mixture.beta2(phi), free * rho)
-    };
-    let (over_l, under_l) = law(rho_l, p_l, phi_l, share_l);
-    let (over_r, under_r) = law(rho_r, p_r, phi_r, share_r);
-    let inverse = 1.0 / (under_l * under_r);
-    let root = |squared: f64| (if squared > 0.0 { squared } else { 0.0 }).sqrt();
-    let (squared_l, squared_r) = ((over_l * under_r) * inverse, (over_r * under_l) * inverse);
-    let (c_l, c_r) = (root(squared_l), root(squared_r));
-    let s_l = smaller(u_l - c_l, u_r - c_r);
-    let s_r = larger(u_l + c_l, u_r + c_r);
-    // Mass swept by the outer waves: m_l < 0 < m_r.
-    let (m_l, m_r) = (rho_l * (s_l - u_l), rho_r * (s_r - u_r));
-    let mean = 0.5 * (u_l + u_r);
-    let half_jump = 0.5 * (u_l - u_r);
-    let s_m = mean + ((p_r - p_l) + half_jump * (m_l + m_r)) / (m_l - m_r);
-    let mut p_star = 0.5 * ((p_l + m_l * (s_m - u_l)) + (p_r + m_r * (s_m - u_r)));
-    if LOW_MACH {
-        let jump = 2.0 * (m_l * m_r) / (m_l - m_r) * half_jump;
-        let whole = 2.0 * jump.abs();
-        let kept = kept_of_jump(whole, (p_r - p_l).abs(), 2.0 * half_jump.abs(), u_l.abs() + u_r.abs());
-        let lost = 0.5 * (whole - kept);
-        p_star -= if jump > 0.0 { lost } else { -lost };
+    let (waves, has_roots) = Waves::between::<B, LOW_MACH>(left, right, shares, mixture);
+    (waves.flux::<B>(left, right, shares, mixture), has_roots)
+}
+
+/// The waves between two states: the first half of the solver. Kernels make it of many faces before they make the second one of any, so that
+/// no face waits for its own divisions and roots.
+#[derive(Clone, Copy)]
+pub(crate) struct Waves {
+    /// Speeds of the outer waves, m/s.
+    pub s_l: f64,
+    pub s_r: f64,
+    /// Star velocity, m/s, and pressure, Pa.
+    pub s_m: f64,
+    pub p_star: f64,
+}
+
+impl Waves {
+    /// The waves, and whether both sides have a sound speed, see [`flux_and_roots`].
+    #[inline(always)]
+    pub fn between<const B: bool, const LOW_MACH: bool>(
+        [rho_l, u_l, _, p_l, phi_l]: PrimitiveCell,
+        [rho_r, u_r, _, p_r, phi_r]: PrimitiveCell,
+        [share_l, share_r]: [f64; 2],
+        mixture: &Mixture,
+    ) -> (Self, bool) {
+        // c² = ((1 + β₁) p + β₂)/(β₁ρ), below the line with β₁ of the free volume: one division serves both sides, and two square
+        // roots wait for it.
+        let law = |rho: f64, p: f64, phi: f64, share: f64| {
+            let beta1 = mixture.beta1(phi);
+            let [free, _] = mixture.free_betas::<B>(phi, rho, rho * share);
+            ((1.0 + beta1) * p + mixture.beta2(phi), free * rho)
+        };
+        let (over_l, under_l) = law(rho_l, p_l, phi_l, share_l);
+        let (over_r, under_r) = law(rho_r, p_r, phi_r, share_r);
+        let inverse = 1.0 / (under_l * under_r);
+        let root = |squared: f64| (if squared > 0.0 { squared } else { 0.0 }).sqrt();
+        let (squared_l, squared_r) = ((over_l * under_r) * inverse, (over_r * under_l) * inverse);
+        let (c_l, c_r) = (root(squared_l), root(squared_r));
+        let s_l = smaller(u_l - c_l, u_r - c_r);
+        let s_r = larger(u_l + c_l, u_r + c_r);
+        // Mass swept by the outer waves: m_l < 0 < m_r.
+        let (m_l, m_r) = (rho_l * (s_l - u_l), rho_r * (s_r - u_r));
+        let mean = 0.5 * (u_l + u_r);
+        let half_jump = 0.5 * (u_l - u_r);
+        let s_m = mean + ((p_r - p_l) + half_jump * (m_l + m_r)) / (m_l - m_r);
+        let mut p_star = 0.5 * ((p_l + m_l * (s_m - u_l)) + (p_r + m_r * (s_m - u_r)));
+        if LOW_MACH {
+            let jump = 2.0 * (m_l * m_r) / (m_l - m_r) * half_jump;
+            let whole = 2.0 * jump.abs();
+            let kept = kept_of_jump(whole, (p_r - p_l).abs(), 2.0 * half_jump.abs(), u_l.abs() + u_r.abs());
+            let lost = 0.5 * (whole - kept);
+            p_star -= if jump > 0.0 { lost } else { -lost };
+        }
+        let are_dense = (rho_l > 0.0) & (rho_r > 0.0);
+        (Self { s_l, s_r, s_m, p_star }, !are_dense | ((squared_l > 0.0) & (squared_r > 0.0)))
     }
 
-    let from_left = s_m >= 0.0;
-    let pick = |l: f64, r: f64| if from_left { l } else { r };
-    let (rho, u, v, p, phi) =
-        (pick(rho_l, rho_r), pick(u_l, u_r), pick(v_l, v_r), pick(p_l, p_r), pick(phi_l, phi_r));
-    let s = pick(s_l, s_r);
-    let supersonic = if from_left { s_l >= 0.0 } else { s_r <= 0.0 };
+    /// The flux between the waves: the second half.
+    ///
+    /// - arguments: those that the waves were made of.
+    #[inline(always)]
+    pub fn flux<const B: bool>(
+        self,
+        [rho_l, u_l, v_l, p_l, phi_l]: PrimitiveCell,
+        [rho_r, u_r, v_r, p_r, phi_r]: PrimitiveCell,
+        [share_l, share_r]: [f64; 2],
+        mixture: &Mixture,
+    ) -> Face {
+        let Self { s_l, s_r, s_m, p_star } = self;
+        let from_left = s_m >= 0.0;
+        let pick = |l: f64, r: f64| if from_left { l } else { r };
+        let (rho, u, v, p, phi) =
+            (pick(rho_l, rho_r), pick(u_l, u_r), pick(v_l, v_r), pick(p_l, p_r), pick(phi_l, phi_r));
+        let s = pick(s_l, s_r);
+        let supersonic = if from_left { s_l >= 0.0 } else { s_r <= 0.0 };
 
-    let [beta1, beta2] = mixture.free_betas::<B>(phi, rho, rho * pick(share_l, share_r));
-    let energy = beta1 * p + beta2 + 0.5 * rho * (u * u + v * v);
-    let inverse = 1.0 / (s - s_m);
-    let compression = (s - u) * inverse;
-    let energy_star = compression * (energy + (s_m - u) * (rho * s_m)) + (s_m - u) * p * inverse;
+        let [beta1, beta2] = mixture.free_betas::<B>(phi, rho, rho * pick(share_l, share_r));
+        let energy = beta1 * p + beta2 + 0.5 * rho * (u * u + v * v);
+        let inverse = 1.0 / (s - s_m);
+        let compression = (s - u) * inverse;
+        let energy_star = compression * (energy + (s_m - u) * (rho * s_m)) + (s_m - u) * p * inverse;
 
-    let velocity = if supersonic { u } else { s_m };
-    let pressure = if supersonic { p } else { p_star };
-    let density = if supersonic { rho } else { rho * compression };
-    let total = if supersonic { energy } else { energy_star };
-    let compression = if supersonic { 1.0 } else { compression };
-    let mass = density * velocity;
-    let face = Face {
-        mass,
-        velocity,
-        pressure,
-        shear: mass * v,
-        energy: velocity * (total + pressure),
-        phi,
-        compression,
-    };
-    let are_dense = (rho_l > 0.0) & (rho_r > 0.0);
-    (face, !are_dense | ((squared_l > 0.0) & (squared_r > 0.0)))
+        let velocity = if supersonic { u } else { s_m };
+        let pressure = if supersonic { p } else { p_star };
+        let density = if supersonic { rho } else { rho * compression };
+        let total = if supersonic { energy } else { energy_star };
+        let compression = if supersonic { 1.0 } else { compression };
+        let mass = density * velocity;
+        Face {
+            mass,
+            velocity,
+            pressure,
+            shear: mass * v,
+            energy: velocity * (total + pressure),
+            phi,
+            compression,
+        }
+    }
 }
 
 /// By comparison, without the NaN rules of `f64::min`, so that a row of faces vectorises.

@@ -1,6 +1,6 @@
 //! The fluxes through the faces of a padded block.
 
-use mesh::{AlignedRow, Padded};
+use mesh::{AlignedRow, Frame};
 
 use crate::riemann::hllc::Face;
 
@@ -46,6 +46,11 @@ impl FaceRows {
         (&mut self.gas, &self.mass)
     }
 
+    /// Gas may pass.
+    pub fn with_gas(&mut self) {
+        self.has_gas = true;
+    }
+
     /// No gas passes; most blocks leave it at that.
     pub fn without_gas(&mut self) {
         if std::mem::take(&mut self.has_gas) {
@@ -88,11 +93,18 @@ pub(crate) fn set_face(
     phi[k] = face.phi;
 }
 
-/// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block.
-pub(crate) fn used_face<const N: usize>(k: usize, step: usize) -> bool {
-    let (i, j) = (k % Padded::<N>::STRIDE, k / Padded::<N>::STRIDE);
-    let inner = mesh::GHOSTS..mesh::GHOSTS + N;
-    let faces = mesh::GHOSTS - 1..mesh::GHOSTS + N;
+/// 1 at the cells above which the face counts, see [`used_face`], else 0.
+pub(crate) fn used_faces(frame: Frame, step: usize) -> AlignedRow {
+    let mut used = AlignedRow::zeros(frame.len(), frame.stride());
+    (0..frame.len()).filter(|k| used_face(frame, *k, step)).for_each(|k| used[k] = 1.0);
+    used
+}
+
+/// Whether the face above cell `k` (along z for step 1, else along r) bounds a cell of the block or tile.
+pub(crate) fn used_face(frame: Frame, k: usize, step: usize) -> bool {
+    let (i, j) = (k % frame.stride(), k / frame.stride());
+    let inner = mesh::GHOSTS..mesh::GHOSTS + frame.cells();
+    let faces = mesh::GHOSTS - 1..mesh::GHOSTS + frame.cells();
     if step == 1 {
         faces.contains(&i) && inner.contains(&j)
     } else {

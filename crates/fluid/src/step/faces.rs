@@ -1,8 +1,8 @@
 //! The Riemann problems on the faces of a block.
 
-use mesh::Padded;
+use mesh::Frame;
 
-use super::BlockStep;
+use super::TileStep;
 use super::scratch::BlockScratch;
 use crate::RiemannSolver;
 use crate::boundary::Boundaries;
@@ -13,18 +13,19 @@ use crate::reconstruction::dispersion::AlongFaces;
 use crate::riemann::exact_rows::exact_faces;
 use crate::riemann::godunov::flux_exact;
 use crate::riemann::hllc::{flux_hllc, flux_hllc_low_mach};
+use crate::riemann::hllc_rows::{has_roots, hllc_faces};
 use crate::state::COUNT;
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
 use crate::step::face_rows::{FaceRows, used_face};
-use crate::step::rows::{self};
 use crate::two_phase::FaceState;
 
-impl<const N: usize> BlockStep<'_, N> {
+impl<const N: usize> TileStep<'_, N> {
     /// Fluxes through all faces: HLLC or exact between pure cells, the mixed cells' own, and those that the state of the wall to
     /// another medium makes.
     pub(super) fn solve_faces(&mut self, scratch: &mut BlockScratch<N>) {
         let ctx = self.ctx;
-        let stride = Padded::<N>::STRIDE;
+        let (frame, last) = (self.frame, self.frame.cells() as isize - 1);
+        let stride = frame.stride();
         let BlockScratch {
             half,
             s_z,
@@ -35,10 +36,15 @@ impl<const N: usize> BlockStep<'_, N> {
             inverse_r,
             gas,
             capillary,
+            used_faces,
             z_faces,
             r_faces,
             ..
         } = scratch;
+        if self.gas.is_present() {
+            z_faces.with_gas();
+            r_faces.with_gas();
+        }
         let [rho, v_z, v_r, p, phi] = half.split::<COUNT>();
         let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_z.split::<COUNT>();
         let along_z = Reconstruction {
@@ -51,17 +57,19 @@ impl<const N: usize> BlockStep<'_, N> {
             dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
             along_faces: AlongFaces::new([V_Z, PRESSURE].map(|c| s_r.component(c)), stride),
         };
-        let z_range = Padded::<N>::index(-1, 0)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
+        let z_range = frame.index(-1, 0)..frame.index(last, last) + 1;
+        // A tile of four does not touch the interface.
         let wall = ctx.interface.states_of::<N>(self.slot);
         let replaced = wall.map(|_| mesh::GHOSTS - 1);
-        self.clipped_roots = faces(ctx, &along_z, 1, z_range, replaced, z_faces);
+        self.clips.clipped_roots =
+            faces(ctx, &along_z, Faces { frame, step: 1, used: &used_faces[0] }, z_range, replaced, z_faces);
         if let Some(block) = self.gas.phases() {
             block.solve_faces(0, &along_z, inverse_r, capillary.along::<N>(0), gas, z_faces);
         } else if let Some(jumps) = capillary.along::<N>(0) {
-            faces_with_jumps::<N>(ctx, &along_z, jumps, z_faces);
+            faces_with_jumps(ctx, frame, &along_z, jumps, z_faces);
         }
         if let Some(wall) = wall {
-            Boundaries::impose_wall::<N>(wall, &along_z, &ctx.model.mixture, z_faces);
+            Boundaries::impose_wall(wall, frame, &along_z, &ctx.model.mixture, z_faces);
         }
 
         let [d_rho, d_v_z, d_v_r, d_p, d_phi] = s_r.split::<COUNT>();
@@ -72,48 +80,58 @@ impl<const N: usize> BlockStep<'_, N> {
             along_faces: AlongFaces::new([V_R, PRESSURE].map(|c| s_z.component(c)), 1),
             ..along_z
         };
-        let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
-        self.clipped_roots += faces(ctx, &along_r, stride, r_range, None, r_faces);
+        let r_range = frame.index(0, -1)..frame.index(last, last) + 1;
+        self.clips.clipped_roots +=
+            faces(ctx, &along_r, Faces { frame, step: stride, used: &used_faces[1] }, r_range, None, r_faces);
         if let Some(block) = self.gas.phases() {
             block.solve_faces(1, &along_r, inverse_r, capillary.along::<N>(1), gas, r_faces);
             block.gas_fluxes(gas, gas_shares, [z_faces, r_faces]);
         } else if let Some(jumps) = capillary.along::<N>(1) {
-            faces_with_jumps::<N>(ctx, &along_r, jumps, r_faces);
+            faces_with_jumps(ctx, frame, &along_r, jumps, r_faces);
         }
     }
 }
 
-/// Solves the faces of a block along z (`step` 1) or r.
+/// Faces of a tile along z or r.
+#[derive(Clone, Copy)]
+struct Faces<'a> {
+    frame: Frame,
+    /// Distance of the cells on both sides: 1 or that of the rows.
+    step: usize,
+    /// See [`crate::step::face_rows::used_faces`].
+    used: &'a [f64],
+}
+
+/// Solves the faces of a tile along z or r.
 ///
 /// - `replaced`: the column of padded cells whose upper faces get other fluxes.
 /// - returns: at how many of the faces that count HLLC's sound speed was bounded.
 fn faces<const N: usize>(
     ctx: &FluidStep<'_, N>,
     cells: &Reconstruction<'_>,
-    step: usize,
+    Faces { frame, step, used }: Faces<'_>,
     range: std::ops::Range<usize>,
     replaced: Option<usize>,
     faces: &mut FaceRows,
 ) -> u64 {
     match ctx.model.scheme.riemann {
         riemann @ (RiemannSolver::Hllc | RiemannSolver::HllcLowMach) => {
-            let (stride, mixture) = (Padded::<N>::STRIDE, &ctx.model.mixture);
+            let (stride, mixture) = (frame.stride(), &ctx.model.mixture);
             let is_low_mach = riemann == RiemannSolver::HllcLowMach;
-            if rows::hllc_faces(cells, step, stride, range.clone(), mixture, is_low_mach, faces) {
+            if hllc_faces(cells, step, stride, range.clone(), mixture, is_low_mach, faces) {
                 return 0;
             }
             // Mixed cells of the five-equation model have states and fluxes of their own: their share is −0.
             let is_own = |k: usize| cells.keep[k].to_bits() >> 63 == 1;
             let counts = |k: &usize| {
-                used_face::<N>(*k, step)
-                    && replaced != Some(*k % Padded::<N>::STRIDE)
+                used_face(frame, *k, step)
+                    && replaced != Some(*k % stride)
                     && !(is_own(*k) || is_own(*k + step))
             };
-            range.filter(counts).filter(|k| !rows::has_roots(cells, *k, step, mixture)).count() as u64
+            range.filter(counts).filter(|k| !has_roots(cells, *k, step, mixture)).count() as u64
         }
         RiemannSolver::Exact => {
-            let stride = Padded::<N>::STRIDE;
-            exact_faces(cells, step, stride, range, used_face::<N>, &ctx.model.mixture, faces);
+            exact_faces(cells, step, frame.stride(), range, used, &ctx.model.mixture, faces);
             0
         }
     }
@@ -123,6 +141,7 @@ fn faces<const N: usize>(
 /// covolumes.
 fn faces_with_jumps<const N: usize>(
     ctx: &FluidStep<'_, N>,
+    frame: Frame,
     cells: &Reconstruction<'_>,
     jumps: FaceJumps<'_>,
     faces: &mut FaceRows,
@@ -134,7 +153,7 @@ fn faces_with_jumps<const N: usize>(
         RiemannSolver::Exact => flux_exact(lower.w, upper.w, [0.0; 2], mixture),
     };
     let step = jumps.step;
-    for k in (0..Padded::<N>::LEN - step).filter(|k| jumps.has(*k) && used_face::<N>(*k, step)) {
+    for k in (0..frame.len() - step).filter(|k| jumps.has(*k) && used_face(frame, *k, step)) {
         let states = [cells.face_state(k, 1.0), cells.face_state(k + step, -1.0)]
             .map(|w| FaceState { w, gas_share: 0.0 });
         let [lower, upper] = jumps.level(k, states, mixture);

@@ -1,4 +1,4 @@
-//! One MUSCL-Hancock step of one block: the algorithm, stage by stage.
+//! One MUSCL-Hancock step of one tile, a block or four: the algorithm, stage by stage.
 
 pub(crate) mod clips;
 pub(crate) mod face_rows;
@@ -11,14 +11,18 @@ mod faces;
 mod jumps;
 mod scratch;
 mod stages;
+mod tell;
+#[cfg(test)]
+mod tile_tests;
+mod with_terms;
 
-use mesh::{BlockId, StageTimer};
+use mesh::{BlockId, Frame, StageTimer, Tile};
 
 pub use scratch::BlockScratch;
 pub(crate) use scratch::{split_block, take_wall};
 pub(crate) use stages::{block_sides, reconstruct};
 
-use crate::physics::FluidStep;
+use crate::physics::{Fluid, FluidStep};
 use crate::step::clips::Clips;
 use crate::step::report::BlockReport;
 use crate::terms::super_stepping::{SpreadBlock, Spreading};
@@ -42,18 +46,22 @@ enum Stage {
 pub(crate) const STAGES: &[&str] =
     &["assemble", "predict", "boundary", "mixed_cells", "faces", "terms", "register", "update", "report"];
 
-/// A block in a step.
-struct BlockStep<'a, const N: usize> {
+/// A tile in a step.
+struct TileStep<'a, const N: usize> {
     ctx: &'a FluidStep<'a, N>,
+    tile: Tile,
+    /// Its first block, the only one but where there is nothing but the fluid's own fluxes: see [`may_join`].
     slot: usize,
     id: BlockId,
+    /// Where its cells lie in the padded rows.
+    frame: Frame,
     /// 1/h_z, 1/h_r.
     inverse_h: [f64; 2],
     gas: BlockGas<'a, N>,
-    limited_predictions: u64,
-    clipped_roots: u64,
-    /// What terms were bounded in.
-    bounded: Clips,
+    /// Whether all cells are known to keep their slopes.
+    all_keep: bool,
+    /// What was bounded in the tile as a whole.
+    clips: Clips,
 }
 
 /// Begins what spreads in stages in a block, see [`SpreadBlock::begin`].
@@ -63,40 +71,53 @@ pub(crate) fn begin_spreading<const N: usize>(
     of: &dyn Spreading,
     scratch: &mut BlockScratch<N>,
 ) -> (SpreadBlock, f64) {
-    let block = BlockStep::assemble(ctx, slot, scratch);
+    let mut block = TileStep::assemble(ctx, Tile::one(slot), scratch);
     block.predict(scratch);
     block.begin_spreading(of, scratch)
 }
 
-/// Advances one block by one step from `ctx.old` into `new`; `fluxes` is its part of the flux register.
-pub(crate) fn step_block<const N: usize>(
+/// Whether the blocks of a tile are stepped as one: where nothing has a say but their cells' own fluxes.
+///
+/// Terms, what the mass carries, phase change and the wall to the solid are made block by block.
+pub(crate) fn is_one<const N: usize>(ctx: &FluidStep<'_, N>, tile: Tile) -> bool {
+    let Fluid { terms, exchange, carried, has_tiles, .. } = ctx.model;
+    let is_plain = terms.is_empty() && exchange.is_none() && carried.is_empty();
+    *has_tiles && is_plain && tile.slots().all(|slot| ctx.interface.first_face(slot).is_none())
+}
+
+/// Advances the blocks of a tile by one step from `ctx.old` into `new`; `fluxes` is their part of the flux register.
+pub(crate) fn step_tile<const N: usize>(
     ctx: &FluidStep<'_, N>,
-    slot: usize,
-    new: &mut [f64],
-    fluxes: &mut [f64],
-    scratch: &mut BlockScratch<N>,
-    timer: &mut StageTimer,
-) -> BlockReport<N> {
+    tile: Tile,
+    (new, fluxes): (&mut [f64], &mut [f64]),
+    reports: &mut [BlockReport<N>],
+    (scratch, timer): (&mut BlockScratch<N>, &mut StageTimer),
+) {
     let mut done = |stage: Stage| timer.end(stage as usize);
-    let mut report = BlockReport::default();
-    let mut block = BlockStep::assemble(ctx, slot, scratch);
+    let mut step = TileStep::assemble(ctx, tile, scratch);
     done(Stage::Assemble);
-    block.predict(scratch);
-    block.predict_terms(scratch);
+    ctx.mesh.look_ahead_of(ctx.old, tile, new, 0, 3);
+    step.predict(scratch);
+    step.predict_terms(scratch);
     done(Stage::Predict);
-    block.impose_boundaries(scratch);
+    ctx.mesh.look_ahead_of(ctx.old, tile, new, 1, 3);
+    step.impose_boundaries(scratch);
     done(Stage::Boundary);
-    block.collect_mixed_cells(scratch);
+    step.collect_mixed_cells(scratch);
     done(Stage::MixedCells);
-    block.solve_faces(scratch);
+    ctx.mesh.look_ahead_of(ctx.old, tile, new, 2, 3);
+    step.solve_faces(scratch);
     done(Stage::Faces);
-    block.add_terms(scratch);
+    step.add_terms(scratch);
     done(Stage::Terms);
-    block.register_fluxes(scratch, fluxes);
+    step.register_fluxes(scratch, fluxes);
     done(Stage::Register);
-    block.update(scratch, new, &mut report);
-    done(Stage::Update);
-    block.report(scratch, new, &mut report);
-    done(Stage::Report);
-    report
+    let len = new.len() / reports.len();
+    for (number, (new, report)) in new.chunks_exact_mut(len).zip(reports).enumerate() {
+        *report = BlockReport { sides: report.sides.take(), ..BlockReport::default() };
+        step.update(number, scratch, new, report);
+        done(Stage::Update);
+        step.report(number, scratch, new, report);
+        done(Stage::Report);
+    }
 }

@@ -1,6 +1,6 @@
 //! Flux correction at level jumps: the finer side's fluxes pass for both.
 
-use mesh::{CorrectedFace, FinerSide, FluxRegister, Mesh, Side};
+use mesh::{CorrectedFace, FinerSide, FluxRegister, Frame, Mesh, Side};
 
 use crate::components::carried::CarriedScratch;
 use crate::physics::FluidStep;
@@ -17,15 +17,17 @@ use crate::step::report::BlockReport;
 pub(crate) const QUANTITIES: usize = 8;
 
 /// Keeps the fluxes on those sides of a block that meet another level.
+///
+/// - `place`: its slot, and where it lies in the padded rows.
 pub(crate) fn register_fluxes<const N: usize>(
     mesh: &Mesh<N>,
-    slot: usize,
+    place: (usize, Frame),
     z_faces: &FaceRows,
     r_faces: &FaceRows,
     carried: &[CarriedScratch],
     values: &mut [f64],
 ) {
-    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, 0, |side, k| {
+    FluxRegister::<N>::record::<QUANTITIES>(mesh, place, values, 0, |side, k| {
         let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
         let velocity = faces.velocity[k];
         [
@@ -40,7 +42,7 @@ pub(crate) fn register_fluxes<const N: usize>(
         ]
     });
     for (number, carried) in carried.iter().enumerate() {
-        FluxRegister::<N>::record::<1>(mesh, slot, values, QUANTITIES + number, |side, k| {
+        FluxRegister::<N>::record::<1>(mesh, place, values, QUANTITIES + number, |side, k| {
             [carried.fluxes[usize::from(!matches!(side, Side::ZMin | Side::ZMax))][k]]
         });
     }

@@ -1,6 +1,6 @@
 //! What one block tells of its step.
 
-use mesh::{Padded, Side};
+use mesh::{Frame, Side, TileRows};
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::far_field::face_centre;
@@ -14,7 +14,7 @@ use crate::step::update::Extremes;
 use crate::two_phase::missing_mass;
 
 /// What one block tells of its step.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct BlockReport<const N: usize> {
     pub(crate) extremes: Extremes,
     /// Whether there is gas in the block, or a trace of its mass.
@@ -36,13 +36,22 @@ pub struct BlockReport<const N: usize> {
     pub(crate) floored: u32,
     pub(crate) floored_volume: f64,
     pub(crate) floor_energy: f64,
-    /// What came in through each side of the domain: mass, axial momentum, energy, mass of the gas (per
-    /// radian).
-    pub(crate) inflow: [[f64; 4]; 4],
+    /// What passed the sides of the domain; of blocks that touch one, once they have made a step. Most blocks do not, and what
+    /// is told of a block should be no more than it must: of blocks of 16² cells it would be a fifth of what the step reads.
+    pub(crate) sides: Option<Box<SideReport<N>>>,
     /// What surface tension added: axial momentum and energy (per radian).
     pub(crate) tension: [f64; 2],
     /// A cell, j N + i, where an interface is at a wall and must not be.
     pub(crate) contact: Option<u32>,
+    /// The largest diffusivity of the terms in any cell, m²/s.
+    pub(crate) diffusivity: f64,
+}
+
+/// What a block tells of the sides of the domain that it touches.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SideReport<const N: usize> {
+    /// What came in through each side: mass, axial momentum, energy, mass of the gas (per radian).
+    pub(crate) inflow: [[f64; 4]; 4],
     /// Pressure on the faces of z_min, Pa; 0 in blocks that do not touch it.
     #[serde(with = "mesh::array")]
     pub(crate) wall_pressure: [f64; N],
@@ -56,10 +65,21 @@ pub struct BlockReport<const N: usize> {
     /// See `wall_heat`.
     #[serde(with = "mesh::array")]
     pub(crate) wall_temperature: [f64; N],
-    /// The largest diffusivity of the terms in any cell, m²/s.
-    pub(crate) diffusivity: f64,
     /// What the far field's impulse on the faces of each side has gained, Pa s.
     pub(crate) impulse: [FaceRow<N>; 4],
+}
+
+impl<const N: usize> Default for SideReport<N> {
+    fn default() -> Self {
+        Self {
+            inflow: [[0.0; 4]; 4],
+            wall_pressure: [0.0; N],
+            wall_shear: [0.0; N],
+            wall_heat: [0.0; N],
+            wall_temperature: [0.0; N],
+            impulse: [FaceRow([0.0; N]); 4],
+        }
+    }
 }
 
 /// Some of the cells of a block: bit i of number j is cell (i, j).
@@ -94,31 +114,18 @@ impl<const N: usize> CellBits<N> {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FaceRow<const N: usize>(#[serde(with = "mesh::array")] pub [f64; N]);
 
-impl<const N: usize> Default for BlockReport<N> {
-    fn default() -> Self {
-        Self {
-            extremes: Extremes::default(),
-            has_gas: false,
-            marked: CellBits::default(),
-            redone: 0,
-            redone_volume: 0.0,
-            fallbacks: 0,
-            clips: Clips::default(),
-            phase_mass_added: [0.0; 2],
-            exchange: BlockExchange::default(),
-            floored: 0,
-            floored_volume: 0.0,
-            floor_energy: 0.0,
-            inflow: [[0.0; 4]; 4],
-            tension: [0.0; 2],
-            contact: None,
-            wall_pressure: [0.0; N],
-            wall_shear: [0.0; N],
-            wall_heat: [0.0; N],
-            wall_temperature: [0.0; N],
-            diffusivity: 0.0,
-            impulse: [FaceRow([0.0; N]); 4],
-        }
+impl<const N: usize> Clone for BlockReport<N> {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    /// Into the memory at hand: it is done for every block in every step.
+    fn clone_from(&mut self, other: &Self) {
+        let mut sides = self.sides.take();
+        sides.clone_from(&other.sides);
+        *self = Self { sides, ..*other };
     }
 }
 
@@ -149,26 +156,28 @@ impl<const N: usize> BlockReport<N> {
 }
 
 /// Cells of the block that keep none of their slopes, and those that keep half, for want of admissible face states.
-pub(crate) fn count_kept<const N: usize>(keep: &[f64]) -> [u32; 2] {
-    let (mut dropped, mut halved) = (0, 0);
-    for j in 0..N {
-        let at = Padded::<N>::index(0, j as isize);
-        for share in &keep[at..at + N] {
+///
+/// - `first`, `stride`: the place of the block's first cell, and the distance of its rows.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn count_kept<const N: usize>(keep: &[f64], first: usize, stride: usize) -> [u32; 2] {
+    let (mut dropped, mut halved) = (0_u64, 0_u64);
+    for row in keep[first..].chunks(stride).take(N) {
+        for share in &row[..N] {
             // Mixed cells of the five-equation model hold −0: they have face states of their own.
-            dropped += u32::from(share.to_bits() == 0);
-            halved += u32::from(*share == 0.5);
+            dropped += u64::from(share.to_bits() == 0);
+            halved += u64::from(*share == 0.5);
         }
     }
-    [dropped, halved]
+    [dropped as u32, halved as u32]
 }
 
 /// What the far field's impulses gain on the faces of a block.
 ///
-/// - `half`: the cells at mid-step.
+/// - `slot`, `at`: the block, and where it lies in the padded rows; `half`: the cells at mid-step.
 pub(crate) fn far_field_gains<const N: usize>(
     ctx: &FluidStep<'_, N>,
-    slot: usize,
-    half: &Padded<N>,
+    (slot, at): (usize, Frame),
+    half: &TileRows<N>,
     z_faces: &FaceRows,
     r_faces: &FaceRows,
 ) -> [FaceRow<N>; 4] {
@@ -182,7 +191,7 @@ pub(crate) fn far_field_gains<const N: usize>(
         let faces = if axis(side) == 0 { z_faces } else { r_faces };
         let is_low = matches!(side, Side::ZMin | Side::RMin);
         for along in 0..N {
-            let [inner, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+            let [inner, ghost] = beside(side, at, along as isize);
             let k = if is_low { ghost } else { inner };
             let u_n = if is_low { -faces.velocity[k] } else { faces.velocity[k] };
             let [rho, u_t] = [RHO, tangential(side)].map(|component| half.component(component)[inner]);
@@ -195,9 +204,11 @@ pub(crate) fn far_field_gains<const N: usize>(
 }
 
 /// Mass, axial momentum, energy and mass of the gas that a block took in through the sides of the domain.
+///
+/// - `slot`, `at`: the block, and where it lies in the padded rows.
 pub(crate) fn boundary_inflow<const N: usize>(
     ctx: &FluidStep<'_, N>,
-    slot: usize,
+    (slot, at): (usize, Frame),
     z_faces: &FaceRows,
     r_faces: &FaceRows,
     face_weight: &[f64],
@@ -214,14 +225,14 @@ pub(crate) fn boundary_inflow<const N: usize>(
             let gains = match side {
                 Side::ZMin | Side::ZMax => {
                     let i = if side == Side::ZMin { -1 } else { N as isize - 1 };
-                    let k = Padded::<N>::index(i, along as isize);
+                    let k = at.index(i, along as isize);
                     let area = ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r;
                     let momentum = z_faces.mass[k] * z_faces.velocity[k] + z_faces.pressure[k];
                     [z_faces.mass[k], momentum, z_faces.energy[k], z_faces.gas()[k]].map(|flux| area * flux)
                 }
                 Side::RMin | Side::RMax => {
                     let j = if side == Side::RMin { -1 } else { N as isize - 1 };
-                    let k = Padded::<N>::index(along as isize, j);
+                    let k = at.index(along as isize, j);
                     let area = face_weight[(j + 1) as usize] * h_z;
                     [r_faces.mass[k], r_faces.shear[k], r_faces.energy[k], r_faces.gas()[k]]
                         .map(|flux| area * flux)

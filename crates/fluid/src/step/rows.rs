@@ -1,19 +1,14 @@
-//! Kernels over the cells of one padded block: primitive variables, predictor, fluxes.
+//! Kernels over the cells of one padded block: primitive variables, predictor. Those of faces are in `riemann/hllc_rows.rs` and
+//! `riemann/exact_rows.rs`.
 //!
 //! Every function walks flat rows (a structure of arrays, see [`mesh::Padded`]) with a body free of branches, so that the compiler
 //! vectorises it; each is compiled for several instruction sets and the best one is chosen at run time.
 //! Rust never contracts a·b + c, so the results do not depend on that choice.
 
-use std::ops::Range;
-
-use mesh::whole_lines;
-
 use crate::Mixture;
-use crate::reconstruction::{Reconstruction, RowsMut, fraction, states_at_face};
-use crate::riemann::hllc::flux_and_roots;
+use crate::reconstruction::{RowsMut, fraction};
 use crate::state::primitive::{PHI, PRESSURE, RHO, V_R, V_Z};
 use crate::state::{PrimitiveCell, primitive_of};
-use crate::step::face_rows::FaceRows;
 
 /// Time derivatives of the primitive variables.
 ///
@@ -265,102 +260,6 @@ fn to_primitive_body<const WITH_GAS: bool, const B: bool>(
         let w = primitive_of::<B>([rho[k], a[k], b[k], c[k], fraction::<WITH_GAS>(phi[k])], gas, mixture);
         (a[k], b[k], c[k]) = (w[V_Z], w[V_R], w[PRESSURE]);
     }
-}
-
-/// HLLC at the faces between cells `k` and `k + step`, for `k` in `range` and in whatever completes its lines;
-/// `stride` is that of the rows. Without gas the gas fractions on the faces are left alone.
-///
-/// - `is_low_mach`: by [`crate::flux_hllc_low_mach`].
-/// - returns: whether all of them have sound speeds on both sides, also those of which nothing is used.
-#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn hllc_faces(
-    cells: &Reconstruction<'_>,
-    step: usize,
-    stride: usize,
-    range: Range<usize>,
-    mixture: &Mixture,
-    is_low_mach: bool,
-    faces: &mut FaceRows,
-) -> bool {
-    let range = whole_lines(range, cells.lines(step, stride));
-    let (first, n) = (range.start, range.len());
-    let mixture = *mixture;
-    let (low, high) = (cells.cut(first, n), cells.cut(first + step, n));
-    let [mass, velocity, pressure, shear, energy, phi] = faces.fluxes_mut();
-    let (mass, velocity, pressure) =
-        (&mut mass[first..][..n], &mut velocity[first..][..n], &mut pressure[first..][..n]);
-    let (shear, energy, phi) = (&mut shear[first..][..n], &mut energy[first..][..n], &mut phi[first..][..n]);
-    let m = &mixture;
-    // Called by name: a pointer to one of them would not be inlined.
-    match (cells.with_gas, mixture.has_covolume(), is_low_mach) {
-        (true, true, true) => {
-            hllc_body::<true, true, true>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (true, true, false) => {
-            hllc_body::<true, true, false>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (true, false, true) => {
-            hllc_body::<true, false, true>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (true, false, false) => {
-            hllc_body::<true, false, false>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (false, true, true) => {
-            hllc_body::<false, true, true>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (false, true, false) => {
-            hllc_body::<false, true, false>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (false, false, true) => {
-            hllc_body::<false, false, true>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (false, false, false) => {
-            hllc_body::<false, false, false>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-    }
-}
-
-// A flat list of what is written: of slices in a struct or an array the compiler does not know that they are apart. With
-// an array here a step of 512 x 512 cells takes 114 instead of 43 ns per cell (2.7 times).
-#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
-#[inline(always)]
-fn hllc_body<const WITH_GAS: bool, const B: bool, const LOW_MACH: bool>(
-    n: usize,
-    lower: Reconstruction<'_>,
-    upper: Reconstruction<'_>,
-    mixture: &Mixture,
-    mass: &mut [f64],
-    velocity: &mut [f64],
-    pressure: &mut [f64],
-    shear: &mut [f64],
-    energy: &mut [f64],
-    phi: &mut [f64],
-) -> bool {
-    let mut without = 0;
-    for k in 0..n {
-        let [left, right] = states_at_face::<WITH_GAS>(&lower, &upper, k);
-        let shares =
-            if B { [lower.gas_share::<WITH_GAS>(k), upper.gas_share::<WITH_GAS>(k)] } else { [0.0; 2] };
-        let (face, has_roots) = flux_and_roots::<B, LOW_MACH>(left, right, shares, mixture);
-        without |= u64::from(!has_roots);
-        mass[k] = face.mass;
-        velocity[k] = face.velocity;
-        pressure[k] = face.pressure;
-        shear[k] = face.shear;
-        energy[k] = face.energy;
-        if WITH_GAS {
-            phi[k] = face.phi;
-        }
-    }
-    without == 0
-}
-
-/// Whether both sides of the face above cell `k` have a sound speed, see [`flux_and_roots`].
-pub(crate) fn has_roots(cells: &Reconstruction<'_>, k: usize, step: usize, mixture: &Mixture) -> bool {
-    let (lower, upper) = (cells.cut(k, 1), cells.cut(k + step, 1));
-    let [left, right] = states_at_face::<true>(&lower, &upper, 0);
-    let share = |side: &Reconstruction<'_>| if cells.with_gas { side.gas_shares[0] } else { 0.0 };
-    flux_and_roots::<true, false>(left, right, [share(&lower), share(&upper)], mixture).1
 }
 
 #[cfg(test)]

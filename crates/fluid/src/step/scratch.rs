@@ -1,30 +1,35 @@
 //! What a thread works in.
 
-use mesh::{AlignedRow, FaceState, GHOSTS, Interface, Mesh, Neighbour, Offset, Padded, Patch};
+use mesh::{AlignedRow, FaceState, Frame, GHOSTS, Interface, Mesh, Neighbour, Offset, Patch, TileRows};
 
 use crate::capillarity::CapillaryRows;
 use crate::components::carried::CarriedScratch;
 use crate::state::COUNT;
-use crate::state::conserved::{GAS, PHI};
-use crate::step::face_rows::FaceRows;
+use crate::state::conserved::PHI;
+use crate::step::face_rows::{FaceRows, used_faces};
 use crate::two_phase::GasScratch;
 
-/// Scratch of one thread.
+/// Scratch of one thread, for a block.
 pub struct BlockScratch<const N: usize> {
-    pub(crate) cells: Padded<N>,
+    /// That for a tile of four blocks.
+    pub(crate) of_four: Option<Box<Self>>,
+    pub(crate) cells: TileRows<N>,
     pub(crate) patch: Patch<N>,
-    pub(crate) s_z: Padded<N>,
-    pub(crate) s_r: Padded<N>,
-    pub(crate) half: Padded<N>,
+    pub(crate) s_z: TileRows<N>,
+    pub(crate) s_r: TileRows<N>,
+    pub(crate) half: TileRows<N>,
     pub(crate) keep: AlignedRow,
     /// Sound speeds at the beginning of the step.
     pub(super) sound: AlignedRow,
     /// m_g/ρ of the padded cells, where phases have masses of their own and there is gas.
     pub(crate) gas_shares: AlignedRow,
     pub(crate) inverse_r: Vec<f64>,
+    /// 1 at the cells above which faces along z and r count, else 0.
+    pub(super) used_faces: [AlignedRow; 2],
     pub(super) z_faces: FaceRows,
     pub(super) r_faces: FaceRows,
-    pub(super) speeds: Padded<N>,
+    pub(super) speeds: TileRows<N>,
+    /// Of each row of blocks by itself.
     pub(super) face_weight: Vec<f64>,
     pub(super) inverse_weight: Vec<f64>,
     /// The block at the beginning of the step with what comes into its cells besides; used where there are terms.
@@ -47,48 +52,67 @@ pub struct BlockScratch<const N: usize> {
 }
 
 impl<const N: usize> BlockScratch<N> {
+    /// Whether four blocks fit into a tile.
+    pub(crate) const HAS_FOUR: bool = 2 * N <= MOST_CELLS;
+
     /// For fields of so many components, the last `carried` of which the mass carries.
     pub(crate) fn new(components: usize, carried: usize) -> Self {
-        let len = Padded::<N>::LEN;
+        let of_four = Self::HAS_FOUR.then(|| Box::new(Self::of(2, components, carried)));
+        Self { of_four, ..Self::of(1, components, carried) }
+    }
+
+    /// For so many blocks along each side.
+    fn of(across: usize, components: usize, carried: usize) -> Self {
+        let frame = Frame::of(across * N);
+        let (len, stride) = (frame.len(), frame.stride());
         Self {
-            cells: Padded::zeros(components),
+            of_four: None,
+            cells: TileRows::zeros(components),
             patch: Patch::zeros(components),
-            s_z: Padded::zeros(COUNT),
-            s_r: Padded::zeros(COUNT),
-            half: Padded::zeros(COUNT),
-            keep: AlignedRow::zeros(len, Padded::<N>::STRIDE),
-            sound: AlignedRow::zeros(len, Padded::<N>::STRIDE),
-            gas_shares: AlignedRow::zeros(len, Padded::<N>::STRIDE),
+            s_z: TileRows::zeros(COUNT),
+            s_r: TileRows::zeros(COUNT),
+            half: TileRows::zeros(COUNT),
+            keep: AlignedRow::zeros(len, stride),
+            sound: AlignedRow::zeros(len, stride),
+            gas_shares: AlignedRow::zeros(len, stride),
             inverse_r: vec![0.0; len],
-            z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
-            r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
-            speeds: Padded::zeros(3),
-            face_weight: vec![0.0; N + 1],
-            inverse_weight: vec![0.0; N],
+            used_faces: [1, stride].map(|step| used_faces(frame, step)),
+            z_faces: FaceRows::zeros(len, stride),
+            r_faces: FaceRows::zeros(len, stride),
+            speeds: TileRows::zeros(3),
+            face_weight: vec![0.0; across * (N + 1)],
+            inverse_weight: vec![0.0; across * N],
             with_sources: Vec::new(),
             works: Vec::new(),
             spread_work: Vec::new(),
             wall: Vec::with_capacity(N + 2 * GHOSTS),
             wall_temperatures: vec![0.0; N + 2],
             carried: (0..carried).map(|_| CarriedScratch::new::<N>()).collect(),
-            gas: GasScratch::new::<N>(),
+            gas: GasScratch::new(frame),
             capillary: CapillaryRows::default(),
             has_gas: false,
         }
     }
 
     /// There is no gas in the block; most leave it at that.
-    pub(super) fn without_gas(&mut self) {
+    ///
+    /// - `gas`: the component of its mass, if it has one.
+    pub(super) fn without_gas(&mut self, gas: Option<usize>) {
         if std::mem::take(&mut self.has_gas) {
             for rows in [&mut self.cells, &mut self.s_z, &mut self.s_r, &mut self.half] {
                 rows.component_mut(PHI).fill(0.0);
             }
-            self.cells.component_mut(GAS).fill(0.0);
+            if let Some(gas) = gas {
+                self.cells.component_mut(gas).fill(0.0);
+            }
         }
         self.z_faces.without_gas();
         self.r_faces.without_gas();
     }
 }
+
+/// The most cells along a side of a tile: more do not stay in the second-level cache from stage to stage.
+const MOST_CELLS: usize = 32;
 
 /// Takes the states of a block's faces of the wall to another medium, and of as many more at both ends as there are ghosts: of the block of
 /// its level beside it, or else the block's last. Nothing where it has none.

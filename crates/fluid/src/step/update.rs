@@ -31,15 +31,17 @@ impl Extremes {
         self.speed_r = self.speed_r.max(cell.speed_r);
         self.phi = self.phi.max(cell.conserved[PHI]);
     }
+}
 
-    /// Of the rows that [`update`] writes.
-    pub fn of(phi: &[f64], [speed_z, speed_r, floor]: [&[f64]; 3]) -> Self {
-        Self {
-            speed_z: maximum(speed_z),
-            speed_r: maximum(speed_r),
-            phi: maximum(phi),
-            floor: maximum(floor),
-        }
+/// The extremes of the rows that [`update`] writes.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn extremes(phi: &[f64], speeds: [&[f64]; 3]) -> Extremes {
+    let [speed_z, speed_r, floor] = speeds;
+    Extremes {
+        speed_z: maximum(speed_z),
+        speed_r: maximum(speed_r),
+        phi: maximum(phi),
+        floor: maximum(floor),
     }
 }
 
@@ -108,7 +110,7 @@ pub(crate) fn update<const N: usize>(
 
 #[inline(always)]
 fn update_rows<const N: usize, const WITH_GAS: bool, const B: bool>(
-    old: Rows<'_>,
+    [old_rho, old_mz, old_mr, old_energy, old_phi]: Rows<'_>,
     faces: [&FaceRows; 2],
     metric: &Metric<'_>,
     gas: &[f64],
@@ -117,28 +119,56 @@ fn update_rows<const N: usize, const WITH_GAS: bool, const B: bool>(
 ) {
     let NewCells { conserved: [rho, mz, mr, energy, phi], speeds: [speed_z, speed_r, floor] } = new;
     let (z_faces, r_faces) = (faces[0].fluxes(), faces[1].fluxes());
-    for j in 0..N {
-        let at = j * N;
-        let k = metric.origin + j * metric.stride;
+    let cells = N * N;
+    let old = (old_rho[..cells].chunks_exact(N).zip(old_mz[..cells].chunks_exact(N)))
+        .zip(old_mr[..cells].chunks_exact(N).zip(old_energy[..cells].chunks_exact(N)))
+        .zip(old_phi[..cells].chunks_exact(N));
+    let momenta = mz[..cells].chunks_exact_mut(N).zip(mr[..cells].chunks_exact_mut(N));
+    let state = (rho[..cells].chunks_exact_mut(N).zip(momenta))
+        .zip(energy[..cells].chunks_exact_mut(N).zip(phi[..cells].chunks_exact_mut(N)));
+    let speeds = (speed_z[..cells].chunks_exact_mut(N).zip(speed_r[..cells].chunks_exact_mut(N)))
+        .zip(floor[..cells].chunks_exact_mut(N));
+    // One step through all rows together: cut one by one, they would take as long as what is done with them.
+    let along_z = face_rows::<N>(z_faces, metric.origin - 1, metric.stride);
+    let below = face_rows::<N>(r_faces, metric.origin - metric.stride, metric.stride);
+    let above = face_rows::<N>(r_faces, metric.origin, metric.stride);
+    let faces = along_z.zip(below.zip(above));
+    for (j, (((faces, old), state), speeds)) in faces.zip(old).zip(state).zip(speeds).enumerate() {
+        let (z, (south, north)) = faces;
+        let (((rho_0, mz_0), (mr_0, energy_0)), phi_0) = old;
+        let ((rho, (mz, mr)), (energy, phi)) = state;
+        let ((speed_z, speed_r), floor) = speeds;
         update_row::<N, WITH_GAS, B>(
-            [row(old[0], at), row(old[1], at), row(old[2], at), row(old[3], at), row(old[4], at)],
-            FaceSlices::cut(z_faces, k - 1),
-            FaceSlices::cut(z_faces, k),
-            FaceSlices::cut(r_faces, k - metric.stride),
-            FaceSlices::cut(r_faces, k),
+            [row(rho_0, 0), row(mz_0, 0), row(mr_0, 0), row(energy_0, 0), row(phi_0, 0)],
+            FaceSlices::cut(z, 0),
+            FaceSlices::cut(z, 1),
+            FaceSlices::cut(south, 0),
+            FaceSlices::cut(north, 0),
             metric.row(j),
-            if WITH_GAS && B { row(gas, at) } else { &[0.0; N] },
+            if WITH_GAS && B { row(gas, j * N) } else { &[0.0; N] },
             *mixture,
-            row_mut(rho, at),
-            row_mut(mz, at),
-            row_mut(mr, at),
-            row_mut(energy, at),
-            row_mut(phi, at),
-            row_mut(speed_z, at),
-            row_mut(speed_r, at),
-            row_mut(floor, at),
+            row_mut(rho, 0),
+            row_mut(mz, 0),
+            row_mut(mr, 0),
+            row_mut(energy, 0),
+            row_mut(phi, 0),
+            row_mut(speed_z, 0),
+            row_mut(speed_r, 0),
+            row_mut(floor, 0),
         );
     }
+}
+
+/// The rows of faces of a block's N rows of cells, from the face `first` on: each as long as the rows are apart.
+#[inline(always)]
+fn face_rows<const N: usize>(
+    fluxes: [&[f64]; 6],
+    first: usize,
+    stride: usize,
+) -> impl Iterator<Item = [&[f64]; 6]> {
+    let [a, b, c, d, e, f] = fluxes.map(|flux| flux[first..][..N * stride].chunks_exact(stride));
+    let pairs = a.zip(b).zip(c.zip(d)).zip(e.zip(f));
+    pairs.map(|(((a, b), (c, d)), (e, f))| [a, b, c, d, e, f])
 }
 
 /// N numbers from `at` on, so that the compiler knows how many.

@@ -13,14 +13,14 @@ pub(crate) mod viscosity;
 
 use mesh::{FaceState, Side};
 
-use crate::boundary::beside;
+use crate::boundary::cells_beside;
 use crate::capillarity::CapillaryRows;
 use crate::reconstruction::Rows;
 use crate::state::primitive::PHI;
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
-use crate::{Boundary, FluidSetup, Mixture};
+use crate::{Boundary, EvaporationLaw, FluidSetup, Mixture};
 use conduction::ConductionTerm;
 use super_stepping::{Spreading, View};
 
@@ -75,7 +75,7 @@ impl TermBlock<'_> {
 /// The padded places of the cell next to a side, `along` cells from its beginning, and of the ghost beyond.
 pub(crate) fn beside_padded(side: Side, cells: usize, metric: &Metric<'_>, along: isize) -> [usize; 2] {
     let [origin, stride] = [metric.origin, metric.stride].map(|place| place as isize);
-    beside(side, cells, along).map(|(i, j)| (origin + j * stride + i) as usize)
+    cells_beside(side, cells, along).map(|(i, j)| (origin + j * stride + i) as usize)
 }
 
 /// What walls do with heat, in a step of a block.
@@ -250,7 +250,8 @@ impl Terms {
     /// Those that a setup asks for.
     pub fn of(setup: &FluidSetup) -> Self {
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let conduction = setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture));
+        let boils = setup.phase_change.is_some_and(|asked| asked.law == EvaporationLaw::Equilibrium);
+        let conduction = setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture, boils));
         let (is_viscous, conducts) = (setup.viscosity.is_some(), conduction.is_some());
         let all: [Option<Box<dyn Term>>; 4] = [
             setup.gravity.map(|gravity| Box::new(gravity) as _),

@@ -1,6 +1,6 @@
 //! The part of a block's step that only the five-equation model has, where there is gas.
 
-use mesh::{Padded, Side};
+use mesh::{Side, Tile, TileRows};
 
 use super::cells::Cells;
 use super::expansion::{Gas, expanded};
@@ -15,7 +15,6 @@ use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
 use crate::state::COUNT;
 use crate::state::conserved::{ENERGY, GAS, PHI, RHO};
-use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::report::BlockReport;
 use crate::step::update::{Metric, NewCells};
@@ -26,12 +25,10 @@ use crate::{Boundary, Mixture, RiemannSolver};
 /// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
 const NOT_THEIRS: f64 = -0.0;
 
-/// Whether there may be gas in a block's padded cells. Where there is gas the paper's mixture does not know: its traces
-/// are nearly everywhere.
+/// Whether there may be gas in a block's padded cells.
 pub(crate) fn may_have_gas<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) -> bool {
     let has_gas = |slot: &usize| ctx.model.has_gas[*slot];
-    matches!(ctx.model.scheme.phases, PhaseModel::Mixture)
-        || has_gas(&slot)
+    has_gas(&slot)
         || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
         || (ctx.mesh.tree().neighbours(slot).iter())
             .any(|neighbour| neighbour.slots().any(|slot| has_gas(&slot)))
@@ -39,29 +36,30 @@ pub(crate) fn may_have_gas<const N: usize>(ctx: &FluidStep<'_, N>, slot: usize) 
 
 /// What a block's step has to do about gas: decided once per block.
 pub(crate) enum BlockGas<'a, const N: usize> {
-    /// The paper's mixture: the kernels carry the gas fraction, in all cells.
-    Fraction,
-    /// The five-equation model with no gas in the padded cells.
+    /// No gas in the padded cells.
     Absent,
+    /// The paper's mixture with gas in them: the kernels carry the gas fraction.
+    Fraction,
     /// The five-equation model with gas in them.
     Phases(GasBlock<'a, N>),
 }
 
 impl<'a, const N: usize> BlockGas<'a, N> {
-    /// - `may_have_gas`: see [`may_have_gas`]; what a neighbour has may be farther away. `cells`: the padded cells, primitive.
-    pub fn of(ctx: &'a FluidStep<'a, N>, slot: usize, may_have_gas: bool, cells: &Padded<N>) -> Self {
-        let PhaseModel::FiveEquation(options) = ctx.model.scheme.phases else { return Self::Fraction };
+    /// - `may_have_gas`: see [`may_have_gas`]; what a neighbour has may be farther away. `cells`: the padded cells of the tile, primitive.
+    pub fn of(ctx: &'a FluidStep<'a, N>, tile: Tile, may_have_gas: bool, cells: &TileRows<N>) -> Self {
+        let phases = ctx.model.scheme.phases;
+        let components = [Some(PHI), phases.gas_component()];
         let has_gas = || {
             !ctx.marks.is_empty()
-                || ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot)
-                || [PHI, GAS].into_iter().any(|component| !is_zero(cells.component(component)))
+                || tile.slots().any(|slot| ctx.model.boundaries.may_let_gas_in(ctx.mesh, slot))
+                || components.into_iter().flatten().any(|component| !is_zero(cells.component(component)))
         };
         if !(may_have_gas && has_gas()) {
             return Self::Absent;
         }
-        let level = ctx.mesh.tree().leaves()[slot].level;
-        let inverse_h = ctx.mesh.widths(level).map(|h| 1.0 / h);
-        Self::Phases(GasBlock { ctx, slot, options, inverse_h })
+        let PhaseModel::FiveEquation(options) = phases else { return Self::Fraction };
+        let inverse_h = ctx.mesh.widths(ctx.mesh.first_of(tile).level).map(|h| 1.0 / h);
+        Self::Phases(GasBlock { ctx, tile, options, inverse_h })
     }
 
     /// Whether the rows of the gas fraction count.
@@ -90,10 +88,10 @@ impl<'a, const N: usize> BlockGas<'a, N> {
     }
 }
 
-/// A block of the five-equation model with gas in its padded cells, or with some that may come in through a side.
+/// A tile of the five-equation model with gas in its padded cells, or with some that may come in through a side.
 pub(crate) struct GasBlock<'a, const N: usize> {
     ctx: &'a FluidStep<'a, N>,
-    slot: usize,
+    tile: Tile,
     options: TwoPhaseOptions,
     inverse_h: [f64; 2],
 }
@@ -101,6 +99,8 @@ pub(crate) struct GasBlock<'a, const N: usize> {
 /// A block at the beginning of a step, and its geometry.
 #[derive(Clone, Copy)]
 pub(crate) struct Before<'a> {
+    /// Of the block in the tile.
+    pub number: usize,
     /// Conserved components without ghosts.
     pub old: &'a [f64],
     /// Pressure and 1/r (or 0) of the padded cells.
@@ -119,7 +119,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         self.ctx.model.rule_with(self.options, self.inverse_h, inverse_r, self.ctx.dt)
     }
 
-    /// The gas's part of the mass in the padded cells of the assembled block, and beyond its sides.
+    /// The gas's part of the mass in the padded cells of the assembled tile, and beyond its sides.
     pub fn shares(&self, scratch: &mut BlockScratch<N>) {
         let BlockScratch { cells, gas_shares: shares, .. } = scratch;
         gas_shares(cells.component(GAS), cells.component(RHO), shares);
@@ -132,7 +132,8 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let rows = cells.split::<{ COUNT + 1 }>();
         gas.mixed.clear();
         gas.mixed.collect::<N>(
-            &Cells { rows, stride: Padded::<N>::STRIDE },
+            self.tile,
+            &Cells { rows, stride: cells.frame().stride() },
             &CellRule { jumps: capillary.jumps(), ..self.rule(inverse_r) },
             Side::ALL.map(|side| self.outer(side)),
             (!self.ctx.marks.is_empty()).then_some(&gas.is_marked),
@@ -152,7 +153,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     }
 
     fn outer(&self, side: Side) -> Outer {
-        if !self.ctx.mesh.touches(self.slot, side) {
+        if !self.ctx.mesh.tile_touches(self.tile, side) {
             return Outer::Block;
         }
         match self.ctx.model.boundaries.kind(side) {
@@ -170,11 +171,11 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             if self.outer(side) != Outer::Given {
                 continue;
             }
-            for along in 0..N {
-                let [inner, ghost] =
-                    crate::boundary::beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
-                let given =
-                    self.ctx.model.boundaries.initial_gas_share(self.ctx.mesh, self.slot, side, along);
+            let frame = self.tile.frame::<N>();
+            for along in 0..frame.cells() {
+                let [inner, ghost] = crate::boundary::beside(side, frame, along as isize);
+                let id = self.ctx.mesh.first_of(self.tile);
+                let given = self.ctx.model.boundaries.initial_gas_share::<N>(id, side, along);
                 shares[ghost] = given.unwrap_or(shares[inner]);
             }
         }
@@ -190,27 +191,28 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         gas: &mut GasScratch,
         faces: &mut FaceRows,
     ) {
-        gas.mixed.solve_faces::<N>(axis, cells, &self.rule(inverse_r), jumps, faces);
+        let stride = self.tile.frame::<N>().stride();
+        gas.mixed.solve_faces(axis, stride, cells, &self.rule(inverse_r), jumps, faces);
     }
 
     /// Makes the gas's mass fluxes from those of the mass, which must be final.
     pub fn gas_fluxes(&self, gas: &GasScratch, shares: &[f64], faces: [&mut FaceRows; 2]) {
         for (axis, faces) in faces.into_iter().enumerate() {
-            gas_fluxes(shares, if axis == 0 { 1 } else { Padded::<N>::STRIDE }, faces);
+            gas_fluxes(shares, if axis == 0 { 1 } else { self.tile.frame::<N>().stride() }, faces);
             gas.mixed.put_gas_fluxes(axis, faces);
         }
     }
 
-    /// Advances the gas's mass.
+    /// Advances the gas's mass in a block.
     ///
     /// - `old`: conserved components without ghosts; `new`: m_g after the step, written.
     pub fn advance_gas(&self, old: &[f64], faces: [&FaceRows; 2], metric: &Metric<'_>, new: &mut [f64]) {
         update_gas::<N>(&old[GAS * N * N..(GAS + 1) * N * N], faces, metric, new);
     }
 
-    /// Does the mixed cells' update again, with the closure.
+    /// Does the update of a block's mixed cells again, with the closure.
     ///
-    /// - `new`: the new components, the gas's mass among them.
+    /// - `new`: its new components, the gas's mass among them.
     pub fn update(
         &self,
         gas: &mut GasScratch,
@@ -220,13 +222,13 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         speeds: [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
-        let Before { old, pressure, inverse_r, metric, .. } = before;
+        let Before { number, old, pressure, inverse_r, metric, .. } = before;
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
         let mut cells = NewCells { conserved: split_block::<N>(first), speeds };
         let old = OldCells { conserved: old_rows, pressure, gas: [old_gas, new_gas] };
-        let (windows, rule) = (gas.mixed.mixed(), &self.rule(inverse_r));
+        let (windows, rule) = (gas.mixed.mixed(number), &self.rule(inverse_r));
         let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
         if self.options.has_closure {
@@ -235,12 +237,16 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let [density, _, _, _, phi] = cells.conserved;
         let bounded = bound_gas(phi, density, new_gas);
         clipped += bounded.clipped;
-        let (clips, dropped) = gas.mixed.clips();
-        report.clips += Clips { clipped_fractions: clipped, removed_traces: bounded.removed, ..clips };
-        report.fallbacks += dropped;
+        report.clips.clipped_fractions += clipped;
+        report.clips.removed_traces += bounded.removed;
+        if number == 0 {
+            let (clips, dropped) = gas.mixed.clips();
+            report.clips += clips;
+            report.fallbacks += dropped;
+        }
         report.has_gas = bounded.is_left;
         if bounded.has_missing {
-            self.lift_phases(density, new_gas, report);
+            self.lift_phases(self.tile.first() + number, density, new_gas, report);
         }
     }
 
@@ -288,8 +294,8 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     }
 
     /// Gives phases that have less than no mass what they lack, from the other phase: ρ stays.
-    fn lift_phases(&self, density: &[f64], gas: &mut [f64], report: &mut BlockReport<N>) {
-        let id = self.ctx.mesh.tree().leaves()[self.slot];
+    fn lift_phases(&self, slot: usize, density: &[f64], gas: &mut [f64], report: &mut BlockReport<N>) {
+        let id = self.ctx.mesh.tree().leaves()[slot];
         for (cell, (gas, density)) in gas.iter_mut().zip(density).enumerate() {
             report.lift_phase(*density, gas, self.ctx.mesh.volume(id, cell / N));
         }

@@ -4,7 +4,7 @@
 //! lists of the others and puts their fluxes in the place of the kernels'.
 
 use crate::state::primitive::VELOCITY;
-use mesh::{GHOSTS, Padded, Side};
+use mesh::{Frame, GHOSTS, Side, Tile};
 
 use super::cells::{Cells, FaceState, RowKinds, find_interface};
 use super::closure::{Compression, is_mixed, phase_densities};
@@ -23,7 +23,7 @@ use crate::step::face_rows::{FaceRows, set_face, used_face};
 /// No mixed cell.
 const NONE: u32 = u32::MAX;
 
-/// The mixed cells of a block and of the first layer around it.
+/// The mixed cells of a tile and of the first layer around it.
 #[derive(Clone, Debug)]
 pub(crate) struct MixedCells {
     /// Place of each padded cell among the states.
@@ -37,8 +37,8 @@ pub(crate) struct MixedCells {
     kinds: Vec<RowKinds>,
     /// The listed cells but for those beyond the sides of the domain.
     windows: Vec<Window>,
-    /// The block's own cells that hold both phases, in windows along z.
-    mixed: Vec<Window>,
+    /// Each block's own cells that hold both phases, in windows along z.
+    mixed: [Vec<Window>; 4],
     problems: Vec<Problem>,
     /// What was bounded in the block's own cells, and how many of them kept none of their slopes.
     clips: Clips,
@@ -56,9 +56,10 @@ struct Problem {
 }
 
 impl MixedCells {
-    pub fn new<const N: usize>() -> Self {
-        let (len, stride) = (Padded::<N>::LEN, Padded::<N>::STRIDE);
-        let is_used = |k: usize, step: usize| u8::from(used_face::<N>(k, step));
+    /// For rows of a frame.
+    pub fn new(frame: Frame) -> Self {
+        let (len, stride) = (frame.len(), frame.stride());
+        let is_used = |k: usize, step: usize| u8::from(used_face(frame, k, step));
         Self {
             is_used: (0..len).map(|k| is_used(k, 1) | is_used(k, stride) << 1).collect(),
             index: vec![NONE; len],
@@ -67,7 +68,7 @@ impl MixedCells {
             shares: [Vec::with_capacity(len), Vec::with_capacity(len)],
             kinds: vec![RowKinds::default(); len / stride],
             windows: Vec::with_capacity(len),
-            mixed: Vec::with_capacity(len),
+            mixed: std::array::from_fn(|_| Vec::new()),
             problems: Vec::with_capacity(len),
             clips: Clips::default(),
             dropped: 0,
@@ -88,9 +89,9 @@ impl MixedCells {
         (self.clips, self.dropped)
     }
 
-    /// The block's own cells that hold both phases, listed or not, in windows along z.
-    pub fn mixed(&self) -> &[Window] {
-        &self.mixed
+    /// The own cells of a block that hold both phases, listed or not, in windows along z; `number`: of the block in the tile.
+    pub fn mixed(&self, number: usize) -> &[Window] {
+        &self.mixed[number]
     }
 
     /// The padded cells on the list with the states on their lower faces along z.
@@ -103,45 +104,54 @@ impl MixedCells {
         self.cells.push((k, place as u32));
     }
 
-    /// Finds and reconstructs the cells of a block and of those of its ghosts that share a face with it.
+    /// Finds and reconstructs the cells of a tile and of those of its ghosts that share a face with it.
     ///
     /// - `outer`: what lies beyond each side, see [`Outer`].
     /// - `is_marked`: padded cells that fall back to first order, if there are any; they are on the list also when pure.
     pub fn collect<const N: usize>(
         &mut self,
+        tile: Tile,
         cells: &Cells<'_>,
         rule: &CellRule<'_>,
         outer: [Outer; 4],
         is_marked: Option<&[bool]>,
     ) {
         self.windows.clear();
-        self.mixed.clear();
+        self.mixed.iter_mut().for_each(Vec::clear);
+        let frame = tile.frame::<N>();
+        let (cells_along, stride) = (frame.cells(), frame.stride());
         if !find_interface(cells, rule.mixture, &mut self.kinds) && is_marked.is_none() {
             return;
         }
         if let Some(is_marked) = is_marked {
-            let stride = Padded::<N>::STRIDE;
             for (k, _) in is_marked.iter().enumerate().filter(|(_, is_marked)| **is_marked) {
                 self.kinds[k / stride].at_interface |= 1 << (k % stride);
             }
         }
-        let own = u64::MAX >> (64 - N);
-        for (j, kinds) in self.kinds[GHOSTS..][..N].iter().enumerate() {
-            let first = Padded::<N>::index(0, j as isize);
-            let [listed, mixed] = [kinds.at_interface, kinds.mixed].map(|bits| bits >> GHOSTS & own);
-            windows::<N>(first, 1, listed, |window| self.windows.push(window));
-            windows::<N>(first, 1, mixed, |window| self.mixed.push(window));
+        let bits_of = |n: usize| u64::MAX >> (64 - n);
+        for (j, kinds) in self.kinds[GHOSTS..][..cells_along].iter().enumerate() {
+            let listed = kinds.at_interface >> GHOSTS & bits_of(cells_along);
+            let first = frame.index(0, j as isize);
+            windows(cells_along, first, 1, listed, |window| self.windows.push(window));
+        }
+        for (number, of_block) in self.mixed.iter_mut().enumerate().take(tile.blocks()) {
+            let ([before, below], at) =
+                (tile.place(number).map(|place| place * N), tile.frame_of::<N>(number));
+            for (j, kinds) in self.kinds[GHOSTS + below..][..N].iter().enumerate() {
+                let mixed = kinds.mixed >> (GHOSTS + before) & bits_of(N);
+                windows(N, at.index(0, j as isize), 1, mixed, |window| of_block.push(window));
+            }
         }
         let own_windows = self.windows.len();
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Block) {
             let ghost = |along: usize| {
-                let [_, (i, j)] = beside(side, N, along as isize);
-                Padded::<N>::index(i, j)
+                let [_, ghost] = beside(side, frame, along as isize);
+                ghost
             };
-            let bit =
-                |k: usize| self.kinds[k / Padded::<N>::STRIDE].at_interface >> (k % Padded::<N>::STRIDE) & 1;
-            let listed = (0..N).fold(0, |listed, along| listed | bit(ghost(along)) << along);
-            windows::<N>(ghost(0), ghost(1) - ghost(0), listed, |window| self.windows.push(window));
+            let bit = |k: usize| self.kinds[k / stride].at_interface >> (k % stride) & 1;
+            let listed = (0..cells_along).fold(0, |listed, along| listed | bit(ghost(along)) << along);
+            let step = ghost(1) - ghost(0);
+            windows(cells_along, ghost(0), step, listed, |window| self.windows.push(window));
         }
         let windows = std::mem::take(&mut self.windows);
         for (window, first) in windows.iter().zip((0..).step_by(LANES)) {
@@ -156,8 +166,8 @@ impl MixedCells {
             }
         }
         for side in Side::ALL.into_iter().filter(|side| outer[*side as usize] == Outer::Mirror) {
-            for along in 0..N {
-                let [inner, ghost] = beside(side, N, along as isize).map(|(i, j)| Padded::<N>::index(i, j));
+            for along in 0..cells_along {
+                let [inner, ghost] = beside(side, frame, along as isize);
                 if self.index[inner] != NONE {
                     let states = [0, 1, 2, 3].map(|face| self.states.of(self.index[inner] as usize, face));
                     let place = self.states.push(mirrored(states, side));
@@ -185,34 +195,35 @@ impl MixedCells {
         }
     }
 
-    /// Solves the faces of the listed cells along one axis (0: z, 1: r); `cells` are the block's others.
+    /// Solves the faces of the listed cells along one axis (0: z, 1: r); `cells` are the tile's others, their rows `stride` apart.
     ///
     /// By the frozen mixtures' exact flux whatever solver serves the other faces: HLLC takes the liquid's rarefaction for
     /// one jump, and at 5e7 Pa against a thin gas leaves it 4 MPa behind the wave. In the soft mixed cells that stays, as
     /// heat of the gas. The gas fraction follows the density behind the wave.
-    pub fn solve_faces<const N: usize>(
+    pub fn solve_faces(
         &mut self,
         axis: usize,
+        stride: usize,
         cells: &Reconstruction<'_>,
         rule: &CellRule<'_>,
         jumps: Option<FaceJumps<'_>>,
         faces: &mut FaceRows,
     ) {
         if axis == 0 {
-            self.solve_along::<N, 0>(cells, rule, jumps, faces);
+            self.solve_along::<0>(1, cells, rule, jumps, faces);
         } else {
-            self.solve_along::<N, 1>(cells, rule, jumps, faces);
+            self.solve_along::<1>(stride, cells, rule, jumps, faces);
         }
     }
 
-    fn solve_along<const N: usize, const AXIS: usize>(
+    fn solve_along<const AXIS: usize>(
         &mut self,
+        step: usize,
         cells: &Reconstruction<'_>,
         rule: &CellRule<'_>,
         jumps: Option<FaceJumps<'_>>,
         faces: &mut FaceRows,
     ) {
-        let step = if AXIS == 0 { 1 } else { Padded::<N>::STRIDE };
         let mut problems = std::mem::take(&mut self.problems);
         problems.clear();
         for &(k, own) in &self.cells {

@@ -29,5 +29,5 @@ pub(crate) use phase_model::PhaseModel;
 pub(crate) use reconstruction::face_states;
 pub(crate) use relaxation::isentropic_fraction;
 pub(crate) use scratch::GasScratch;
-pub(crate) use update::missing_mass;
+pub(crate) use update::{is_zero, missing_mass, remove_traces};
 pub(crate) use windows::Window;

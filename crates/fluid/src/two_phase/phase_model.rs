@@ -54,10 +54,10 @@ impl PhaseModel {
         }
     }
 
-    /// Whether there is gas in a block that is to be looked for there. Where there is gas the paper's mixture does not know.
+    /// Whether there is gas in a block, or a trace of it.
     pub fn has_gas<const N: usize>(self, block: &[f64]) -> bool {
         let has_any = |c: usize| block[c * N * N..(c + 1) * N * N].iter().any(|value| *value != 0.0);
-        self.gas_component().is_some_and(|gas| has_any(PHI) || has_any(gas))
+        has_any(PHI) || self.gas_component().is_some_and(has_any)
     }
 
     /// What the closure adds to the gas fraction of a mixed cell per change of its volume, see [`Compression::expansion`].
@@ -108,11 +108,12 @@ impl PhaseModel {
         volume: f64,
         report: &mut BlockReport<N>,
     ) {
+        report.has_gas |= new[PHI * N * N + cell] != 0.0;
         let Some(gas) = self.gas_component() else { return };
-        let [rho, phi, gas] = [RHO, PHI, gas].map(|component| component * N * N + cell);
+        let [rho, gas] = [RHO, gas].map(|component| component * N * N + cell);
         new[gas] -= change;
         report.lift_phase(new[rho], &mut new[gas], volume);
-        report.has_gas |= new[gas] != 0.0 || new[phi] != 0.0;
+        report.has_gas |= new[gas] != 0.0;
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a thread works in where there is gas.
 
-use mesh::{Marks, Mesh, Padded};
+use mesh::{Frame, Marks, Mesh};
 
 use super::mixed::MixedCells;
 
@@ -13,9 +13,10 @@ pub(crate) struct GasScratch {
 }
 
 impl GasScratch {
-    pub fn new<const N: usize>() -> Self {
-        let len = Padded::<N>::LEN;
-        Self { mixed: MixedCells::new::<N>(), is_marked: vec![false; len], marked: Vec::with_capacity(len) }
+    /// For rows of a frame.
+    pub fn new(frame: Frame) -> Self {
+        let len = frame.len();
+        Self { mixed: MixedCells::new(frame), is_marked: vec![false; len], marked: Vec::with_capacity(len) }
     }
 
     /// Takes notice of the cells of a block that fall back in this step, and tells their padded places.

@@ -101,6 +101,21 @@ pub(crate) fn bound_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> Bo
     BoundedGas { is_left, clipped, removed, has_missing }
 }
 
+/// Takes out of the gas fractions of the paper's mixture what means nothing any more. They are not bounded.
+///
+/// - returns: whether any is left, and how many were set to zero.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(crate) fn remove_traces(phi: &mut [f64]) -> (bool, u64) {
+    let (mut is_left, mut removed) = (false, 0);
+    for value in phi {
+        let kept = without_trace(*value);
+        removed += u64::from(kept != *value);
+        *value = kept;
+        is_left |= kept != 0.0;
+    }
+    (is_left, removed)
+}
+
 /// What the gas and the liquid of a cell lack of a mass of zero where one of them has fallen below its bound, kg/m³.
 ///
 /// In first order, with face velocities that let less out of a cell than it holds, no phase's mass falls below zero. Second order

@@ -51,17 +51,12 @@ fn apart(row: &[f64], first: usize, step: usize) -> Lane {
     std::array::from_fn(|lane| row[lane * step])
 }
 
-/// The fewest windows that hold the cells asked for of a line of N.
+/// The fewest windows that hold the cells asked for of a line of n.
 ///
 /// - `first`, `step`: the place of the line's first cell and the distance to the next; `asked`: its cells bit by bit.
-pub(crate) fn windows<const N: usize>(
-    first: usize,
-    step: usize,
-    mut asked: u64,
-    mut put: impl FnMut(Window),
-) {
+pub(crate) fn windows(n: usize, first: usize, step: usize, mut asked: u64, mut put: impl FnMut(Window)) {
     while asked != 0 {
-        let start = (asked.trailing_zeros() as usize).min(N - LANES);
+        let start = (asked.trailing_zeros() as usize).min(n - LANES);
         let listed = (asked >> start) as u8;
         put(Window { first: first + start * step, step, listed });
         asked &= !(u64::from(listed) << start);
@@ -100,7 +95,7 @@ mod tests {
             random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let asked = (random >> 48) & (random >> 32) & 0xffff;
             let mut found = Vec::new();
-            windows::<16>(100, 3, asked, |window| {
+            windows(16, 100, 3, asked, |window| {
                 assert!(window.listed != 0 && window.first + 7 * 3 <= 100 + 15 * 3);
                 found.extend(window.cells());
             });

@@ -30,6 +30,7 @@ mod rescue;
 mod shock_tubes;
 mod stefan;
 mod super_stepping;
+mod superheated;
 mod surface_tension;
 mod symmetry;
 mod tracer;

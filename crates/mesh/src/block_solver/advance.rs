@@ -4,7 +4,7 @@
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
 use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Scratches, Step};
-use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part, for_each_block, for_some_blocks};
+use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part, for_each_tile, for_some_blocks};
 
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Advances all cells by `dt`. With another medium beyond the interface its states must have been set.
@@ -69,8 +69,17 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let in_group = |slot: usize| clock.group_of(mesh, slot) == step.group;
         let is_due = |slot: usize| part.has(interface.first_face(slot).is_some()) && in_group(slot);
         let pending = &mut reports.pending;
-        for_each_block(target, register.values_mut(), pending, is_due, |slot, new, fluxes, report| {
-            *report = workers.with(|worker| worker.step_block(&context, slot, new, fluxes));
+        let lens = [target.block_len(), register.values().block_len()];
+        let tiles = mesh.tree().tiles();
+        for_each_tile(tiles, target, register.values_mut(), pending, |tile, new, fluxes, reports| {
+            if tile.slots().all(is_due) {
+                workers.with(|worker| worker.step_tile(&context, tile, new, fluxes, reports));
+                return;
+            }
+            let parts = new.chunks_exact_mut(lens[0]).zip(fluxes.chunks_exact_mut(lens[1])).zip(reports);
+            for (slot, ((new, fluxes), report)) in tile.slots().zip(parts).filter(|(slot, _)| is_due(*slot)) {
+                *report = workers.with(|worker| worker.step_block(&context, slot, new, fluxes));
+            }
         });
         // A cell that falls back changes what its neighbours get: first all parts must be there.
         let is_whole = part != Part::AwayFromInterface;
@@ -103,7 +112,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         for slot in 0..mesh.blocks() {
             let group = levels.clock().group_of(mesh, slot);
             if ended(levels.clock(), group) {
-                reports.finished[slot] = reports.pending[slot];
+                reports.finished[slot].clone_from(&reports.pending[slot]);
                 let dt = levels.clock().length(group);
                 model.account(mesh, slot, dt, &reports.finished[slot], interface);
             }
@@ -154,7 +163,7 @@ pub(super) fn check<M: Model<N>, const N: usize>(
     Ok(())
 }
 
-impl<R: Copy + Default> Reports<R> {
+impl<R: Clone + Default> Reports<R> {
     /// Of so many blocks, nothing yet.
     pub(super) fn new(blocks: usize) -> Self {
         Self { finished: vec![R::default(); blocks], pending: Vec::new() }

@@ -17,7 +17,8 @@ pub use model::{Marks, Model, Place, Scratches, Step};
 pub use saved::SavedBlocks;
 
 use crate::{
-    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side, StageTimer,
+    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side,
+    StageTimer, Tile,
 };
 
 /// Cells, time, and how they advance: everything of a solver but the physics, which is its [`Model`].
@@ -58,6 +59,19 @@ impl<S> Worker<S> {
     ) -> M::Report {
         self.timer.begin();
         step.model.step_block(step, slot, new, register, &mut self.scratch, &mut self.timer)
+    }
+
+    /// Makes the step of a tile.
+    fn step_tile<M: Model<N, Scratch = S>, const N: usize>(
+        &mut self,
+        step: &Step<'_, M, N>,
+        tile: Tile,
+        new: &mut [f64],
+        register: &mut [f64],
+        reports: &mut [M::Report],
+    ) {
+        self.timer.begin();
+        step.model.step_tile(step, tile, new, register, reports, &mut self.scratch, &mut self.timer);
     }
 }
 

@@ -6,7 +6,7 @@ use super::Worker;
 use crate::{
     Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Patch, Reports,
 };
-use crate::{ScratchPool, Side, StageTimer};
+use crate::{ScratchPool, Side, StageTimer, Tile};
 
 /// Cells that a step makes at first order, block by block: their places j N + i.
 pub type Marks = BTreeMap<usize, Vec<usize>>;
@@ -23,7 +23,7 @@ pub trait Model<const N: usize>: Sized + Sync {
     /// What adaptation must know of the components.
     type Analysis: Multiresolution;
     /// What one block tells of its step.
-    type Report: Copy + Default + Send + Sync;
+    type Report: Clone + Default + Send + Sync;
     /// What a thread works in.
     type Scratch: Send;
     /// Why a step fails.
@@ -75,6 +75,24 @@ pub trait Model<const N: usize>: Sized + Sync {
         scratch: &mut Self::Scratch,
         timer: &mut StageTimer,
     ) -> Self::Report;
+    /// Advances the blocks of a tile as [`Model::step_block`] does each, to the last bit; block after block in `new` and `register`.
+    #[expect(clippy::too_many_arguments, reason = "those of a block's step, and its reports")]
+    fn step_tile(
+        &self,
+        step: &Step<'_, Self, N>,
+        tile: Tile,
+        new: &mut [f64],
+        register: &mut [f64],
+        reports: &mut [Self::Report],
+        scratch: &mut Self::Scratch,
+        timer: &mut StageTimer,
+    ) {
+        let (len, registered) = (new.len() / tile.blocks(), register.len() / tile.blocks());
+        let blocks = new.chunks_exact_mut(len).zip(register.chunks_exact_mut(registered)).zip(reports);
+        for (slot, ((new, register), report)) in tile.slots().zip(blocks) {
+            *report = self.step_block(step, slot, new, register, scratch, timer);
+        }
+    }
     /// Corrects the cells of a block along its finer neighbours.
     fn correct(
         &self,

@@ -2,13 +2,16 @@
 //!
 //! Rows are those of [`crate::Padded`] and [`crate::Patch`]: n × n cells with two layers of ghosts around.
 
+pub(crate) mod assemble;
+pub(crate) mod frame;
 pub(crate) mod padded;
 pub(crate) mod side_faces;
 pub(crate) mod side_states;
+pub(crate) mod tile_rows;
 
 use std::ops::Range;
 
-use crate::{GHOSTS, Offset, Padded, Side};
+use crate::{GHOSTS, Side};
 
 /// The flat index of cell (i, j) among n × n cells with ghosts.
 #[inline(always)]
@@ -34,38 +37,11 @@ pub(crate) fn ghost_span(n: usize, step: i8) -> Range<isize> {
     }
 }
 
-/// Copies the ghosts in one direction from the block of the same level that owns them.
-pub(crate) fn copy<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset) {
-    let (span_i, span_j) = (ghost_span(N, offset.i), ghost_span(N, offset.j));
-    let width = span_i.len();
-    let n = N as isize;
-    for j in span_j {
-        let to = Padded::<N>::index(span_i.start, j);
-        let local = (j - isize::from(offset.j) * n) * n + span_i.start - isize::from(offset.i) * n;
-        // Of known length: a call that copies two numbers costs more than they do.
-        if width == N {
-            copy_row::<N>(row, to, owner, local as usize);
-        } else {
-            copy_row::<GHOSTS>(row, to, owner, local as usize);
-        }
-    }
-}
-
 /// Copies L numbers.
 #[inline(always)]
 pub(crate) fn copy_row<const L: usize>(row: &mut [f64], to: usize, owner: &[f64], from: usize) {
     let ends = "both are within their blocks";
     *row[to..].first_chunk_mut::<L>().expect(ends) = *owner[from..].first_chunk().expect(ends);
-}
-
-/// Sets the ghosts in one direction to the nearest cell of the block.
-pub(crate) fn hold<const N: usize>(row: &mut [f64], offset: Offset) {
-    let last = N as isize - 1;
-    for j in ghost_span(N, offset.j) {
-        for i in ghost_span(N, offset.i) {
-            row[Padded::<N>::index(i, j)] = row[Padded::<N>::index(i.clamp(0, last), j.clamp(0, last))];
-        }
-    }
 }
 
 /// The mean of four children: along z the plain mean, along r with the lower row's share of the volume. Children
@@ -101,6 +77,41 @@ pub(crate) fn mirror(row: &mut [f64], n: usize, side: Side, along: Range<isize>,
             row[across(n, side, -1 - layer, along)] = parity * row[across(n, side, layer, along)];
         }
     }
+}
+
+/// Fills the ghosts beyond a side of n × n cells by continuing the inner differences: by the parabola through three cells where the data
+/// are smooth, see `continued`.
+pub(crate) fn extrapolate(row: &mut [f64], n: usize, side: Side) {
+    for along in ghost_range(n) {
+        let at = |depth: isize| across(n, side, depth, along);
+        let [first, second, third] = [row[at(0)], row[at(1)], row[at(2)]];
+        let difference = continued(first - second, second - third);
+        row[at(-1)] = first + difference;
+        row[at(-2)] = first + 2.0 * difference;
+    }
+}
+
+/// The difference beyond a boundary that continues the two within it.
+///
+/// A parabola continues them by 2·near − far, and the central difference of the boundary cell is then as accurate as
+/// those within. At a wall the normal derivative is often zero and near = far/2: the parabola's zero would switch a
+/// limited slope off altogether, hence the lower bound. Where the differences grow fast towards the boundary, as behind a
+/// front that has just arrived, the farther one counts.
+///
+/// The lower bound is the least that MC does not limit: with a·near beyond and near within, the central slope (1 + a)/2 near is no
+/// more than twice the smaller one, 2a·near, from a = ⅓ on. The upper bound is the one that second-order limiters put on ratios of
+/// neighbouring differences (Sweby 1984). Half and twice of them: `docs/verification/constants.md`.
+///
+/// - `near`, `far`: the differences of the first to the second and of the second to the third cell from the boundary.
+/// - returns: zero where the signs of the two differ.
+#[inline]
+fn continued(near: f64, far: f64) -> f64 {
+    const LEAST: f64 = 1.0 / 3.0;
+    const MOST: f64 = 2.0;
+    let sign = if near > 0.0 { 1.0 } else { -1.0 };
+    let (near, far) = (sign * near, sign * far);
+    let parabola = (2.0 * near - far).max(LEAST * near);
+    sign * parabola.min(MOST * far).max(0.0)
 }
 
 /// Fills the ghosts beyond some cells along a side in the way that prediction needs: by reflection where the component has

@@ -1,8 +1,8 @@
 //! One block with its ghost layers (halo).
 
-use crate::ghosts::{copy, copy_row, ghost_range, hold, mirror};
-use crate::multiresolution::project::project_finer;
-use crate::{AlignedRow, Field, Mesh, Multiresolution, Neighbour, Offset, Patch, Side};
+use crate::ghosts::assemble::assemble;
+use crate::ghosts::{extrapolate, ghost_range, mirror};
+use crate::{AlignedRow, Field, Frame, Mesh, Multiresolution, Patch, Side, Tile};
 
 /// Ghost layers on each side: what a slope in a neighbouring cell needs.
 pub const GHOSTS: usize = 2;
@@ -105,40 +105,8 @@ impl<const N: usize> Padded<N> {
         patch: &mut Patch<N>,
     ) {
         debug_assert_eq!(field.components(), self.components, "same components");
-        let neighbours = mesh.tree().neighbours(slot);
-        for (component, row) in self.data.chunks_exact_mut(Self::LEN).take(components).enumerate() {
-            let own = field.component(slot, component);
-            for j in 0..N {
-                let at = Self::index(0, j as isize);
-                copy_row::<N>(row, at, own, j * N);
-            }
-        }
-        for (offset, neighbour) in Offset::ALL.iter().zip(neighbours) {
-            let rows = self.data.chunks_exact_mut(Self::LEN).take(components);
-            match neighbour {
-                Neighbour::Same(other) => {
-                    let owner = field.block(*other);
-                    for (row, owner) in rows.zip(owner.chunks_exact(N * N)) {
-                        copy::<N>(row, owner, *offset);
-                    }
-                }
-                Neighbour::Finer(children) => {
-                    project_finer(
-                        &mut self.data,
-                        field,
-                        *children,
-                        *offset,
-                        mesh,
-                        mesh.tree().leaves()[slot],
-                    );
-                }
-                Neighbour::Boundary => rows.for_each(|row| hold::<N>(row, *offset)),
-                Neighbour::Coarser(_) => {}
-            }
-        }
-        if neighbours.iter().any(|neighbour| matches!(neighbour, Neighbour::Coarser(_))) {
-            patch.predict_beside_coarser(mesh, field, slot, rule, &mut self.data);
-        }
+        let rows = (&mut *self.data, Frame::of(N));
+        assemble(rows, components, (mesh, field), Tile::one(slot), rule, patch);
     }
 
     /// Fills the ghosts beyond a side of one component by reflection, times `parity` (±1).
@@ -149,43 +117,8 @@ impl<const N: usize> Padded<N> {
     /// Fills the ghosts beyond a side of one component by continuing its inner differences: by the parabola through three
     /// cells where the data are smooth, see `continued`.
     pub fn extrapolate(row: &mut [f64], side: Side) {
-        let n = N as isize;
-        for along in ghost_range(N) {
-            let at = |depth: isize| match side {
-                Side::ZMin => Self::index(depth, along),
-                Side::ZMax => Self::index(n - 1 - depth, along),
-                Side::RMin => Self::index(along, depth),
-                Side::RMax => Self::index(along, n - 1 - depth),
-            };
-            let [first, second, third] = [row[at(0)], row[at(1)], row[at(2)]];
-            let difference = continued(first - second, second - third);
-            row[at(-1)] = first + difference;
-            row[at(-2)] = first + 2.0 * difference;
-        }
+        extrapolate(row, N, side);
     }
-}
-
-/// The difference beyond a boundary that continues the two within it.
-///
-/// A parabola continues them by 2·near − far, and the central difference of the boundary cell is then as accurate as
-/// those within. At a wall the normal derivative is often zero and near = far/2: the parabola's zero would switch a
-/// limited slope off altogether, hence the lower bound. Where the differences grow fast towards the boundary, as behind a
-/// front that has just arrived, the farther one counts.
-///
-/// The lower bound is the least that MC does not limit: with a·near beyond and near within, the central slope (1 + a)/2 near is no
-/// more than twice the smaller one, 2a·near, from a = ⅓ on. The upper bound is the one that second-order limiters put on ratios of
-/// neighbouring differences (Sweby 1984). Half and twice of them: `docs/verification/constants.md`.
-///
-/// - `near`, `far`: the differences of the first to the second and of the second to the third cell from the boundary.
-/// - returns: zero where the signs of the two differ.
-#[inline]
-fn continued(near: f64, far: f64) -> f64 {
-    const LEAST: f64 = 1.0 / 3.0;
-    const MOST: f64 = 2.0;
-    let sign = if near > 0.0 { 1.0 } else { -1.0 };
-    let (near, far) = (sign * near, sign * far);
-    let parabola = (2.0 * near - far).max(LEAST * near);
-    sign * parabola.min(MOST * far).max(0.0)
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! Fetching what will be needed, while there is something to compute.
 
-use crate::{Field, Mesh, Neighbour, Offset, Side};
+use std::ops::Range;
+
+use crate::{Field, Mesh, Neighbour, Offset, Side, Tile};
 
 /// Numbers in a cache line.
 const LINE: usize = 8;
@@ -8,6 +10,9 @@ const LINE: usize = 8;
 /// Numbers in a field, 16 MiB of them, below which it comes from the caches fast enough: there fetching ahead costs more
 /// than it saves.
 const FAR: usize = 1 << 21;
+
+/// Numbers in a field, 1 MiB of them, below which it comes from the second-level cache.
+const NEAR: usize = 1 << 17;
 
 impl<const N: usize> Mesh<N> {
     /// Asks for a part of the memory that a step is about to need, so that it comes while the present block is computed: of
@@ -33,6 +38,18 @@ impl<const N: usize> Mesh<N> {
         {
             fetch(field.block(other), part, parts);
         }
+    }
+
+    /// [`Mesh::look_ahead`] for tiles of a medium that computes for longer: of the blocks that follow a tile, as many as it has,
+    /// and of where the tile will be written.
+    pub fn look_ahead_of(&self, field: &Field, tile: Tile, target: &[f64], part: usize, parts: usize) {
+        debug_assert!(part < parts, "part {part} of {parts}");
+        if field.as_slice().len() < NEAR {
+            return;
+        }
+        fetch(target, part, parts);
+        let Range { start, end } = tile.slots();
+        (end..(end + end - start).min(self.blocks())).for_each(|slot| fetch(field.block(slot), part, parts));
     }
 }
 

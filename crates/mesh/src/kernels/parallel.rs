@@ -4,10 +4,67 @@ use std::sync::Mutex;
 
 use rayon::prelude::*;
 
-use crate::Field;
+use crate::{Field, Tile};
 
 /// Blocks that a thread takes at once.
 const BLOCKS_AT_ONCE: usize = 4;
+
+/// Runs `work(tile, blocks, blocks of second, reports)` for tiles of two fields, in parallel on the current rayon pool. The result cannot
+/// depend on the number of threads: each tile has its own part of the fields and its own reports.
+///
+/// - `tiles`: in the order of their slots.
+pub fn for_each_tile<R: Send>(
+    tiles: &[Tile],
+    field: &mut Field,
+    second: &mut Field,
+    reports: &mut [R],
+    work: impl Fn(Tile, &mut [f64], &mut [f64], &mut [R]) + Sync,
+) {
+    let lens = [field.block_len(), second.block_len()];
+    let parts = Parts { first: 0, lens, field: field.as_mut_slice(), second: second.as_mut_slice(), reports };
+    parts.share_out(tiles, &work);
+}
+
+/// What some consecutive slots have.
+struct Parts<'a, R> {
+    /// The first of them.
+    first: usize,
+    /// Numbers of a block in both fields.
+    lens: [usize; 2],
+    field: &'a mut [f64],
+    second: &'a mut [f64],
+    reports: &'a mut [R],
+}
+
+impl<'a, R: Send> Parts<'a, R> {
+    /// What the slots before one have, and what it and those after it have.
+    fn split(self, slot: usize) -> [Self; 2] {
+        let Self { first, lens, field, second, reports } = self;
+        let blocks = slot - first;
+        let (field, more_field) = field.split_at_mut(blocks * lens[0]);
+        let (second, more_second) = second.split_at_mut(blocks * lens[1]);
+        let (reports, more_reports) = reports.split_at_mut(blocks);
+        let before = Self { first, lens, field, second, reports };
+        [before, Self { first: slot, lens, field: more_field, second: more_second, reports: more_reports }]
+    }
+
+    fn share_out(self, tiles: &[Tile], work: &(impl Fn(Tile, &mut [f64], &mut [f64], &mut [R]) + Sync)) {
+        let (Some(one), Some(last)) = (tiles.first(), tiles.last()) else { return };
+        if tiles.len() == 1 || last.slots().end - one.first() <= BLOCKS_AT_ONCE {
+            let mut rest = self;
+            for tile in tiles {
+                let [_, from] = rest.split(tile.first());
+                let [own, after] = from.split(tile.slots().end);
+                work(*tile, own.field, own.second, own.reports);
+                rest = after;
+            }
+            return;
+        }
+        let (low, high) = tiles.split_at(tiles.len() / 2);
+        let [before, from] = self.split(high[0].first());
+        rayon::join(|| before.share_out(low, work), || from.share_out(high, work));
+    }
+}
 
 /// Runs `work(slot, block, block of second, report)` for every block of two fields for which `is_due(slot)` holds, in
 /// parallel on the current rayon pool. The result cannot depend on the number of threads: each block has its own part of
@@ -72,6 +129,40 @@ impl<T> ScratchPool<T> {
     pub fn for_each(&self, mut look: impl FnMut(&T)) {
         for slot in &self.slots {
             look(&slot.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Domain, Geometry, Mesh};
+
+    #[test]
+    fn each_tile_has_its_own_blocks() {
+        let domain = Domain { geometry: Geometry::Planar, z: [0.0, 1.0], r: [0.0, 1.0] };
+        let mesh = Mesh::<8>::uniform(domain, [72, 40], 0, [false; 2]).expect("a mesh");
+        let blocks = mesh.blocks();
+        // Not all of them, so that there are gaps.
+        let tiles: Vec<Tile> =
+            mesh.tree().tiles().iter().filter(|tile| tile.first() % 3 != 1).copied().collect();
+        let (mut field, mut second) = (Field::zeros(blocks, 3, 1), Field::zeros(blocks, 2, 1));
+        let mut reports = vec![0; blocks];
+        for_each_tile(&tiles, &mut field, &mut second, &mut reports, |tile, field, second, reports| {
+            assert_eq!(field.len(), 3 * reports.len());
+            for (number, slot) in tile.slots().enumerate() {
+                field[3 * number..3 * (number + 1)].fill(slot as f64 + 1.0);
+                second[2 * number..2 * (number + 1)].fill(slot as f64 + 1.0);
+                reports[number] += 1;
+            }
+        });
+        let made: Vec<usize> = tiles.iter().flat_map(Tile::slots).collect();
+        assert!(made.len() > 20 && made.len() < blocks);
+        for slot in 0..blocks {
+            let is_made = made.contains(&slot);
+            let wanted = if is_made { slot as f64 + 1.0 } else { 0.0 };
+            assert!(field.block(slot).iter().chain(second.block(slot)).all(|value| *value == wanted));
+            assert_eq!(reports[slot], i32::from(is_made));
         }
     }
 }

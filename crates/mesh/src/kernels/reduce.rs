@@ -5,15 +5,20 @@
 #[inline(always)]
 pub fn maximum(row: &[f64]) -> f64 {
     const LANES: usize = 32;
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
     let mut lanes = [0.0_f64; LANES];
     let chunks = row.chunks_exact(LANES);
     let rest = chunks.remainder();
     for chunk in chunks {
         for (lane, value) in lanes.iter_mut().zip(chunk) {
-            *lane = if *value > *lane { *value } else { *lane };
+            *lane = larger(*value, *lane);
         }
     }
-    lanes.iter().chain(rest).fold(0.0, |m, v| if *v > m { *v } else { m })
+    let (first, second) = lanes.split_at_mut(LANES / 2);
+    first.iter_mut().zip(second).for_each(|(lane, other)| *lane = larger(*other, *lane));
+    let (first, second) = first.split_at_mut(LANES / 4);
+    first.iter_mut().zip(second).for_each(|(lane, other)| *lane = larger(*other, *lane));
+    first.iter().chain(rest).fold(0.0, |most, value| larger(*value, most))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use crate::ghosts::{copy_row, ghost_span, index, mean};
 use crate::multiresolution::radial::RadialRow;
-use crate::{BlockId, Field, GHOSTS, Mesh, Neighbour, Offset, Padded};
+use crate::{BlockId, Field, Frame, GHOSTS, Mesh, Neighbour, Offset};
 
 /// Ranges of cells along z and r.
 pub(crate) type Window = [Range<isize>; 2];
@@ -102,19 +102,19 @@ pub(crate) fn project_window<const N: usize>(
 /// Fills what prediction of a block's ghosts in one direction, beyond which it is coarser, needs of its patch, as far as it
 /// is within the domain: the layer of cells next to the side, which the padded block knows, and the two layers beyond.
 ///
-/// - `patch`, `rows`, `slot`: as for [`project_window`]; `padded`: the block with the ghosts of its level.
+/// - `patch`, `rows`, `slot`: as for [`project_window`]; `padded`: the block with the ghosts of its level, and where it lies.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn project_for_ghosts<const N: usize>(
     patch: &mut [f64],
     rows: &[RadialRow],
-    padded: &[f64],
+    (padded, at): (&[f64], Frame),
     mesh: &Mesh<N>,
     field: &Field,
     slot: usize,
     towards: Offset,
 ) {
     let id = mesh.tree().leaves()[slot];
-    let (stride, fine_stride) = (N / 2 + 2 * GHOSTS, Padded::<N>::STRIDE);
+    let (stride, fine_stride) = (N / 2 + 2 * GHOSTS, at.stride());
     let (len, half) = (stride * stride, (N / 2) as isize);
     let spans = |step: i8| match step {
         -1 => (0..1, -2..1),
@@ -123,9 +123,9 @@ pub(crate) fn project_for_ghosts<const N: usize>(
     };
     let ((known_i, window_i), (known_j, window_j)) = (spans(towards.i), spans(towards.j));
     let known_rows = &rows[(known_j.start + GHOSTS as isize) as usize..][..known_j.len()];
-    let from = Padded::<N>::index(2 * known_i.start, 2 * known_j.start);
+    let from = at.index(2 * known_i.start, 2 * known_j.start);
     let to = index(N / 2, known_i.start, known_j.start);
-    for (row, cells) in patch.chunks_exact_mut(len).zip(padded.chunks_exact(Padded::<N>::LEN)) {
+    for (row, cells) in patch.chunks_exact_mut(len).zip(padded.chunks_exact(at.len())) {
         let (row, cells) = (&mut row[to..], &cells[from..]);
         // Of known width; no iterator over chunks, which would divide to know its length.
         if towards.i == 0 {
@@ -219,10 +219,11 @@ fn local(range: &Range<isize>, step: i8, n: usize) -> Range<usize> {
 
 /// Projects the ghosts of a padded block in one direction from blocks one level finer, all components.
 ///
-/// - `children`: their slots, see [`Neighbour::Finer`].
+/// - `at`: where the block lies in the padded rows; `children`: their slots, see [`Neighbour::Finer`].
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn project_finer<const N: usize>(
     padded: &mut [f64],
+    at: Frame,
     field: &Field,
     children: [usize; 2],
     offset: Offset,
@@ -234,9 +235,9 @@ pub(crate) fn project_finer<const N: usize>(
     // The first cells of a child that touch the block, along z and along r.
     let first = |step: i8| if step < 0 { N - 2 * GHOSTS } else { 0 };
     let from = first(offset.j) * N + first(offset.i);
-    let to = Padded::<N>::index(span_i.start, span_j.start);
-    let (half, stride) = (N / 2, Padded::<N>::STRIDE);
-    for (component, row) in padded.chunks_exact_mut(Padded::<N>::LEN).enumerate() {
+    let to = at.index(span_i.start, span_j.start);
+    let (half, stride) = (N / 2, at.stride());
+    for (component, row) in padded.chunks_exact_mut(at.len()).enumerate() {
         let [a, b] = children.map(|child| &field.component(child, component)[from..]);
         let row = &mut row[to..];
         if offset.i == 0 {

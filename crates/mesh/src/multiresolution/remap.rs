@@ -86,10 +86,10 @@ impl<const N: usize> Mesh<N> {
 
 impl<const N: usize> Adapted<N> {
     /// What was known of the old blocks, carried over to those that stayed; the others have none yet.
-    pub fn carried<T: Copy + Default>(&self, old: &[T]) -> Vec<T> {
+    pub fn carried<T: Clone + Default>(&self, old: &[T]) -> Vec<T> {
         (self.origins.iter())
             .map(|origin| match origin {
-                Origin::Same(slot) => old[*slot],
+                Origin::Same(slot) => old[*slot].clone(),
                 _ => T::default(),
             })
             .collect()

@@ -1,6 +1,6 @@
 //! Flux registers: what passes a face between levels, as the finer side has it.
 
-use crate::{Field, Mesh, Neighbour, Padded, Side};
+use crate::{Field, Frame, Mesh, Neighbour, Side};
 
 /// Values of some quantities on the outer faces of the blocks, kept where a block meets another level.
 ///
@@ -48,11 +48,11 @@ impl<const N: usize> FluxRegister<N> {
 
     /// Keeps the values on those sides of a block that meet another level, and on those of the domain.
     ///
-    /// - `block`: its part of the register; `first`: the number of the first quantity; `values`: what passes the outer face of a side
-    ///   above the padded cell `k`.
+    /// - `at`: where the block lies in padded rows; `block`: its part of the register; `first`: the number of the first quantity;
+    ///   `values`: what passes the outer face of a side above the padded cell `k`.
     pub fn record<const K: usize>(
         mesh: &Mesh<N>,
-        slot: usize,
+        (slot, at): (usize, Frame),
         block: &mut [f64],
         first: usize,
         values: impl Fn(Side, usize) -> [f64; K],
@@ -63,12 +63,12 @@ impl<const N: usize> FluxRegister<N> {
             }
             let rows = &mut Self::rows(block, side)[first * N..];
             for along in 0..N {
-                let (n, at) = (N as isize, along as isize);
+                let (n, along_side) = (N as isize, along as isize);
                 let k = match side {
-                    Side::ZMin => Padded::<N>::index(-1, at),
-                    Side::ZMax => Padded::<N>::index(n - 1, at),
-                    Side::RMin => Padded::<N>::index(at, -1),
-                    Side::RMax => Padded::<N>::index(at, n - 1),
+                    Side::ZMin => at.index(-1, along_side),
+                    Side::ZMax => at.index(n - 1, along_side),
+                    Side::RMin => at.index(along_side, -1),
+                    Side::RMax => at.index(along_side, n - 1),
                 };
                 for (quantity, value) in values(side, k).into_iter().enumerate() {
                     rows[quantity * N + along] = value;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::multiresolution::radial::{RadialRow, RadialTable};
-use crate::{BlockId, GHOSTS, Geometry, Neighbour, Padded, Quadtree, Side};
+use crate::{BlockId, Geometry, Neighbour, Quadtree, Side};
 
 /// The rectangle that a medium fills.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -222,16 +222,15 @@ impl<const N: usize> Mesh<N> {
         self.weight(self.centre(id, 0, j)[1]) * hr * hz
     }
 
-    /// Fills padded rows of a block with 1/r at the cells' centres, in planar geometry with 0.
-    pub fn inverse_radii(&self, id: BlockId, cells: &mut [f64]) {
-        let h_r = self.widths(id.level)[1];
-        let first = self.centre(id, 0, 0)[1];
-        for (j, row) in cells.chunks_exact_mut(Padded::<N>::STRIDE).enumerate() {
-            let r = first + (j as f64 - GHOSTS as f64) * h_r;
-            row.fill(match self.domain.geometry {
-                Geometry::Axisymmetric => 1.0 / r,
-                Geometry::Planar => 0.0,
-            });
+    /// 1/r at the centres of row `j` of a block, which may lie beyond it; in planar geometry 0.
+    pub(crate) fn inverse_radius(&self, id: BlockId, j: isize) -> f64 {
+        match self.domain.geometry {
+            // From the number that the row has in the whole domain: blocks that share it agree to the last bit.
+            Geometry::Axisymmetric => {
+                let row = (i64::from(id.j) * N as i64 + j as i64) as f64 + 0.5;
+                1.0 / (self.domain.r[0] + row * self.widths(id.level)[1])
+            }
+            Geometry::Planar => 0.0,
         }
     }
 

@@ -4,3 +4,4 @@ pub(crate) mod domain;
 pub(crate) mod field;
 pub(crate) mod geometry;
 pub(crate) mod quadtree;
+pub(crate) mod tile;

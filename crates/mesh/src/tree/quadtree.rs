@@ -3,6 +3,8 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::Tile;
+
 /// A block's place: its refinement level and its position in units of blocks on that level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct BlockId {
@@ -77,6 +79,7 @@ pub struct Quadtree {
     leaves: Vec<BlockId>,
     keys: Vec<u64>,
     neighbours: Vec<[Neighbour; 8]>,
+    tiles: Vec<Tile>,
 }
 
 impl Quadtree {
@@ -99,6 +102,7 @@ impl Quadtree {
             leaves: Vec::new(),
             keys: Vec::new(),
             neighbours: Vec::new(),
+            tiles: Vec::new(),
         };
         base.with_leaves(leaves)
     }
@@ -108,7 +112,7 @@ impl Quadtree {
     pub(crate) fn with_leaves(&self, leaves: Vec<BlockId>) -> Self {
         let keys: Vec<u64> = leaves.iter().map(|id| morton(id, self.finest)).collect();
         debug_assert!(keys.windows(2).all(|pair| pair[0] < pair[1]), "leaves are in Morton order");
-        let mut tree = Self { leaves, keys, neighbours: Vec::new(), ..self.shell() };
+        let mut tree = Self { tiles: Tile::all(&leaves), leaves, keys, ..self.shell() };
         tree.neighbours = (tree.leaves.par_iter())
             .with_min_len(64)
             .map(|id| Offset::ALL.map(|offset| tree.find(*id, offset)))
@@ -137,7 +141,7 @@ impl Quadtree {
         if !are_apart || leaves.iter().map(|id| area(id.level)).sum::<u64>() != whole {
             return None;
         }
-        let tree = Self { leaves, keys, neighbours: Vec::new(), ..self.shell() };
+        let tree = Self { leaves, keys, ..self.shell() };
         let is_graded = |id: &BlockId| {
             let coarsest = Offset::ALL.iter().filter_map(|offset| tree.place(*id, *offset));
             let slots = coarsest.filter_map(|there| tree.covering(there));
@@ -151,7 +155,7 @@ impl Quadtree {
 
     /// The forest without its leaves.
     fn shell(&self) -> Self {
-        Self { leaves: Vec::new(), keys: Vec::new(), neighbours: Vec::new(), ..*self }
+        Self { leaves: Vec::new(), keys: Vec::new(), neighbours: Vec::new(), tiles: Vec::new(), ..*self }
     }
 
     /// The leaves in the order of their slots.
@@ -172,6 +176,11 @@ impl Quadtree {
     /// What lies around the leaf in `slot`, in the order of [`Offset::ALL`].
     pub fn neighbours(&self, slot: usize) -> &[Neighbour; 8] {
         &self.neighbours[slot]
+    }
+
+    /// All leaves, those together that are siblings; in the order of their slots.
+    pub fn tiles(&self) -> &[Tile] {
+        &self.tiles
     }
 
     /// Whether opposite sides meet, along z and r.

@@ -1,6 +1,6 @@
 //! Flux correction at level jumps: the finer side's star states pass for both.
 
-use mesh::{FinerSide, FluxRegister, Geometry, Mesh, Side};
+use mesh::{FinerSide, FluxRegister, Frame, Geometry, Mesh, Side};
 
 use crate::physics::SolidStep;
 use crate::state::component::COUNT;
@@ -20,7 +20,7 @@ pub(crate) fn register_stars<const N: usize>(
     r_faces: &FaceRows,
     values: &mut [f64],
 ) {
-    FluxRegister::<N>::record::<QUANTITIES>(mesh, slot, values, 0, |side, k| {
+    FluxRegister::<N>::record::<QUANTITIES>(mesh, (slot, Frame::of(N)), values, 0, |side, k| {
         let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
         [faces.v_n[k], faces.v_t[k], faces.s_nn[k], faces.s_nt[k]]
     });

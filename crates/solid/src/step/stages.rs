@@ -1,6 +1,6 @@
 //! The stages of a block's step.
 
-use mesh::{Mesh, Padded, dispersion_share, limited_differences};
+use mesh::{Mesh, Padded, Tile, dispersion_share, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
@@ -34,7 +34,7 @@ fn assemble<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize, scratch: &mut B
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
     cells.assemble_first(acting(cells.components()), ctx.mesh, ctx.old, slot, &ctx.model.analysis, patch);
     ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
-    ctx.mesh.inverse_radii(ctx.mesh.tree().leaves()[slot], inverse_r);
+    ctx.mesh.inverse_radii(Tile::one(slot), inverse_r);
 }
 
 /// Assembles a block with its ghosts and reconstructs it: the state in `cells`, limited differences in `s_z`, `s_r`.

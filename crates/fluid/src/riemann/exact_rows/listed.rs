@@ -54,9 +54,21 @@ fn listed_fluxes<L: ListedFaces, const B: bool>(list: &[L::Face], faces: &mut L,
         if B {
             (chunk.left.gas_share, chunk.right.gas_share) = (gas_shares[0], gas_shares[1]);
         }
-        solve::<B>(n, &mut chunk, &mixture);
+        solve::<true, B>(n, &mut chunk, &mixture);
         let [mass, velocity, pressure, shear, energy, phi, compression, solved] = &mut rows;
-        fluxes::<B>(n, &chunk, &mixture, mass, velocity, pressure, shear, energy, phi, compression, solved);
+        fluxes::<B, false>(
+            n,
+            &chunk,
+            &mixture,
+            mass,
+            velocity,
+            pressure,
+            shear,
+            energy,
+            phi,
+            compression,
+            solved,
+        );
         behind(n, &chunk, faces, velocity, compression, phi, &mut gas_shares);
         let are_solved = count(solved, n) == n;
         for (k, face) in list.iter().enumerate() {

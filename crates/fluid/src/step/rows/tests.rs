@@ -5,9 +5,12 @@ use mesh::{Limiter, Padded};
 
 use super::*;
 use crate::StiffenedGas;
+use crate::reconstruction::Reconstruction;
 use crate::reconstruction::dispersion::{AlongFaces, Dispersion};
 use crate::reconstruction::predictor::{Predicted, Predictor, predict};
+use crate::riemann::hllc_rows::hllc_faces;
 use crate::state::primitive::{PRESSURE, VELOCITY};
+use crate::step::face_rows::FaceRows;
 use crate::step::update::{Metric, NewCells, update};
 
 const N: usize = 8;

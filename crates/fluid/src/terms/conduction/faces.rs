@@ -4,6 +4,7 @@ use mesh::Side;
 
 use super::ConductionTerm;
 use super::caloric::CellHeat;
+use crate::phase_change::holds_both;
 use crate::reconstruction::Rows;
 use crate::state::primitive::{PHI, PRESSURE, RHO};
 use crate::terms::diffusion::most_diffusivity;
@@ -146,6 +147,10 @@ impl ConductionTerm {
 
     /// The conductances of the faces of a block and of its first ghosts: 1/(R_low + R_high) of what [`super::Resistivity`] says.
     ///
+    /// Where phases that meet are in equilibrium an interface has one temperature, whatever the layers are: what evaporates on one side of it and
+    /// condenses on the other carries the heat. Between mixed cells whose heat is mostly the liquid's the better conductor's λ stands
+    /// for that.
+    ///
     /// - `is_bounded`: whether no face conducts more than the cell of less heat capacity bears in a step.
     pub(super) fn conductances(&self, block: &TermBlock<'_>, work: &mut Work<'_>, is_bounded: bool) {
         let metric = block.metric;
@@ -171,7 +176,13 @@ impl ConductionTerm {
                 let is_towards_gas = high > low;
                 let below = self.resistivity.to_face(low, low_share, is_towards_gas);
                 let above = self.resistivity.to_face(high, high_share, !is_towards_gas);
-                conductance[k] = bounded(k, 1.0 / (below + above));
+                let layers = 1.0 / (below + above);
+                let by_vapour = self.boils
+                    && [(low, low_share), (high, high_share)]
+                        .into_iter()
+                        .all(|(phi, gas_share)| holds_both(phi) && gas_share < 0.5);
+                conductance[k] =
+                    bounded(k, if by_vapour { self.asked.gas.max(self.asked.liquid) } else { layers });
             }
         }
         for (side, kind) in block.bounding_sides() {

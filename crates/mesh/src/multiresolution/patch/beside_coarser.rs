@@ -6,27 +6,29 @@ use crate::multiresolution::radial::RadialRow;
 use crate::multiresolution::{
     MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution, deviations as deviations_of, deviations_among,
 };
-use crate::{Field, GHOSTS, Mesh, Neighbour, Offset, Padded, Patch, Side};
+use crate::{Field, Frame, GHOSTS, Mesh, Neighbour, Offset, Patch, Side};
 
 impl<const N: usize> Patch<N> {
     /// Predicts the ghosts of the block in `slot` beyond which there are coarser blocks.
     ///
-    /// - `padded`: the block with all other ghosts; those beyond the domain do not matter.
+    /// - `padded`: the block with all other ghosts, and where it lies; those beyond the domain do not matter. `is_asked`: in which
+    ///   directions.
     pub(crate) fn predict_beside_coarser(
         &mut self,
         mesh: &Mesh<N>,
         field: &Field,
         slot: usize,
         rule: &impl Multiresolution,
-        padded: &mut [f64],
+        (padded, at): (&mut [f64], Frame),
+        is_asked: impl Fn(Offset) -> bool,
     ) {
         let id = mesh.tree().leaves()[slot];
         self.place(mesh, id.level, i64::from(id.j) * Self::HALF as i64, rule);
         for (offset, neighbour) in Offset::ALL.iter().zip(mesh.tree().neighbours(slot)) {
-            if matches!(neighbour, Neighbour::Coarser(_)) {
-                project_for_ghosts(&mut self.data, &self.rows, padded, mesh, field, slot, *offset);
+            if matches!(neighbour, Neighbour::Coarser(_)) && is_asked(*offset) {
+                project_for_ghosts(&mut self.data, &self.rows, (&*padded, at), mesh, field, slot, *offset);
                 self.continue_for_ghosts(mesh, slot, rule, *offset);
-                self.predict_ghosts(*offset, rule, padded);
+                self.predict_ghosts(*offset, rule, (&mut *padded, at));
             }
         }
     }
@@ -55,7 +57,7 @@ impl<const N: usize> Patch<N> {
     }
 
     /// Predicts the ghosts of the block in one direction.
-    fn predict_ghosts(&self, offset: Offset, rule: &impl Multiresolution, padded: &mut [f64]) {
+    fn predict_ghosts(&self, offset: Offset, rule: &impl Multiresolution, (padded, at): (&mut [f64], Frame)) {
         let half = Self::HALF as isize;
         let first = |step: i8| match step {
             -1 => -1,
@@ -63,20 +65,20 @@ impl<const N: usize> Patch<N> {
             _ => half,
         };
         let (i, j) = (first(offset.i), first(offset.j));
-        let (from, to) = (index(Self::HALF, i, j), Padded::<N>::index(2 * i, 2 * j));
+        let (from, to) = (index(Self::HALF, i, j), at.index(2 * i, 2 * j));
         let rows = &self.rows[(j + GHOSTS as isize) as usize..];
         match offset {
             Offset { i: 0, .. } => {
                 let line = Line { count: Self::HALF, from, to };
-                predict_line::<N, false, _>(&self.data, line, rows, &self.odd, rule, padded);
+                predict_line::<N, false, _>(&self.data, line, rows, &self.odd, rule, (padded, at));
             }
             Offset { j: 0, .. } => {
                 let line = Line { count: Self::HALF, from, to };
-                predict_line::<N, true, _>(&self.data, line, rows, &self.odd, rule, padded);
+                predict_line::<N, true, _>(&self.data, line, rows, &self.odd, rule, (padded, at));
             }
             _ => {
                 let line = Line { count: 1, from, to };
-                predict_line::<N, false, _>(&self.data, line, rows, &self.odd, rule, padded);
+                predict_line::<N, false, _>(&self.data, line, rows, &self.odd, rule, (padded, at));
             }
         }
     }
@@ -95,7 +97,7 @@ struct Line {
 /// Predicts the children of the cells of a line along z or along r.
 ///
 /// - `patch`: components of cells on the level below; `rows`: the line's row and the next ones.
-/// - `padded`: components of the children.
+/// - `padded`: components of the children, and how they lie.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 fn predict_line<const N: usize, const ALONG_R: bool, R: Multiresolution>(
     patch: &[f64],
@@ -103,20 +105,20 @@ fn predict_line<const N: usize, const ALONG_R: bool, R: Multiresolution>(
     rows: &[RadialRow],
     odd: &[bool; MOST_IN_FIELD],
     rule: &R,
-    padded: &mut [f64],
+    (padded, at): (&mut [f64], Frame),
 ) {
-    let (step, child_step) = if ALONG_R { (Patch::<N>::STRIDE, Padded::<N>::STRIDE) } else { (1, 1) };
+    let (step, child_step) = if ALONG_R { (Patch::<N>::STRIDE, at.stride()) } else { (1, 1) };
     let mut k = 0;
     while k + 4 <= count {
         let rows = if ALONG_R { &rows[k..] } else { rows };
         let (from, to) = (from + k * step, to + 2 * k * child_step);
-        predict_some::<N, 4, ALONG_R, R>(patch, from, rows, odd, rule, padded, to);
+        predict_some::<N, 4, ALONG_R, R>(patch, from, rows, odd, rule, (&mut *padded, at), to);
         k += 4;
     }
     while k < count {
         let rows = if ALONG_R { &rows[k..] } else { rows };
         let (from, to) = (from + k * step, to + 2 * k * child_step);
-        predict_some::<N, 1, ALONG_R, R>(patch, from, rows, odd, rule, padded, to);
+        predict_some::<N, 1, ALONG_R, R>(patch, from, rows, odd, rule, (&mut *padded, at), to);
         k += 1;
     }
 }
@@ -128,10 +130,10 @@ fn predict_some<const N: usize, const L: usize, const ALONG_R: bool, R: Multires
     rows: &[RadialRow],
     odd: &[bool; MOST_IN_FIELD],
     rule: &R,
-    padded: &mut [f64],
+    (padded, frame): (&mut [f64], Frame),
     to: usize,
 ) {
-    let (stride, child_stride) = (Patch::<N>::STRIDE, Padded::<N>::STRIDE);
+    let (stride, child_stride) = (Patch::<N>::STRIDE, frame.stride());
     let (step, child_step) = if ALONG_R { (stride, child_stride) } else { (1, 1) };
     let rows: &[RadialRow] = &rows[..if ALONG_R { L } else { 1 }];
     let mut means = [[0.0; L]; MOST_COMPONENTS];
@@ -159,7 +161,7 @@ fn predict_some<const N: usize, const L: usize, const ALONG_R: bool, R: Multires
         let of_children = std::array::from_fn(|child| std::array::from_fn(|c| deviations[c][child][k]));
         rule.share(&mean[..components], &of_children)
     });
-    let len = Padded::<N>::LEN;
+    let len = frame.len();
     let following = patch.chunks_exact(Patch::<N>::LEN).zip(padded.chunks_exact_mut(len)).zip(odd);
     for ((cells, children), odd) in following.skip(MOST_COMPONENTS) {
         for k in 0..L {
