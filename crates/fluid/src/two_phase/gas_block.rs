@@ -276,7 +276,6 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             let k = metric.origin + cell / N * metric.stride + cell % N;
             let mixture = &self.ctx.model.mixture;
             let borne = capillary.borne(k, u, gas[cell], mixture);
-            let is_borne = borne.is_some();
             let [phi, mass] = before.map(|row| row[cell]);
             let old = Gas { pressure: pressure[k], phi, mass };
             let Some(after) = borne.or_else(|| expanded(u, gas[cell], old, mixture)) else { continue };
@@ -286,7 +285,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             for (row, value) in cells.speeds.iter_mut().zip([after.speed_z, after.speed_r, after.floor]) {
                 row[cell] = value;
             }
-            if !is_borne {
+            if borne.is_none() {
                 report.marked.insert(cell);
                 report.clips.expanded_cells += 1;
             }
