@@ -136,7 +136,6 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             &Cells { rows, stride: cells.frame().stride() },
             &CellRule { jumps: capillary.jumps(), ..self.rule(inverse_r) },
             Side::ALL.map(|side| self.outer(side)),
-            if capillary.is_present() { capillary.cells() } else { &[] },
             (!self.ctx.marks.is_empty()).then_some(&gas.is_marked),
         );
         // What the kernels made of these cells counts for nothing. What the wall to the solid asks for is on the lower

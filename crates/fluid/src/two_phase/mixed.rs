@@ -106,7 +106,7 @@ impl MixedCells {
 
     /// Finds and reconstructs the cells of a tile and of those of its ghosts that share a face with it.
     ///
-    /// - `outer`: what lies beyond each side, see [`Outer`]; `with_jumps`: padded cells beside jumps of pressure, on the list whatever they hold.
+    /// - `outer`: what lies beyond each side, see [`Outer`].
     /// - `is_marked`: padded cells that fall back to first order, if there are any; they are on the list also when pure.
     pub fn collect<const N: usize>(
         &mut self,
@@ -114,21 +114,14 @@ impl MixedCells {
         cells: &Cells<'_>,
         rule: &CellRule<'_>,
         outer: [Outer; 4],
-        with_jumps: &[usize],
         is_marked: Option<&[bool]>,
     ) {
         self.windows.clear();
         self.mixed.iter_mut().for_each(Vec::clear);
         let frame = tile.frame::<N>();
         let (cells_along, stride) = (frame.cells(), frame.stride());
-        if !find_interface(cells, rule.mixture, &mut self.kinds)
-            && with_jumps.is_empty()
-            && is_marked.is_none()
-        {
+        if !find_interface(cells, rule.mixture, &mut self.kinds) && is_marked.is_none() {
             return;
-        }
-        for k in with_jumps {
-            self.kinds[k / stride].at_interface |= 1 << (k % stride);
         }
         if let Some(is_marked) = is_marked {
             for (k, _) in is_marked.iter().enumerate().filter(|(_, is_marked)| **is_marked) {
