@@ -48,3 +48,52 @@ impl<const N: usize> BlockCurvature<'_, N> {
         (self.patch.index(i, row - first), CellPlace { widths, radius })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use mesh::{Domain, Geometry, Padded};
+
+    use super::*;
+    use crate::state::conserved::PHI;
+    use crate::{
+        Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Phase, PhaseState, Region,
+        Shape,
+    };
+
+    #[test]
+    fn cells_beyond_the_axis_have_the_curvature_of_those_before_it() {
+        let kinds = [Boundary::Wall, Boundary::Wall, Boundary::Axis, Boundary::Wall];
+        let domain = Domain { geometry: Geometry::Axisymmetric, z: [0.0, 4.0], r: [0.0, 2.0] };
+        let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [0.0; 2] };
+        let initial = InitialCondition {
+            ambient: state(Phase::Liquid, 1000.0),
+            pressure: InitialPressure::Uniform,
+            regions: vec![Region {
+                shape: Shape::Sphere { centre: [2.02, 0.0], radius: 1.0 },
+                state: state(Phase::Gas, 1.2),
+            }],
+            pulses: vec![],
+        };
+        let fluid = FluidSolver::<8>::new(&FluidSetup::new(domain, [32, 16], kinds), &initial).unwrap();
+        let (mesh, mut patch, mut with_heights) = (fluid.mesh(), WidePatch::default(), 0);
+        for (slot, id) in mesh.tree().leaves().iter().enumerate().filter(|(_, id)| id.j == 0) {
+            let phi = fluid.state().component(slot, PHI);
+            let mut padded = Padded::<8>::zeros(1);
+            for j in 0..8 {
+                let to = Padded::<8>::index(0, j as isize);
+                padded.component_mut(0)[to..][..8].copy_from_slice(&phi[8 * j..][..8]);
+            }
+            patch.fill(mesh, fluid.state(), slot, kinds, padded.component(0));
+            let curvature = BlockCurvature { mesh, id: *id, patch: &patch };
+            for i in 0..8 {
+                for j in 0..2 {
+                    let own = curvature.of_heights([i, j]);
+                    assert_eq!(own, curvature.of_heights([i, -1 - j]));
+                    assert_eq!(curvature.at([i, j]), curvature.at([i, -1 - j]));
+                    with_heights += usize::from(own.is_some_and(|kappa| (kappa - 2.0).abs() < 0.05));
+                }
+            }
+        }
+        assert!(with_heights > 8, "{with_heights} cells");
+    }
+}
