@@ -13,6 +13,8 @@ pub(super) struct BlockCurvature<'a, const N: usize> {
     pub id: BlockId,
     /// Holds the block's gas fractions.
     pub patch: &'a WidePatch,
+    /// Whether cells beyond the axis have their images' curvature, see [`BlockCurvature::place_of`].
+    pub has_images: bool,
 }
 
 impl<const N: usize> BlockCurvature<'_, N> {
@@ -34,7 +36,10 @@ impl<const N: usize> BlockCurvature<'_, N> {
     }
 
     /// A cell's index in the patch and its place. A cell beyond the axis is the image of one before it and has its curvature to the last
-    /// bit: with another one the states on the axis would be no mirror images, and push the cells there.
+    /// bit, so that the states on the axis are mirror images.
+    ///
+    /// Not so in the paper's mixture, where columns beyond the axis count as if they were before it. With images it loses, with
+    /// `"hllc-lm"`, what little damping there is on the axis, and a bubble of 20 cells oscillates 4 % too fast.
     fn place_of(&self, [i, j]: [isize; 2]) -> (usize, CellPlace) {
         let domain = self.mesh.domain();
         let widths = self.mesh.widths(self.id.level);
@@ -42,7 +47,7 @@ impl<const N: usize> BlockCurvature<'_, N> {
         // From the global index: blocks on both sides of a face have it to the last bit.
         let first = self.id.j as isize * N as isize;
         let row = first + j;
-        let is_image = is_axial && domain.r[0] == 0.0 && row < 0;
+        let is_image = self.has_images && is_axial && domain.r[0] == 0.0 && row < 0;
         let row = if is_image { -1 - row } else { row };
         let radius = is_axial.then(|| domain.r[0] + (row as f64 + 0.5) * widths[1]);
         (self.patch.index(i, row - first), CellPlace { widths, radius })
@@ -84,7 +89,7 @@ mod tests {
                 padded.component_mut(0)[to..][..8].copy_from_slice(&phi[8 * j..][..8]);
             }
             patch.fill(mesh, fluid.state(), slot, kinds, padded.component(0));
-            let curvature = BlockCurvature { mesh, id: *id, patch: &patch };
+            let curvature = BlockCurvature { mesh, id: *id, patch: &patch, has_images: true };
             for i in 0..8 {
                 for j in 0..2 {
                     let own = curvature.of_heights([i, j]);

@@ -120,7 +120,7 @@ fn of_columns_along_z(phi: &[f64], stride: usize, k: usize, place: &CellPlace, s
         let [_, first, second] = derivatives(height, h_r)?;
         return Some(-second / (1.0 + first * first).powf(1.5));
     };
-    let [first, second] = derivatives_of_rings(height, r, h_r)?;
+    let [first, second] = derivatives_of_rings(height, r.abs(), h_r)?;
     // H' = r H_s and H'' = H_s + r² H_ss.
     let (slope, bend) = (r * first, first + r * r * second);
     let stretch = 1.0 + slope * slope;

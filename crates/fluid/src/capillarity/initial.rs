@@ -33,7 +33,7 @@ pub(crate) fn level_mixed_cells<const N: usize>(
             padded.component_mut(0)[to..][..N].copy_from_slice(&phi[j * N..][..N]);
         }
         patch.fill(mesh, &filled, slot, kinds, padded.component(0));
-        let curvature = BlockCurvature { mesh, id: *id, patch: &patch };
+        let curvature = BlockCurvature { mesh, id: *id, patch: &patch, has_images: has_phases };
         let block = field.block_mut(slot);
         for cell in (0..N * N).filter(|cell| is_cut(phi[*cell])) {
             let kappa = curvature.at([(cell % N) as isize, (cell / N) as isize]);

@@ -5,6 +5,6 @@
 pub(super) struct CellPlace {
     /// Widths h_z, h_r, m.
     pub widths: [f64; 2],
-    /// Radius of the centre, m; `None` in planar geometry.
+    /// Radius of the centre, m, negative beyond the axis; `None` in planar geometry.
     pub radius: Option<f64>,
 }

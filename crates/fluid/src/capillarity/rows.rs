@@ -179,7 +179,7 @@ impl CapillaryRows {
         known.clear();
         known.resize(Padded::<N>::LEN, Known::default());
         let id = block.mesh.tree().leaves()[block.slot];
-        let curvature = BlockCurvature { mesh: block.mesh, id, patch };
+        let curvature = BlockCurvature { mesh: block.mesh, id, patch, has_images: block.has_phases };
         let is_compliant = |k: usize| is_compliant(pressure[k], phi[k], block.mixture);
         for (k, step) in faces {
             let cells = [k, k + step];
