@@ -296,18 +296,15 @@ pub struct CouplingCase {
     pub patience: f64,
 }
 
-/// One of the two media.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Medium {
-    /// The fluid.
-    Fluid,
-    /// The solid.
-    Solid,
-}
-
-impl Medium {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 2] = [("fluid", Self::Fluid), ("solid", Self::Solid)];
+mesh::named! {
+    /// One of the two media.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Medium {
+        /// The fluid.
+        Fluid = "fluid",
+        /// The solid.
+        Solid = "solid",
+    }
 }
 
 /// `[[probe]]`: a point at which all fields of a medium are recorded every step.

@@ -23,6 +23,7 @@ mod cell_fields;
 mod ghosts;
 mod kernels;
 mod multiresolution;
+mod named;
 mod subcycling;
 mod tree;
 
