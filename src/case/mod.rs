@@ -298,7 +298,6 @@ pub struct CouplingCase {
 
 mesh::named! {
     /// One of the two media.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Medium {
         /// The fluid.
         Fluid = "fluid",

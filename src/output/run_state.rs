@@ -9,7 +9,6 @@ use super::{OutputError, summary};
 
 mesh::named! {
     /// What has become of a run.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     pub enum RunState {
         /// A process is at it: it holds the directory.
         Running = "running",

@@ -4,7 +4,6 @@ use mesh::Limiter;
 
 mesh::named! {
     /// The two-phase model.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Model {
         /// Partial densities, one velocity and one pressure, and a gas fraction that feels compression: five equations in
         /// one dimension (Kapila et al. 2001). The default.
@@ -25,7 +24,6 @@ impl Model {
 
 mesh::named! {
     /// What keeps the interface between gas and liquid sharp.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Sharpening {
         /// The gas fraction on a mixed cell's faces is that of a step (THINC; Shyue & Xiao 2014).
         Thinc = "thinc",
@@ -55,7 +53,6 @@ impl TwoPhaseOptions {
 
 mesh::named! {
     /// The Riemann solver at cell faces.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum RiemannSolver {
         /// Harten–Lax–van Leer with contact (Toro, Spruce & Speares 1994).
         Hllc = "hllc",
@@ -68,7 +65,6 @@ mesh::named! {
 
 mesh::named! {
     /// What bounds the fluid on one side of its domain.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Boundary {
         /// The axis r = 0 of an axisymmetric domain.
         Axis,

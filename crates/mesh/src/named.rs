@@ -6,6 +6,7 @@
 macro_rules! named {
     ($(#[$about:meta])* $vis:vis enum $Choice:ident { $($(#[$what:meta])* $Variant:ident $(= $name:literal)?,)+ }) => {
         $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         $vis enum $Choice {
             $($(#[$what])* $Variant,)+
         }

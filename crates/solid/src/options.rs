@@ -2,7 +2,6 @@
 
 mesh::named! {
     /// What bounds the solid on one side of its domain.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Boundary {
         /// The axis r = 0 of an axisymmetric domain.
         Axis,
@@ -34,7 +33,6 @@ impl Boundary {
 
 mesh::named! {
     /// The stress that balances the fluid's ambient pressure p at t = 0.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum InitialStress {
         /// σ_zz = −p and nothing else, as the paper has it; the von Mises stress is |p| from the start.
         Uniaxial = "uniaxial",

@@ -8,7 +8,6 @@ pub(crate) mod shapes;
 
 ::mesh::named! {
     /// Which of the two fluids.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Phase {
         /// The liquid, φ = 0.
         Liquid = "liquid",
@@ -86,7 +85,6 @@ pub enum PulseShape {
 
 ::mesh::named! {
     /// The pressure in the ambient liquid at t = 0.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum InitialPressure {
         /// That of the ambient state, up to the bubbles' walls.
         Uniform = "uniform",

@@ -15,7 +15,7 @@ pub(super) const BY_STAGES: f64 = 1e4;
 
 mesh::named! {
     /// What gas does that is so thin that its momentum or its heat spreads over more than a cell in a step.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    #[derive(Default)]
     pub enum ThinGas {
         /// It is taken to be as viscous, and to conduct as much, as the step is stable with, which is counted. The liquid alone limits the
         /// step.

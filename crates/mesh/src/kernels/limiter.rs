@@ -2,7 +2,6 @@
 
 crate::named! {
     /// How the slope in a cell is made from the differences to its two neighbours.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Limiter {
         /// Monotonised central (van Leer 1977): second order, total-variation diminishing; the default.
         Mc = "mc",

@@ -2,7 +2,6 @@
 
 crate::named! {
     /// How the (z, r) plane is measured.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Geometry {
         /// Rotation about the axis r = 0: volumes and face areas carry the weight r (per radian).
         Axisymmetric = "axisymmetric",
@@ -23,7 +22,6 @@ impl Geometry {
 
 crate::named! {
     /// A side of a rectangle, of a block or of the whole domain.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Side {
         /// The side of smallest z.
         ZMin = "z_min",
