@@ -31,7 +31,7 @@ pub struct FluidRecord {
     files: SideFiles<fluid::Snapshot>,
     steps: SeriesId,
     /// How often bounds acted, every step.
-    clips: SeriesId,
+    fixups: SeriesId,
     /// One row for each bubble side by side; absent with less than two.
     bubbles: Option<SeriesId>,
     interface: Option<InterfaceHistory>,
@@ -101,7 +101,7 @@ impl FluidRecord {
         let history = &mut files.history;
         let cuts = case.fluid.as_ref().map(|fluid| BubbleCuts::of(&fluid.initial)).unwrap_or_default();
         let steps = history.add_series("", &STEP_COLUMNS)?;
-        let clips = history.add_series("", &fixups::CLIP_COLUMNS)?;
+        let fixups = history.add_series("/fixups", &fixups::columns())?;
         let bubbles = bubble_series(&cuts, history)?;
         let film = FilmRecord::create(history)?;
         let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
@@ -116,14 +116,14 @@ impl FluidRecord {
             }
             None => None,
         };
-        let conservation = history.add_series("/conservation/fluid", &conservation::COLUMNS)?;
+        let conservation = history.add_series("/conservation/fluid", &conservation::columns())?;
         let cut = CutRecord::create(solver, history)?;
         let interface_z = case.solid.as_ref().map(|_| mesh.domain().z[0]);
         let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, history)?;
         Ok(Self {
             files,
             steps,
-            clips,
+            fixups,
             interface,
             conservation,
             cut,
@@ -196,7 +196,6 @@ impl FluidRecord {
         let bubble = solver.bubble();
         let axis = solver.axis();
         let wall = solver.wall_pressures();
-        let fixups = solver.fixups();
         let history = &mut self.files.history;
         history.push(
             self.steps,
@@ -213,17 +212,9 @@ impl FluidRecord {
                 bubble.gas_mass,
                 wall.axis,
                 wall.anywhere,
-                fixups.first_order as f64,
-                fixups.redone as f64,
-                fixups.redone_volume,
-                fixups.floored as f64,
-                fixups.floored_volume,
-                fixups.floor_energy,
-                fixups.gas_mass_added,
-                fixups.liquid_mass_added,
             ],
         )?;
-        history.push(self.clips, &fixups.clips.counts().map(|count| count as f64))?;
+        history.push(self.fixups, &fixups::row(&solver.fixups()))?;
         if let Some(series) = self.bubbles {
             self.cuts.follow(solver);
             let numbers = |b: Bubble| [b.volume, b.equivalent_radius, b.centroid_z, b.gas_mass];

@@ -131,6 +131,21 @@ pub const fn column<'a>(name: &'a str, unit: &'a str, description: &'a str) -> C
     Column { name, unit, description, width: 1 }
 }
 
+/// The columns of what came in through each of the four sides, `NAME_in_SIDE`, in their order.
+///
+/// - a description of z_min's, of z_max's, and of r_min's and r_max's but for the side.
+macro_rules! through_sides {
+    ($name:literal, $unit:literal, [$z_min:literal, $z_max:literal, $others:literal]) => {
+        [
+            $crate::run::record::column(concat!($name, "_in_z_min"), $unit, $z_min),
+            $crate::run::record::column(concat!($name, "_in_z_max"), $unit, $z_max),
+            $crate::run::record::column(concat!($name, "_in_r_min"), $unit, concat!($others, "r_min")),
+            $crate::run::record::column(concat!($name, "_in_r_max"), $unit, concat!($others, "r_max")),
+        ]
+    };
+}
+pub(crate) use through_sides;
+
 /// A probe with its series.
 pub struct ProbeSeries {
     /// Where and what.

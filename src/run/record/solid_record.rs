@@ -16,6 +16,7 @@ use crate::run::record::side_files::{FilesState, SideFiles, SideNames};
 use crate::run::record::surface::surface_record::{SurfaceRecord, SurfaceState};
 use crate::run::record::{
     CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
+    through_sides,
 };
 use crate::run::schedule::Plan;
 use crate::run::side::wall_faces::WallFaces;
@@ -153,7 +154,9 @@ impl SolidRecord {
             Some(_) => None,
             None => Some(history.add_series("", &[column("time", "s", "time after the step")])?),
         };
-        let columns = columns(&CONSERVATION_COLUMNS, &[plastic::CONSERVATION_COLUMN], solver);
+        let through_sides = (0..4).flat_map(|side| THROUGH_SIDES.map(|quantity| quantity[side]));
+        let always: Vec<Column<'_>> = CONSERVATION_COLUMNS.into_iter().chain(through_sides).collect();
+        let columns = columns(&always, &[plastic::CONSERVATION_COLUMN], solver);
         let conservation = history.add_series("/conservation/solid", &columns)?;
         // A load has a star state, too; a boundary has not.
         let covered = case.coupling.scheme != coupler::Scheme::None;
@@ -332,7 +335,7 @@ const STEP_COLUMNS: [Column<'static>; 4] = [
     column("yielded_volume", "m3", "volume in which the von Mises stress exceeds the yield strength"),
 ];
 
-const CONSERVATION_COLUMNS: [Column<'static>; 15] = [
+const CONSERVATION_COLUMNS: [Column<'static>; 7] = [
     column("time", "s", "time"),
     column("mass", "kg/rad", "mass in the domain, constant (planar: kg/m)"),
     column("momentum_z", "N s/rad", "axial momentum in the domain"),
@@ -344,14 +347,24 @@ const CONSERVATION_COLUMNS: [Column<'static>; 15] = [
         "J/rad",
         "work done on the solid minus the growth of its energy: the scheme's loss",
     ),
-    column("momentum_in_z_min", "N s/rad", "axial impulse of the traction on z_min"),
-    column("energy_in_z_min", "J/rad", "work of the traction on z_min"),
-    column("momentum_in_z_max", "N s/rad", "the same on z_max; under a fluid the interface"),
-    column("energy_in_z_max", "J/rad", "the same on z_max; under a fluid the interface"),
-    column("momentum_in_r_min", "N s/rad", "the same on r_min"),
-    column("energy_in_r_min", "J/rad", "the same on r_min"),
-    column("momentum_in_r_max", "N s/rad", "the same on r_max"),
-    column("energy_in_r_max", "J/rad", "the same on r_max"),
+];
+
+/// Axial momentum and energy that came in, on each side.
+const THROUGH_SIDES: [[Column<'static>; 4]; 2] = [
+    through_sides!(
+        "momentum",
+        "N s/rad",
+        [
+            "axial impulse of the traction on z_min",
+            "the same on z_max; under a fluid the interface",
+            "the same on "
+        ]
+    ),
+    through_sides!(
+        "energy",
+        "J/rad",
+        ["work of the traction on z_min", "the same on z_max; under a fluid the interface", "the same on "]
+    ),
 ];
 
 const PROBE_COLUMNS: [Column<'static>; 7] = [

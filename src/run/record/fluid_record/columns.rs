@@ -12,7 +12,7 @@ pub(super) const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
 ];
 
 /// Every step.
-pub(super) const STEP_COLUMNS: [Column<'static>; 20] = [
+pub(super) const STEP_COLUMNS: [Column<'static>; 12] = [
     column("time", "s", "time after the step"),
     column("time_step", "s", "length of the step"),
     column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
@@ -29,18 +29,6 @@ pub(super) const STEP_COLUMNS: [Column<'static>; 20] = [
     column("bubble/gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
     column("wall/pressure_axis", "Pa", "cell mean at z_min on the axis"),
     column("wall/pressure_max", "Pa", "largest cell mean along z_min"),
-    column("fixups/first_order", "1", "cell-steps at first order so far"),
-    column("fixups/redone", "1", "cell-steps done again at first order so far"),
-    column("fixups/redone_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
-    column("fixups/floored", "1", "cell-steps lifted to the pressure floor so far"),
-    column("fixups/floored_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
-    column("fixups/floor_energy", "J/rad", "energy that the floor added so far (planar: J/m)"),
-    column(
-        "fixups/gas_mass_added",
-        "kg/rad",
-        "mass that the gas got from the liquid where it had less than none",
-    ),
-    column("fixups/liquid_mass_added", "kg/rad", "mass that the liquid got from the gas, likewise"),
 ];
 
 /// At a probe.

@@ -84,7 +84,7 @@ impl FluidRecord {
         let Self {
             files,
             steps: _,
-            clips: _,
+            fixups: _,
             bubbles: _,
             interface,
             conservation: _,
