@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use crate::case::{Case, Medium};
 use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 use crate::run::record::collapse::CollapseFinder;
-use crate::run::record::film::FilmRecord;
+use crate::run::record::film::{FilmRecord, ThinnestFilm};
 use crate::run::record::interface_history::{InterfaceHistory, OnFaces};
 use crate::run::record::side_files::SideFiles;
 use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
@@ -46,6 +46,15 @@ pub struct FluidRecord {
     wall_shears: Vec<f64>,
     /// Heat fluxes into the wall and its temperatures, where heat is conducted; else none.
     wall_heat: [Vec<f64>; 2],
+    film: FilmRecord,
+    seen: Seen,
+    /// Finest cells along the radius of the first region, where that is a ball of gas.
+    cells_per_radius: Option<f64>,
+}
+
+/// What it has seen so far, of which the summary tells.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Seen {
     cells: CellCount,
     collapse: CollapseFinder,
     peaks: Peaks,
@@ -54,9 +63,7 @@ pub struct FluidRecord {
     /// Ambient pressure times the gas's initial volume, J/rad (planar: J/m): what a collapse sets free.
     collapse_energy: f64,
     cuts: BubbleCuts,
-    film: FilmRecord,
-    /// Finest cells along the radius of the first region, where that is a ball of gas.
-    cells_per_radius: Option<f64>,
+    film: ThinnestFilm,
 }
 
 /// Largest values so far, with their times.
@@ -77,7 +84,7 @@ impl FluidRecord {
         solver: &FluidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
         let mut record = Self::on(case, SideFiles::create(case, directory, files::names(solver))?, solver)?;
-        record.cells.see(solver.mesh().cells());
+        record.seen.cells.see(solver.mesh().cells());
         let [fluxes, temperatures] = &mut record.wall_heat;
         solver.wall_face_heat(fluxes, temperatures);
         record.write(solver, 0.0)?;
@@ -133,17 +140,15 @@ impl FluidRecord {
             wall_pressures,
             wall_shears: Vec::new(),
             wall_heat: Default::default(),
-            cells: CellCount::default(),
-            collapse: CollapseFinder::default(),
-            peaks: Peaks::default(),
-            last_bubble: Bubble::default(),
-            largest_thin_volume: 0.0,
-            collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
-                fluid.initial.ambient.pressure * solver.bubble().volume / case.geometry.turn()
-            }),
-            cuts,
             bubbles,
             film,
+            seen: Seen {
+                collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
+                    fluid.initial.ambient.pressure * solver.bubble().volume / case.geometry.turn()
+                }),
+                cuts,
+                ..Seen::default()
+            },
             cells_per_radius: case.cells_per_radius(),
         })
     }
@@ -161,7 +166,7 @@ impl FluidRecord {
     /// Takes notice of a finished step.
     pub fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
         let mesh = solver.mesh();
-        self.cells.see(mesh.cells());
+        self.seen.cells.see(mesh.cells());
         if self.faces.update(mesh.generation(), || solver.interface_edges())
             && let Some(interface) = &mut self.interface
         {
@@ -216,16 +221,16 @@ impl FluidRecord {
         )?;
         history.push(self.fixups, &fixups::row(&solver.fixups()))?;
         if let Some(series) = self.bubbles {
-            self.cuts.follow(solver);
+            self.seen.cuts.follow(solver);
             let numbers = |b: Bubble| [b.volume, b.equivalent_radius, b.centroid_z, b.gas_mass];
-            let row: Vec<f64> = solver.bubbles(&self.cuts).into_iter().flat_map(numbers).collect();
+            let row: Vec<f64> = solver.bubbles(&self.seen.cuts).into_iter().flat_map(numbers).collect();
             history.push(series, &row)?;
         }
-        self.film.after_step(solver, history)?;
-        self.collapse.push(time, bubble.volume);
-        self.last_bubble = bubble;
-        self.largest_thin_volume = self.largest_thin_volume.max(bubble.thin_volume);
-        let peaks = &mut self.peaks;
+        self.film.after_step(solver, &mut self.seen.film, history)?;
+        self.seen.collapse.push(time, bubble.volume);
+        self.seen.last_bubble = bubble;
+        self.seen.largest_thin_volume = self.seen.largest_thin_volume.max(bubble.thin_volume);
+        let peaks = &mut self.seen.peaks;
         for (peak, value) in [
             (&mut peaks.wall, wall.axis),
             (&mut peaks.wall_anywhere, wall.anywhere),
@@ -283,9 +288,9 @@ impl FluidRecord {
             Geometry::Axisymmetric => (0.75 * volume / std::f64::consts::PI).cbrt(),
             Geometry::Planar => (volume / std::f64::consts::PI).sqrt(),
         };
-        let collapse = self.collapse.found();
-        let grown = self.collapse.grown();
-        let largest = self.collapse.largest().filter(|largest| largest.volume > 0.0);
+        let collapse = self.seen.collapse.found();
+        let grown = self.seen.collapse.grown();
+        let largest = self.seen.collapse.largest().filter(|largest| largest.volume > 0.0);
         let with_wall = self.interface.is_some();
         let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
         let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
@@ -294,24 +299,24 @@ impl FluidRecord {
             "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
             "growth_time": grown.map(|largest| largest.time),
             "max_equivalent_radius": largest.map(|largest| radius(largest.volume)),
-            "final_equivalent_radius": self.last_bubble.equivalent_radius,
-            "trace_gas_volume": self.last_bubble.trace_volume,
-            "thin_gas_volume": self.last_bubble.thin_volume,
-            "thin_gas_volume_largest": self.largest_thin_volume,
-            "wall_pressure_peak": peak(self.peaks.wall),
-            "wall_pressure_peak_time": peak_time(self.peaks.wall),
-            "wall_pressure_peak_interface": peak(self.peaks.wall_interface),
-            "wall_pressure_peak_interface_time": peak_time(self.peaks.wall_interface),
-            "wall_pressure_peak_anywhere": peak(self.peaks.wall_anywhere),
-            "wall_pressure_peak_anywhere_time": peak_time(self.peaks.wall_anywhere),
-            "jet_velocity_peak": self.peaks.jet[0],
-            "jet_velocity_peak_time": self.peaks.jet[1],
-            "fixups": fixups::summary(solver.fixups(), self.collapse_energy),
+            "final_equivalent_radius": self.seen.last_bubble.equivalent_radius,
+            "trace_gas_volume": self.seen.last_bubble.trace_volume,
+            "thin_gas_volume": self.seen.last_bubble.thin_volume,
+            "thin_gas_volume_largest": self.seen.largest_thin_volume,
+            "wall_pressure_peak": peak(self.seen.peaks.wall),
+            "wall_pressure_peak_time": peak_time(self.seen.peaks.wall),
+            "wall_pressure_peak_interface": peak(self.seen.peaks.wall_interface),
+            "wall_pressure_peak_interface_time": peak_time(self.seen.peaks.wall_interface),
+            "wall_pressure_peak_anywhere": peak(self.seen.peaks.wall_anywhere),
+            "wall_pressure_peak_anywhere_time": peak_time(self.seen.peaks.wall_anywhere),
+            "jet_velocity_peak": self.seen.peaks.jet[0],
+            "jet_velocity_peak_time": self.seen.peaks.jet[1],
+            "fixups": fixups::summary(solver.fixups(), self.seen.collapse_energy),
         });
         match value {
             Value::Object(mut map) => {
-                map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
-                map.extend(self.film.thinnest.summary());
+                map.extend(self.seen.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
+                map.extend(self.seen.film.summary());
                 map.extend(cut::summary(solver));
                 let masses = solver.carried_masses();
                 map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
