@@ -18,16 +18,10 @@ fn imbalance<const N: usize>(
         before(fluid, dt);
         fluid.step(dt).unwrap();
     }
-    let (end, ledger) = (fluid.totals(), fluid.ledger());
-    let sum = |sides: [f64; 4]| sides.iter().sum::<f64>();
-    let scale = ledger.momentum.iter().map(|m| m.abs()).fold(10.0 * start.mass, f64::max);
-    let imbalance = [
-        (end.mass - start.mass - sum(ledger.mass)) / start.mass,
-        (end.momentum_z - start.momentum_z - sum(ledger.momentum)) / scale,
-        (end.energy - start.energy - sum(ledger.energy) - fluid.fixups().floor_energy) / start.energy,
-        // Unknown, or none at all.
-        if gas > 0.0 { fluid.bubble().gas_mass / gas - 1.0 } else { 0.0 },
-    ];
+    let [mass, momentum, energy] = imbalance_since(fluid, &start);
+    // Of the gas unknown, or none at all.
+    let gas = if gas > 0.0 { fluid.bubble().gas_mass / gas - 1.0 } else { 0.0 };
+    let imbalance = [mass, momentum, energy, gas];
     eprintln!("imbalance of mass, momentum, energy, gas {} {:?}", scientific(&imbalance), fluid.fixups());
     imbalance
 }
