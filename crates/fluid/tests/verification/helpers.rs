@@ -115,6 +115,12 @@ pub fn assert_jump_of_levels<const N: usize>(fluid: &FluidSolver<N>) {
     assert!(coarsest < finest, "there is a jump of levels");
 }
 
+/// Nothing is lost but round-off.
+pub fn assert_balanced<const N: usize>(what: &str, imbalance: &[f64], fluid: &FluidSolver<N>) {
+    eprintln!("{what}: {} {:?}", scientific(imbalance), fluid.fixups().clips);
+    assert!(imbalance.iter().all(|part| part.abs() < 1e-12), "{imbalance:?}");
+}
+
 /// Imbalances of mass, axial momentum and energy since the totals were `start`, relative to them (the momentum to what a side brought
 /// in, or to 10 m/s of all mass).
 pub fn imbalance_since<const N: usize>(fluid: &FluidSolver<N>, start: &Totals) -> [f64; 3] {
@@ -170,17 +176,13 @@ pub fn l1<const N: usize, const K: usize>(
     exact: impl Fn([f64; 2]) -> Primitive,
     pick: impl Fn(Primitive) -> [f64; K],
 ) -> f64 {
-    let (mut error, mut norm) = (0.0, 0.0);
-    each_cell(fluid, |place, _, got| {
-        for (got, want) in pick(got).into_iter().zip(pick(exact(place))) {
-            error += (got - want).abs();
-            norm += want.abs();
-        }
-    });
-    error / norm
+    relative_l1(|compare| each_cell(fluid, |place, _, got| compare(&pick(got), &pick(exact(place)))))
 }
 
 #[path = "../../../../tests/fixture/verification.rs"]
 mod shared;
 
-pub use shared::{CFL, J1_ZEROS, j0, j1, order, scientific, step_locally, step_together, strips};
+pub use shared::{
+    CFL, J1_ZEROS, assert_transposed, j0, j1, order, relative_l1, scientific, step_locally, step_together,
+    strips,
+};
