@@ -7,6 +7,8 @@ mod cross;
 mod effective;
 mod error;
 mod far_field;
+#[cfg(test)]
+mod fixture;
 pub(crate) mod format;
 mod initial_pressure;
 mod keys;

@@ -1,7 +1,7 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
 use coupler::{FluidTrace, TraceRow};
-use mesh::{GroupStep, Padded, TileRows};
+use mesh::{Padded, TileRows};
 
 use crate::boundary::wall_trace::Trace;
 use crate::physics::FluidStep;
@@ -30,12 +30,8 @@ impl<const N: usize> FluidSolver<N> {
         self.write_trace_of(dt, |_| true, put);
     }
 
-    /// [`FluidSolver::write_trace`] for the faces of the levels that are about to make a step.
-    pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
-    }
-
-    fn write_trace_of(
+    /// [`FluidSolver::write_trace`] for the faces of the blocks that are due, by their slots.
+    pub fn write_trace_of(
         &self,
         dt: f64,
         is_due: impl Fn(usize) -> bool,

@@ -105,3 +105,19 @@ pub struct InitialCondition {
     /// Added last.
     pub pulses: Vec<Pulse>,
 }
+
+#[cfg(test)]
+impl InitialCondition {
+    /// Balls of gas on the axis, each with the z of its centre and its radius, in a liquid.
+    pub(crate) fn of_balls(
+        ambient: PhaseState,
+        pressure: InitialPressure,
+        balls: impl IntoIterator<Item = ([f64; 2], PhaseState)>,
+    ) -> Self {
+        let region = |([z, radius], state): ([f64; 2], PhaseState)| Region {
+            shape: Shape::Sphere { centre: [z, 0.0], radius },
+            state,
+        };
+        Self { ambient, pressure, regions: balls.into_iter().map(region).collect(), pulses: vec![] }
+    }
+}

@@ -121,6 +121,12 @@ pub fn assert_balanced<const N: usize>(what: &str, imbalance: &[f64], fluid: &Fl
     assert!(imbalance.iter().all(|part| part.abs() < 1e-12), "{imbalance:?}");
 }
 
+/// No energy comes through walls that rest and keep their heat; r_min is an axis or a plane of symmetry.
+pub fn assert_no_energy_through_walls<const N: usize>(fluid: &FluidSolver<N>) {
+    let [z_min, z_max, _, r_max] = fluid.ledger().energy;
+    assert_eq!([z_min, z_max, r_max], [0.0; 3], "no energy passes walls at rest");
+}
+
 /// Imbalances of mass, axial momentum and energy since the totals were `start`, relative to them (the momentum to what a side brought
 /// in, or to 10 m/s of all mass).
 pub fn imbalance_since<const N: usize>(fluid: &FluidSolver<N>, start: &Totals) -> [f64; 3] {

@@ -51,12 +51,8 @@ impl<const N: usize> SolidSolver<N> {
         self.write_trace_of(dt, |_| true, put);
     }
 
-    /// [`SolidSolver::write_trace`] for the faces of the levels that are about to make a step.
-    pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
-    }
-
-    fn write_trace_of(
+    /// [`SolidSolver::write_trace`] for the faces of the blocks that are due, by their slots.
+    pub fn write_trace_of(
         &self,
         dt: f64,
         is_due: impl Fn(usize) -> bool,
