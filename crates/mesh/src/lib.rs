@@ -20,6 +20,7 @@
 pub mod array;
 mod block_solver;
 mod cell_fields;
+mod derefs;
 mod ghosts;
 mod kernels;
 mod multiresolution;

@@ -10,9 +10,9 @@ use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 use crate::run::record::collapse::CollapseFinder;
 use crate::run::record::film::{FilmRecord, ThinnestFilm};
 use crate::run::record::interface_history::{InterfaceHistory, OnFaces};
+use crate::run::record::of_side::Record;
 use crate::run::record::side_files::SideFiles;
-use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
-use crate::run::schedule::Plan;
+use crate::run::record::{CellCount, ProbeSeries, Ticker, column, entries, probe_series};
 use crate::run::side::wall_faces::WallFaces;
 
 mod columns;
@@ -88,14 +88,7 @@ impl FluidRecord {
         let [fluxes, temperatures] = &mut record.wall_heat;
         solver.wall_face_heat(fluxes, temperatures);
         record.write(solver, 0.0)?;
-        record.snapshot(solver)?;
-        record.files.history.flush()?;
-        Ok(record)
-    }
-
-    /// Brings everything so far to the disk.
-    pub fn settle(&mut self) -> Result<(), OutputError> {
-        self.files.settle()
+        record.begun(solver)
     }
 
     /// A record in these files of a fluid as it is, with nothing written.
@@ -151,49 +144,6 @@ impl FluidRecord {
             },
             cells_per_radius: case.cells_per_radius(),
         })
-    }
-
-    /// The histories.
-    pub fn history(&self) -> &HistoryFile {
-        &self.files.history
-    }
-
-    /// Writes a batch of the histories.
-    pub fn flush(&mut self) -> Result<(), OutputError> {
-        self.files.history.flush()
-    }
-
-    /// Takes notice of a finished step.
-    pub fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
-        let mesh = solver.mesh();
-        self.seen.cells.see(mesh.cells());
-        if self.faces.update(mesh.generation(), || solver.interface_edges())
-            && let Some(interface) = &mut self.interface
-        {
-            interface.follow(&self.faces);
-        }
-        if solver.interface().states().is_empty() {
-            solver.wall_face_pressures(&mut self.wall_pressures);
-        } else {
-            self.wall_pressures.clear();
-            self.wall_pressures.extend(solver.interface().states().iter().map(|wall| wall.pressure));
-        }
-        solver.wall_face_shears(&mut self.wall_shears);
-        let [fluxes, temperatures] = &mut self.wall_heat;
-        solver.wall_face_heat(fluxes, temperatures);
-        self.write(solver, plan.dt)?;
-        if plan.snapshot {
-            self.snapshot(solver)?;
-        }
-        self.files.after_step()
-    }
-
-    /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
-    pub fn close(&mut self, solver: &FluidSolver<BLOCK>, failed: bool) -> Result<(), OutputError> {
-        if failed {
-            self.snapshot(solver)?;
-        }
-        self.files.close()
     }
 
     fn write(&mut self, solver: &FluidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
@@ -277,13 +227,53 @@ impl FluidRecord {
         }
         Ok(())
     }
+}
+
+/// Makes the series of the single bubbles, `bubbles/1` the one nearest to the wall, where there are several.
+fn bubble_series(cuts: &BubbleCuts, history: &mut HistoryFile) -> Result<Option<SeriesId>, OutputError> {
+    if cuts.bubbles() < 2 {
+        return Ok(None);
+    }
+    let names: Vec<[String; 4]> = (1..=cuts.bubbles())
+        .map(|number| BUBBLE_COLUMNS.map(|(name, ..)| format!("bubbles/{number}/{name}")))
+        .collect();
+    let columns: Vec<Column<'_>> = names
+        .iter()
+        .flat_map(|names| names.iter().zip(BUBBLE_COLUMNS))
+        .map(|(name, (_, unit, description))| column(name, unit, description))
+        .collect();
+    history.add_series("", &columns).map(Some)
+}
+
+impl Record for FluidRecord {
+    type Solver = FluidSolver<BLOCK>;
+    type Snapshot = fluid::Snapshot;
+
+    fn follow(&mut self, solver: &FluidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
+        let mesh = solver.mesh();
+        self.seen.cells.see(mesh.cells());
+        if self.faces.update(mesh.generation(), || solver.interface_edges())
+            && let Some(interface) = &mut self.interface
+        {
+            interface.follow(&self.faces);
+        }
+        if solver.interface().states().is_empty() {
+            solver.wall_face_pressures(&mut self.wall_pressures);
+        } else {
+            self.wall_pressures.clear();
+            self.wall_pressures.extend(solver.interface().states().iter().map(|wall| wall.pressure));
+        }
+        solver.wall_face_shears(&mut self.wall_shears);
+        let [fluxes, temperatures] = &mut self.wall_heat;
+        solver.wall_face_heat(fluxes, temperatures);
+        self.write(solver, dt)
+    }
 
     fn snapshot(&mut self, solver: &FluidSolver<BLOCK>) -> Result<(), OutputError> {
         self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
     }
 
-    /// The fluid's part of the summary.
-    pub fn summary(&self, solver: &FluidSolver<BLOCK>) -> Map<String, Value> {
+    fn summary(&self, solver: &FluidSolver<BLOCK>) -> Map<String, Value> {
         let radius = |volume: f64| match solver.mesh().domain().geometry {
             Geometry::Axisymmetric => (0.75 * volume / std::f64::consts::PI).cbrt(),
             Geometry::Planar => (volume / std::f64::consts::PI).sqrt(),
@@ -294,7 +284,7 @@ impl FluidRecord {
         let with_wall = self.interface.is_some();
         let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
         let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
-        let value = json!({
+        let mut map = entries(json!({
             "collapse_time": collapse.map(|c| c.time),
             "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
             "growth_time": grown.map(|largest| largest.time),
@@ -312,36 +302,23 @@ impl FluidRecord {
             "jet_velocity_peak": self.seen.peaks.jet[0],
             "jet_velocity_peak_time": self.seen.peaks.jet[1],
             "fixups": fixups::summary(solver.fixups(), self.seen.collapse_energy),
-        });
-        match value {
-            Value::Object(mut map) => {
-                map.extend(self.seen.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
-                map.extend(self.seen.film.summary());
-                map.extend(cut::summary(solver));
-                let masses = solver.carried_masses();
-                map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
-                map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));
-                map.extend(phases::summary(solver));
-                map.extend(self.cells_per_radius.map(|cells| ("cells_per_radius".to_owned(), json!(cells))));
-                map
-            }
-            _ => unreachable!("an object was written"),
-        }
+        }));
+        map.extend(self.seen.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
+        map.extend(self.seen.film.summary());
+        map.extend(cut::summary(solver));
+        let masses = solver.carried_masses();
+        map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
+        map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));
+        map.extend(phases::summary(solver));
+        map.extend(self.cells_per_radius.map(|cells| ("cells_per_radius".to_owned(), json!(cells))));
+        map
     }
-}
 
-/// Makes the series of the single bubbles, `bubbles/1` the one nearest to the wall, where there are several.
-fn bubble_series(cuts: &BubbleCuts, history: &mut HistoryFile) -> Result<Option<SeriesId>, OutputError> {
-    if cuts.bubbles() < 2 {
-        return Ok(None);
+    fn files(&self) -> &SideFiles<fluid::Snapshot> {
+        &self.files
     }
-    let names: Vec<[String; 4]> = (1..=cuts.bubbles())
-        .map(|number| BUBBLE_COLUMNS.map(|(name, ..)| format!("bubbles/{number}/{name}")))
-        .collect();
-    let columns: Vec<Column<'_>> = names
-        .iter()
-        .flat_map(|names| names.iter().zip(BUBBLE_COLUMNS))
-        .map(|(name, (_, unit, description))| column(name, unit, description))
-        .collect();
-    history.add_series("", &columns).map(Some)
+
+    fn files_mut(&mut self) -> &mut SideFiles<fluid::Snapshot> {
+        &mut self.files
+    }
 }

@@ -3,6 +3,7 @@
 //! | module | is |
 //! |---|---|
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
+//! | [`of_side`] | what records of both sides can do |
 //! | [`side_files`] | into which files |
 //! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`sensors`] | of discs on it |
@@ -26,6 +27,7 @@ pub mod film;
 pub mod fluid_record;
 pub mod how_sure;
 pub mod interface_history;
+pub mod of_side;
 pub mod running_mean;
 pub mod sensors;
 pub mod side_files;
@@ -123,6 +125,14 @@ impl Ticker {
             }
         }
         due
+    }
+}
+
+/// The entries of an object that `json!` has written.
+pub fn entries(object: Value) -> Map<String, Value> {
+    match object {
+        Value::Object(entries) => entries,
+        _ => unreachable!("an object was written"),
     }
 }
 

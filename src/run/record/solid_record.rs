@@ -10,15 +10,15 @@ use solid::SolidSolver;
 use self::plastic::PlasticPeak;
 use crate::case::{Case, Medium};
 use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
-use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
+use crate::output::{Column, OutputError, RunDirectory, SeriesId};
 use crate::run::RunError;
+use crate::run::record::of_side::Record;
 use crate::run::record::side_files::{FilesState, SideFiles, SideNames};
 use crate::run::record::surface::surface_record::{SurfaceRecord, SurfaceState};
 use crate::run::record::{
-    CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
+    CellCount, ProbeSeries, StepEnds, Ticker, column, entries, probe_series, restore_probes, saved_probes,
     through_sides,
 };
-use crate::run::schedule::Plan;
 use crate::run::side::wall_faces::WallFaces;
 
 /// Everything that the solid's side writes.
@@ -74,9 +74,7 @@ impl SolidRecord {
         let mut record = Self::on(case, files, solver, displacement)?;
         record.cells.see(solver.mesh().cells());
         record.write(solver, 0.0)?;
-        record.snapshot(solver)?;
-        record.files.history.flush()?;
-        Ok(record)
+        record.begun(solver)
     }
 
     /// Takes up the files of a run, and what was kept of its record; what was written since is forgotten.
@@ -135,11 +133,6 @@ impl SolidRecord {
         }
     }
 
-    /// Brings everything so far to the disk.
-    pub fn settle(&mut self) -> Result<(), OutputError> {
-        self.files.settle()
-    }
-
     /// A record in these files of a solid as it is, with nothing written.
     fn on(
         case: &Case,
@@ -179,39 +172,6 @@ impl SolidRecord {
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
         })
-    }
-
-    /// The histories.
-    pub fn history(&self) -> &HistoryFile {
-        &self.files.history
-    }
-
-    /// Writes a batch of the histories.
-    pub fn flush(&mut self) -> Result<(), OutputError> {
-        self.files.history.flush()
-    }
-
-    /// Takes notice of a finished step.
-    pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
-        let mesh = solver.mesh();
-        self.cells.see(mesh.cells());
-        let changed = self.faces.update(mesh.generation(), || solver.interface_edges());
-        if let Some(surface) = &mut self.surface {
-            surface.after_step(solver, plan.dt, (&self.faces, changed), &mut self.files.history)?;
-        }
-        self.write(solver, plan.dt)?;
-        if plan.snapshot {
-            self.snapshot(solver)?;
-        }
-        self.files.after_step()
-    }
-
-    /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
-    pub fn close(&mut self, solver: &SolidSolver<BLOCK>, failed: bool) -> Result<(), OutputError> {
-        if failed {
-            self.snapshot(solver)?;
-        }
-        self.files.close()
     }
 
     fn write(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
@@ -288,34 +248,6 @@ impl SolidRecord {
     pub fn surface(&self) -> Option<&SurfaceRecord> {
         self.surface.as_ref()
     }
-
-    /// Writes a snapshot.
-    pub fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
-        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
-    }
-
-    /// The solid's part of the summary.
-    pub fn summary(&self, solver: &SolidSolver<BLOCK>) -> Map<String, Value> {
-        let strength = solver.setup().yield_strength;
-        let value = json!({
-            "von_mises_peak": self.peak.stress,
-            "von_mises_peak_time": self.peak.time,
-            "von_mises_peak_position": self.peak.position,
-            "yield_strength": strength.is_finite().then_some(strength),
-            "yielded_volume_peak": self.peak.yielded,
-        });
-        match value {
-            Value::Object(mut map) => {
-                if solver.is_plastic() {
-                    map.extend(self.plastic.summary(solver));
-                }
-                map.extend(self.surface.iter().flat_map(|surface| surface.summary(solver)));
-                map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
-                map
-            }
-            _ => unreachable!("an object was written"),
-        }
-    }
 }
 
 /// Columns, and those that are only there where the solid can yield.
@@ -326,6 +258,50 @@ fn columns(
 ) -> Vec<Column<'static>> {
     let plastic = if solver.is_plastic() { plastic } else { &[] };
     always.iter().chain(plastic).copied().collect()
+}
+
+impl Record for SolidRecord {
+    type Solver = SolidSolver<BLOCK>;
+    type Snapshot = solid::Snapshot;
+
+    fn follow(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
+        let mesh = solver.mesh();
+        self.cells.see(mesh.cells());
+        let changed = self.faces.update(mesh.generation(), || solver.interface_edges());
+        if let Some(surface) = &mut self.surface {
+            surface.after_step(solver, dt, (&self.faces, changed), &mut self.files.history)?;
+        }
+        self.write(solver, dt)
+    }
+
+    fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
+        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
+    }
+
+    fn summary(&self, solver: &SolidSolver<BLOCK>) -> Map<String, Value> {
+        let strength = solver.setup().yield_strength;
+        let mut map = entries(json!({
+            "von_mises_peak": self.peak.stress,
+            "von_mises_peak_time": self.peak.time,
+            "von_mises_peak_position": self.peak.position,
+            "yield_strength": strength.is_finite().then_some(strength),
+            "yielded_volume_peak": self.peak.yielded,
+        }));
+        if solver.is_plastic() {
+            map.extend(self.plastic.summary(solver));
+        }
+        map.extend(self.surface.iter().flat_map(|surface| surface.summary(solver)));
+        map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
+        map
+    }
+
+    fn files(&self) -> &SideFiles<solid::Snapshot> {
+        &self.files
+    }
+
+    fn files_mut(&mut self) -> &mut SideFiles<solid::Snapshot> {
+        &mut self.files
+    }
 }
 
 const STEP_COLUMNS: [Column<'static>; 4] = [

@@ -1,10 +1,10 @@
 //! What the fluid's corrections are called where they are written.
 
 use fluid::{Clips, Fixups};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::output::Column;
-use crate::run::record::column;
+use crate::run::record::{column, entries};
 
 /// A correction: its name, its unit, what it is, and its sum so far.
 type Sum = (&'static str, &'static str, &'static str, fn(&Fixups) -> f64);
@@ -70,7 +70,7 @@ pub fn row(fixups: &Fixups) -> Vec<f64> {
 /// - `collapse_energy`: what [`Fixups::floor_energy`] is to be compared with, J/rad; 0 without gas.
 pub fn summary(fixups: Fixups, collapse_energy: f64) -> Value {
     let share = |energy: f64| (collapse_energy > 0.0).then_some(energy / collapse_energy);
-    let whole = json!({
+    let mut map = entries(json!({
         "first_order": fixups.first_order,
         "redone": fixups.redone,
         "redone_volume": fixups.redone_volume,
@@ -80,18 +80,10 @@ pub fn summary(fixups: Fixups, collapse_energy: f64) -> Value {
         "floor_energy_share": share(fixups.floor_energy),
         "gas_mass_added": fixups.gas_mass_added,
         "liquid_mass_added": fixups.liquid_mass_added,
-    });
-    let clips = Clips::NAMES
-        .iter()
-        .zip(fixups.clips.counts())
-        .map(|(name, count)| ((*name).to_owned(), count.into()));
-    match whole {
-        Value::Object(mut map) => {
-            map.extend(clips.collect::<Map<String, Value>>());
-            Value::Object(map)
-        }
-        other => other,
-    }
+    }));
+    let clips = Clips::NAMES.iter().zip(fixups.clips.counts());
+    map.extend(clips.map(|(name, count)| ((*name).to_owned(), count.into())));
+    Value::Object(map)
 }
 
 #[cfg(test)]
