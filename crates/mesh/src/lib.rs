@@ -30,7 +30,8 @@ mod tree;
 
 pub use block_solver::stage_timer::StageTimer;
 pub use block_solver::{
-    BlockSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks, Scratches, Step,
+    BlockSolver, BlockWork, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks,
+    Scratches, Step,
 };
 pub use cell_fields::CellField;
 pub use ghosts::frame::Frame;

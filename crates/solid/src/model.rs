@@ -1,7 +1,7 @@
 //! What the solid is to the block solver.
 
 use mesh::{
-    Adapted, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, ScratchPool, Side, StageTimer,
+    Adapted, BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, ScratchPool, Side,
 };
 use serde::{Deserialize, Serialize};
 
@@ -50,12 +50,9 @@ impl<const N: usize> Model<N> for Solid {
         &self,
         step: &SolidStep<'_, N>,
         slot: usize,
-        new: &mut [f64],
-        register: &mut [f64],
-        scratch: &mut BlockScratch<N>,
-        timer: &mut StageTimer,
+        work: BlockWork<'_, BlockScratch<N>>,
     ) -> BlockReport {
-        step_block(step, slot, new, register, scratch, timer)
+        step_block(step, slot, work)
     }
 
     fn correct(
