@@ -1,8 +1,8 @@
 //! What the fluid is to the block solver.
 
 use mesh::{
-    Adapted, BlockSolver, BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Scratches, Side, Tile,
+    BlockSolver, BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap, Reports,
+    Scratches, Side, Tile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -324,15 +324,9 @@ impl<const N: usize> Model<N> for Fluid {
     }
 
     /// How many predictions are limited is counted.
-    fn remap(
-        &mut self,
-        adapted: &Adapted<N>,
-        (mesh, field): (&Mesh<N>, &Field),
-        patches: &ScratchPool<Patch<N>>,
-        new: &mut Field,
-    ) {
+    fn remap(&mut self, remap: &Remap<'_, N>, new: &mut Field) {
         let analysis = CountedAnalysis::new(&self.analysis);
-        adapted.remap_into(mesh, field, &analysis, patches, new);
+        remap.by(&analysis, new);
         self.tally.fixups.clips.limited_predictions += analysis.limited();
     }
 

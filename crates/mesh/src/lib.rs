@@ -47,7 +47,7 @@ pub use kernels::reduce::maximum;
 pub use multiresolution::adaptation::{Adaptation, LevelBound, Zone};
 pub use multiresolution::horizon::Horizon;
 pub use multiresolution::patch::Patch;
-pub use multiresolution::remap::{Adapted, Origin};
+pub use multiresolution::remap::{Adapted, Origin, Remap};
 pub use multiresolution::{MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution};
 pub use subcycling::courant::longest_step;
 pub use subcycling::level_clock::{GroupStep, LevelClock, steps_in};

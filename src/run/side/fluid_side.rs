@@ -7,7 +7,7 @@
 mod cells;
 mod side;
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use coupler::{CommonRefinement, FrameHeader, FrameKind, Link, RegisterRow, StepLength, TraceRow};
 use fluid::FluidSolver;
@@ -206,20 +206,13 @@ impl FluidSide {
 
     /// Shows the trace on the wall, and does meanwhile what does not depend on the solid.
     fn begin_long(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
-        let start = Instant::now();
         let faces = self.own.solver.interface().faces();
         let mut header = self.header(FrameKind::Trace, faces, plan.dt);
         if plan.snapshot {
             header.flags |= FrameHeader::SNAPSHOT;
         }
         header.fields = TraceRow::COUNT as u64;
-        let (solver, edges) = (&self.own.solver, &self.own.edges);
-        let mut filled = Duration::ZERO;
-        link.send(header, |payload| {
-            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
-            solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
-            filled = start.elapsed();
-        })?;
+        let filled = self.own.show_trace(link, header, plan.dt)?;
         // What comes after the frame is filled is the exchange.
         self.own.clock.computing += filled;
         let start = Instant::now();

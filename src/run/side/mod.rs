@@ -18,9 +18,9 @@ pub mod solid_side;
 pub mod wall_faces;
 
 use std::ops::DerefMut;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use coupler::{Link, LinkCounters, Meeting, StarSolver};
+use coupler::{CouplerError, FrameHeader, Link, LinkCounters, Meeting, StarSolver, TraceRow};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
@@ -164,6 +164,23 @@ impl<R: Record<Solver: CoupledSolver>> InRun<R> {
             solid_cells: 0,
             wall: 0.0,
         }
+    }
+
+    /// Shows the other side its trace before a step of length `dt`; how long it took to fill the frame.
+    fn show_trace(
+        &self,
+        link: &mut impl Link,
+        header: FrameHeader,
+        dt: f64,
+    ) -> Result<Duration, CouplerError> {
+        let (start, mut filled) = (Instant::now(), Duration::ZERO);
+        let faces = self.edges.len();
+        link.send(header, |payload| {
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(&self.edges);
+            self.solver.write_trace(dt, |row, face, value| payload[row as usize * faces + face] = value);
+            filled = start.elapsed();
+        })?;
+        Ok(filled)
     }
 
     /// Whether it is time to keep a checkpoint.

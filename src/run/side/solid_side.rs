@@ -4,7 +4,7 @@ mod agreed;
 mod cells;
 mod side;
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use coupler::{
     CouplerError, Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme,
@@ -149,13 +149,7 @@ impl SolidSide {
         let faces = self.own.solver.interface().faces();
         let header =
             FrameHeader { count: faces as u64, ..self.header(FrameKind::Trace, TraceRow::COUNT, stop) };
-        let (solver, edges, start) = (&self.own.solver, &self.own.edges, Instant::now());
-        let mut filled = Duration::ZERO;
-        link.send(header, |payload| {
-            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
-            solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
-            filled = start.elapsed();
-        })?;
+        let filled = self.own.show_trace(link, header, plan.dt)?;
         let start = Instant::now();
         let step = coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?;
         self.own.clock.computing += filled + start.elapsed();

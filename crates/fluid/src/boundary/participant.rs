@@ -80,7 +80,7 @@ impl<const N: usize> FluidSolver<N> {
                         rate[V_R] += gain_r;
                     }
                     let mut state: PrimitiveCell = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
-                    let dispersion = context.model.dispersion(context.mesh, dt, id.level, 0);
+                    let dispersion = context.model.dispersion(context.mesh.widths(id.level), dt, 0);
                     let more = |c: usize, component: usize| {
                         let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
                         let stride = Padded::<N>::STRIDE;

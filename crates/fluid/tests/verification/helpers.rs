@@ -189,6 +189,6 @@ pub fn l1<const N: usize, const K: usize>(
 mod shared;
 
 pub use shared::{
-    CFL, J1_ZEROS, assert_transposed, j0, j1, order, relative_l1, scientific, step_locally, step_together,
-    strips,
+    CFL, J1_ZEROS, assert_transposed, differences, j0, j1, order, relative_l1, scientific, step_locally,
+    step_together, strips,
 };

@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Worker;
-use crate::{
-    Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Patch, Reports,
-};
+use crate::{BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Remap, Reports};
 use crate::{ScratchPool, Side, StageTimer, Tile};
 
 /// Cells that a step makes at first order, block by block: their places j N + i.
@@ -138,14 +136,8 @@ pub trait Model<const N: usize>: Sized + Sync {
         base
     }
     /// Carries a field over to another mesh.
-    fn remap(
-        &mut self,
-        adapted: &Adapted<N>,
-        (mesh, field): (&Mesh<N>, &Field),
-        patches: &ScratchPool<Patch<N>>,
-        new: &mut Field,
-    ) {
-        adapted.remap_into(mesh, field, self.analysis(), patches, new);
+    fn remap(&mut self, remap: &Remap<'_, N>, new: &mut Field) {
+        remap.by(self.analysis(), new);
     }
     /// Called when all levels have come to the end of a whole step.
     fn whole_step_ended(_solver: &mut BlockSolver<Self, N>) {}

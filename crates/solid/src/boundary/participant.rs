@@ -64,7 +64,7 @@ impl<const N: usize> SolidSolver<N> {
             let id = self.mesh().tree().leaves()[slot];
             let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
             self.with_scratch(|scratch| {
-                let [share, _] = context.model.dispersion(context.mesh, dt, id.level, 0);
+                let [share, _] = context.model.dispersion(context.mesh.widths(id.level), dt, 0);
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
                 Boundaries::complete_shear_differences(self.setup().limiter, cells, s_z);

@@ -108,6 +108,6 @@ pub fn l1<const N: usize>(
 mod shared;
 
 pub use shared::{
-    CFL, J1_ZEROS, assert_transposed, j0, j1, j1_over, order, relative_l1, step_locally, step_together,
-    strips,
+    CFL, J1_ZEROS, assert_transposed, differences, j0, j1, j1_over, order, relative_l1, step_locally,
+    step_together, strips,
 };

@@ -1,7 +1,6 @@
 //! Face states of mixed cells against bounds and limits.
 
 use super::*;
-use crate::StiffenedGas;
 use crate::two_phase::FaceState;
 
 /// Five cells and what windows look at beyond them.
@@ -14,7 +13,7 @@ fn rows(cell: impl Fn(f64, f64) -> [f64; 6]) -> [Vec<f64>; 6] {
 
 /// The states on the faces of the cell in the middle.
 fn middle_of(rows: &[Vec<f64>; 6], limiter: Limiter, options: TwoPhaseOptions, dt: f64) -> FaceStates {
-    let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+    let mixture = Mixture::water_and_air();
     let inverse_r = [0.0; 5 * STRIDE];
     let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
     let rule = CellRule {
