@@ -141,6 +141,18 @@ pub const fn column<'a>(name: &'a str, unit: &'a str, description: &'a str) -> C
     Column { name, unit, description, width: 1 }
 }
 
+/// Of histories with a row after each step.
+pub const TIME_AFTER_STEP: Column<'static> = column("time", "s", "time after the step");
+/// Of those with a row now and then.
+pub const TIME: Column<'static> = column("time", "s", "time");
+/// Of a side's whole domain.
+pub const MOMENTUM: Column<'static> = column("momentum_z", "N s/rad", "axial momentum in the domain");
+/// At a probe, along z and r.
+pub const PROBE_VELOCITY: [Column<'static>; 2] = [
+    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
+    column("velocity_r", "m/s", "radial velocity"),
+];
+
 /// The columns of what came in through each of the four sides, `NAME_in_SIDE`, in their order.
 ///
 /// - a description of z_min's, of z_max's, and of r_min's and r_max's but for the side.

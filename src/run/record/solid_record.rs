@@ -16,8 +16,8 @@ use crate::run::record::of_side::Record;
 use crate::run::record::side_files::{FilesState, SideFiles, SideNames};
 use crate::run::record::surface::surface_record::{SurfaceRecord, SurfaceState};
 use crate::run::record::{
-    CellCount, ProbeSeries, StepEnds, Ticker, column, entries, probe_series, restore_probes, saved_probes,
-    through_sides,
+    CellCount, MOMENTUM, PROBE_VELOCITY, ProbeSeries, StepEnds, TIME, TIME_AFTER_STEP, Ticker, column,
+    entries, probe_series, restore_probes, saved_probes, through_sides,
 };
 use crate::run::side::wall_faces::WallFaces;
 
@@ -145,7 +145,7 @@ impl SolidRecord {
         let steps = history.add_series("/solid", &columns(&STEP_COLUMNS, &plastic::STEP_COLUMNS, solver))?;
         let time = match &case.fluid {
             Some(_) => None,
-            None => Some(history.add_series("", &[column("time", "s", "time after the step")])?),
+            None => Some(history.add_series("", &[TIME_AFTER_STEP])?),
         };
         let through_sides = (0..4).flat_map(|side| THROUGH_SIDES.map(|quantity| quantity[side]));
         let always: Vec<Column<'_>> = CONSERVATION_COLUMNS.into_iter().chain(through_sides).collect();
@@ -305,16 +305,16 @@ impl Record for SolidRecord {
 }
 
 const STEP_COLUMNS: [Column<'static>; 4] = [
-    column("time", "s", "time after the step"),
+    TIME_AFTER_STEP,
     column("von_mises_max", "Pa", "largest von Mises stress in a cell"),
     Column { name: "von_mises_max_position", unit: "m", description: "centre (z, r) of that cell", width: 2 },
     column("yielded_volume", "m3", "volume in which the von Mises stress exceeds the yield strength"),
 ];
 
 const CONSERVATION_COLUMNS: [Column<'static>; 7] = [
-    column("time", "s", "time"),
+    TIME,
     column("mass", "kg/rad", "mass in the domain, constant (planar: kg/m)"),
-    column("momentum_z", "N s/rad", "axial momentum in the domain"),
+    MOMENTUM,
     column("energy", "J/rad", "kinetic and elastic energy in the domain"),
     column("kinetic_energy", "J/rad", "kinetic energy in the domain"),
     column("elastic_energy", "J/rad", "elastic energy in the domain"),
@@ -344,9 +344,9 @@ const THROUGH_SIDES: [[Column<'static>; 4]; 2] = [
 ];
 
 const PROBE_COLUMNS: [Column<'static>; 7] = [
-    column("time", "s", "time after the step"),
-    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
-    column("velocity_r", "m/s", "radial velocity"),
+    TIME_AFTER_STEP,
+    PROBE_VELOCITY[0],
+    PROBE_VELOCITY[1],
     column("stress_zz", "Pa", "axial stress; on the interface that of the star state"),
     column("stress_zr", "Pa", "shear stress"),
     column("stress_rr", "Pa", "radial stress"),

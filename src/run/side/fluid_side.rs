@@ -23,7 +23,7 @@ use crate::run::record::timed::Timed;
 use crate::run::schedule::Plan;
 use crate::run::setup::fluid_solver;
 use crate::run::side::cell_exchange::CellExchange;
-use crate::run::side::coupled_solver::{self};
+use crate::run::side::coupled_solver;
 use crate::run::side::{InRun, RunSide};
 
 pub mod saved;
@@ -240,18 +240,10 @@ impl FluidSide {
         let faces = answer.count as usize;
         let mut header = self.header(FrameKind::Register, faces, plan.dt);
         header.fields = RegisterRow::COUNT as u64;
-        let timed = Timed::new(&mut self.own.clock);
-        coupled_solver::short_steps(
-            &mut self.own.solver,
-            &mut self.own.meeting,
-            (plan.dt, self.own.star),
-            &self.own.rule,
-            |_, meeting| {
-                link.send(header, |payload| meeting.write_register(payload))?;
-                Ok(())
-            },
-            timed.recorded(&mut self.own.record, plan),
-        )
+        self.own.short_steps(plan, |_, meeting| {
+            link.send(header, |payload| meeting.write_register(payload))?;
+            Ok(())
+        })
     }
 
     /// Reads the solid's register frame in place.

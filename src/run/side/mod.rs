@@ -31,7 +31,7 @@ use crate::run::checkpoints::Keeper;
 use crate::run::memory::MemoryWatch;
 use crate::run::process::stop::Stop;
 use crate::run::record::of_side::Record;
-use crate::run::record::timed::Clock;
+use crate::run::record::timed::{Clock, Timed};
 use crate::run::schedule::{Plan, Progressed, Schedule};
 use crate::run::side::coupled_solver::{CoupledSolver, StepRule};
 use crate::run::side::fluid_side::Turn;
@@ -181,6 +181,17 @@ impl<R: Record<Solver: CoupledSolver>> InRun<R> {
             filled = start.elapsed();
         })?;
         Ok(filled)
+    }
+
+    /// Makes short steps within the other side's, of which the trace has been read; see [`coupled_solver::short_steps`].
+    fn short_steps(
+        &mut self,
+        plan: Plan,
+        answer: impl FnMut(&R::Solver, &Meeting) -> Result<(), RunError>,
+    ) -> Result<(), RunError> {
+        let Self { solver, record, rule, meeting, star, clock, .. } = self;
+        let after = Timed::new(clock).recorded(record, plan);
+        coupled_solver::short_steps(solver, meeting, (plan.dt, *star), rule, answer, after)
     }
 
     /// Whether it is time to keep a checkpoint.

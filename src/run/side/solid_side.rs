@@ -24,7 +24,7 @@ use crate::run::record::timed::Timed;
 use crate::run::schedule::Plan;
 use crate::run::setup::solid_and_displacement;
 use crate::run::side::InRun;
-use crate::run::side::coupled_solver::{self};
+use crate::run::side::coupled_solver;
 use crate::run::side::load::Load;
 use crate::run::wall::WallLeaver;
 
@@ -173,15 +173,7 @@ impl SolidSide {
             link.send(header, |payload| meeting.write_register(payload))?;
             Ok(())
         };
-        let timed = Timed::new(&mut self.own.clock);
-        coupled_solver::short_steps(
-            &mut self.own.solver,
-            &mut self.own.meeting,
-            (plan.dt, self.own.star),
-            &self.own.rule,
-            |_, meeting| if early { send(meeting, header) } else { Ok(()) },
-            timed.recorded(&mut self.own.record, plan),
-        )?;
+        self.own.short_steps(plan, |_, meeting| if early { send(meeting, header) } else { Ok(()) })?;
         self.adapt_if(adapts, plan.dt)?;
         if !early {
             let dt_max = self.own.rule.counted(&self.own.solver);

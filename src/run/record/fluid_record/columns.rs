@@ -1,7 +1,7 @@
 //! The columns of the fluid's histories.
 
 use crate::output::Column;
-use crate::run::record::column;
+use crate::run::record::{PROBE_VELOCITY, TIME_AFTER_STEP, column};
 
 /// Name, unit and description of what is recorded of each of several bubbles.
 pub(super) const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
@@ -13,7 +13,7 @@ pub(super) const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
 
 /// Every step.
 pub(super) const STEP_COLUMNS: [Column<'static>; 12] = [
-    column("time", "s", "time after the step"),
+    TIME_AFTER_STEP,
     column("time_step", "s", "length of the step"),
     column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
     column("bubble/equivalent_radius", "m", "radius of the ball of that volume"),
@@ -33,10 +33,10 @@ pub(super) const STEP_COLUMNS: [Column<'static>; 12] = [
 
 /// At a probe.
 pub(super) const PROBE_COLUMNS: [Column<'static>; 6] = [
-    column("time", "s", "time after the step"),
+    TIME_AFTER_STEP,
     column("pressure", "Pa", "pressure; on the interface that of the star state"),
     column("density", "kg/m3", "density"),
-    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
-    column("velocity_r", "m/s", "radial velocity"),
+    PROBE_VELOCITY[0],
+    PROBE_VELOCITY[1],
     column("gas_fraction", "1", "gas fraction"),
 ];

@@ -4,7 +4,7 @@ use fluid::FluidSolver;
 use mesh::BLOCK;
 
 use crate::output::Column;
-use crate::run::record::{column, through_sides};
+use crate::run::record::{MOMENTUM, TIME, column, through_sides};
 
 /// Its columns.
 pub fn columns() -> Vec<Column<'static>> {
@@ -37,9 +37,9 @@ pub fn row(solver: &FluidSolver<BLOCK>) -> Vec<f64> {
 }
 
 const TOTALS: [Column<'static>; 4] = [
-    column("time", "s", "time"),
+    TIME,
     column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
-    column("momentum_z", "N s/rad", "axial momentum in the domain"),
+    MOMENTUM,
     column("energy", "J/rad", "energy in the domain"),
 ];
 
