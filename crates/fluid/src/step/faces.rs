@@ -54,7 +54,7 @@ impl<const N: usize> TileStep<'_, N> {
             sound,
             gas_shares,
             with_gas: self.gas.is_present(),
-            dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
+            dispersion: ctx.model.dispersion(ctx.mesh.widths(self.id.level), ctx.dt, 0),
             along_faces: AlongFaces::new([V_Z, PRESSURE].map(|c| s_r.component(c)), stride),
         };
         let z_range = frame.index(-1, 0)..frame.index(last, last) + 1;
@@ -77,7 +77,7 @@ impl<const N: usize> TileStep<'_, N> {
         let along_r = Reconstruction {
             half: [rho, v_r, v_z, p, phi],
             differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
-            dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 1),
+            dispersion: ctx.model.dispersion(ctx.mesh.widths(self.id.level), ctx.dt, 1),
             along_faces: AlongFaces::new([V_R, PRESSURE].map(|c| s_z.component(c)), 1),
             ..along_z
         };
