@@ -10,12 +10,11 @@ mod listed;
 
 use std::ops::Range;
 
-use mesh::whole_lines;
+use mesh::{exp_and_less_one, ln_of, whole_lines};
 
 use crate::Mixture;
 use crate::reconstruction::Reconstruction;
 use crate::reconstruction::states_at_face;
-use crate::riemann::elementary::{exp_and_less_one, ln_of};
 use crate::riemann::godunov::flux_exact;
 use crate::step::face_rows::FaceRows;
 
