@@ -1,13 +1,15 @@
 //! What the solid is to the block solver.
 
 use mesh::{
-    Adapted, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, ScratchPool, Side, StageTimer,
+    Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
+    ScratchPool, Side, StageTimer,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::absorbing::SideFilters;
 use crate::components::admissible::Admissible;
+use crate::components::following::{Following, SavedFollowing};
 use crate::physics::{Solid, SolidStep};
 use crate::step::plastic::{measure_flow, return_block};
 use crate::step::reflux::{self, QUANTITIES};
@@ -21,6 +23,7 @@ pub struct SolidMemory {
     sides: [SideFilters; 4],
     ledger: BoundaryLedger,
     plastic: PlasticLedger,
+    following: Option<SavedFollowing>,
 }
 
 impl<const N: usize> Model<N> for Solid {
@@ -116,23 +119,54 @@ impl<const N: usize> Model<N> for Solid {
         let Some(plasticity) = &self.plasticity else {
             return adapted.remap_into(mesh, field, &self.analysis, patches, new);
         };
+        if let Some(following) = &mut self.following {
+            following.remap(adapted, mesh, &self.analysis);
+        }
         adapted.remap_into(mesh, field, &Admissible { analysis: &self.analysis, plasticity }, patches, new);
         for slot in adapted.fresh() {
             let mut report = PlasticReport::default();
             let id = adapted.mesh.tree().leaves()[slot];
             report.corrected =
-                return_block(plasticity, &adapted.mesh, id, new.block_mut(slot), 0.0, &mut report);
+                return_block(plasticity, &adapted.mesh, id, new.block_mut(slot), None, &mut report);
             self.plastic.take(&report);
         }
     }
 
-    fn memory(&self) -> SolidMemory {
-        SolidMemory { sides: self.sides.kept().clone(), ledger: self.ledger, plastic: self.plastic }
+    fn reports_changed(&mut self, reports: &Reports<BlockReport>) {
+        if self.plasticity.is_some() {
+            self.untouched.take(reports);
+        }
     }
 
-    fn restore(&mut self, SolidMemory { sides, ledger, plastic }: SolidMemory) -> Result<(), Misfit> {
+    fn mesh_changed(&mut self, mesh: &Mesh<N>) {
+        self.untouched.mesh_changed(mesh.blocks());
+    }
+
+    fn whole_step_ended(solver: &mut BlockSolver<Self, N>) {
+        let Some(mut following) = solver.model_mut().following.take() else { return };
+        following.look(solver.time(), solver.steps(), solver.state());
+        solver.model_mut().following = Some(following);
+    }
+
+    fn memory(&self) -> SolidMemory {
+        let following = self.following.as_ref().map(Following::saved);
+        SolidMemory {
+            sides: self.sides.kept().clone(),
+            ledger: self.ledger,
+            plastic: self.plastic,
+            following,
+        }
+    }
+
+    fn restore(&mut self, memory: SolidMemory) -> Result<(), Misfit> {
+        let SolidMemory { sides, ledger, plastic, following } = memory;
         if !self.sides.restore(sides) {
             return Err(Misfit("what absorbing sides remember is not of the solid's sides".to_owned()));
+        }
+        match (&mut self.following, following) {
+            (Some(own), Some(saved)) => own.restore(saved, self.untouched.blocks())?,
+            (None, None) => {}
+            _ => return Err(Misfit("only one of both can yield".to_owned())),
         }
         (self.ledger, self.plastic) = (ledger, plastic);
         Ok(())

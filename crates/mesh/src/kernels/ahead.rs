@@ -22,8 +22,8 @@ impl<const N: usize> Mesh<N> {
     /// In the order of the slots a block's own cells have been read by its lower neighbours, as ghosts. What nobody has
     /// read yet is the block beyond the upper side along z.
     ///
-    /// - `target`: where the block in `slot` will be written; `part` of `parts`: not all at once, since only so many
-    ///   lines can be under way.
+    /// - `target`: where the block in `slot` will be written, as far as it will: of the next one as much is asked for. `part` of `parts`:
+    ///   not all at once, since only so many lines can be under way.
     pub fn look_ahead(&self, field: &Field, slot: usize, target: &[f64], part: usize, parts: usize) {
         debug_assert!(part < parts, "part {part} of {parts}");
         debug_assert_eq!(Offset::ALL[Side::ZMax as usize], Offset { i: 1, j: 0 });
@@ -36,7 +36,7 @@ impl<const N: usize> Mesh<N> {
             && let Neighbour::Same(other) = self.tree().neighbours(next)[Side::ZMax as usize]
             && other > next
         {
-            fetch(field.block(other), part, parts);
+            fetch(&field.block(other)[..target.len()], part, parts);
         }
     }
 

@@ -9,6 +9,7 @@ mod error;
 mod flow;
 mod hardening;
 mod johnson_cook;
+mod lanes;
 mod library;
 mod rate;
 mod return_map;
