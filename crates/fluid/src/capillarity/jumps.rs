@@ -28,12 +28,38 @@ fn share_beside(FaceState { w, gas_share }: &FaceState, mixture: &Mixture) -> f6
     share_of_jump(w[PHI], w[RHO], w[RHO] * gas_share, mixture)
 }
 
+/// The tension beside a face.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Tension {
+    /// J = σκ of the cells below and above, Pa; both 0 where there is no interface.
+    pub of_cells: [f64; 2],
+    /// The gas fraction between them at which J passes from the one to the other.
+    pub passes_at: f64,
+}
+
+impl Tension {
+    /// What the pressure rises by from the cell below to the one above where the liquid's is the same, and the force of tension, σκ∇φ,
+    /// is all there is:
+    ///
+    /// [(ψ − φ) J] + ∫ J dφ = J_above (ψ_above − φ) − J_below (ψ_below − φ) with φ = `passes_at`.
+    ///
+    /// The mixture's mean pressure is p_l + φJ, while the one that its energy has is p_l + ψJ, see [`share_of_jump`]. Where J does not
+    /// change this is J(ψ_above − ψ_below). Where it does, cells that liquid and gas share would follow the gas's pressure without
+    /// the first term, though most of their mass is liquid.
+    ///
+    /// - `shares`: ψ below and above. returns: Pa.
+    #[inline(always)]
+    pub fn rise(&self, [below, above]: [f64; 2]) -> f64 {
+        let [j_below, j_above] = self.of_cells;
+        j_above * (above - self.passes_at) - j_below * (below - self.passes_at)
+    }
+}
+
 /// The faces of a padded block along one axis, indexed by the cell below them.
 #[derive(Clone, Copy)]
 pub(crate) struct FaceJumps<'a> {
-    /// J = σκ on the faces, Pa; 0 where there is no interface.
-    pub tension: &'a [f64],
-    /// J(ψ_above − ψ_below), Pa.
+    pub tension: &'a [Tension],
+    /// [`Tension::rise`] between the cells, Pa.
     pub jump: &'a [f64],
     /// ψ of the cells.
     pub share: &'a [f64],
@@ -54,14 +80,15 @@ impl FaceJumps<'_> {
     /// Whether the face above cell `k` carries a jump.
     #[inline(always)]
     pub fn has(&self, k: usize) -> bool {
-        self.tension[k] != 0.0
+        self.tension[k].of_cells != [0.0; 2]
     }
 
     fn gauge(&self, k: usize, [lower, upper]: &[FaceState; 2], mixture: &Mixture) -> Gauge {
         let [below, above] = [lower, upper].map(|side| share_beside(side, mixture));
-        let across = self.tension[k] * (above - below);
-        let own =
-            [below - self.share[k], above - self.share[k + self.step]].map(|part| self.tension[k] * part);
+        let tension = &self.tension[k];
+        let across = tension.rise([below, above]);
+        let [j_below, j_above] = tension.of_cells;
+        let own = [j_below * (below - self.share[k]), j_above * (above - self.share[k + self.step])];
         // The side of more gas keeps its pressure: to the liquid's stiffness the jump is nothing.
         let shifts = if below >= above { [own[0], own[1] - across] } else { [own[0] + across, own[1]] };
         Gauge { shifts, own }

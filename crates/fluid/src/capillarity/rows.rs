@@ -3,11 +3,13 @@
 use mesh::{Field, GHOSTS, Mesh, Padded, Side};
 
 use super::initial::curvature_at;
-use super::jumps::{FaceJumps, share_of_jump};
+use super::jumps::{FaceJumps, Tension, share_of_jump};
 use super::patch::WidePatch;
 use crate::reconstruction::Rows;
+use crate::state::finished::{FinishedCell, measure_cell};
+use crate::state::{ConservedCell, primitive_of};
 use crate::step::update::Metric;
-use crate::two_phase::is_compliant;
+use crate::two_phase::{Compression, is_compliant, is_mixed, phase_densities};
 use crate::{Boundary, Mixture};
 
 /// A block whose interfaces have a tension.
@@ -24,6 +26,8 @@ pub(crate) struct Interfaces<'a, const N: usize> {
     pub tension: f64,
     /// Whether only cells with face states of their own have interfaces, as in the five-equation model.
     pub has_phases: bool,
+    /// Whether the gas fraction follows the closure of the phases' compression.
+    pub has_closure: bool,
 }
 
 /// Gas fractions of two cells that differ by less have no interface between them.
@@ -38,9 +42,13 @@ pub(crate) struct CapillaryRows {
     patch: WidePatch,
     /// ψ of the cells.
     share: Vec<f64>,
-    /// J and J Δψ on the faces along z and r, Pa.
-    tension: [Vec<f64>; 2],
+    /// J beside the faces along z and r, and what the pressure rises by across them, Pa.
+    tension: [Vec<Tension>; 2],
     jump: [Vec<f64>; 2],
+    /// J of the cells, Pa: the largest beside their faces.
+    own: Vec<f64>,
+    /// What tension takes from a cell's energy per unit of its dilatation, Pa, see [`CapillaryRows::for_gains`].
+    stretched: Vec<f64>,
     /// Cells of the block and of the first layer around it that have a face with a jump.
     cells: Vec<usize>,
     is_present: bool,
@@ -67,7 +75,7 @@ impl CapillaryRows {
         })
     }
 
-    /// J Δψ on the faces along z and r; `None` where there is none.
+    /// What the pressure rises by on the faces along z and r, Pa; `None` where there is none.
     pub fn jumps(&self) -> Option<[&[f64]; 2]> {
         self.is_present.then(|| [&self.jump[0][..], &self.jump[1][..]])
     }
@@ -77,10 +85,25 @@ impl CapillaryRows {
         &self.cells
     }
 
+    /// A cell below the pressure floor, if its gas is not in tension: that is at p + (1 − ψ)J, where the cell has p, see
+    /// [`share_of_jump`]. Around a bubble whose gas has less than σκ the liquid is in tension.
+    ///
+    /// - `k`: its padded index; `u`, `gas`: the cell and its m_g after the step.
+    pub fn borne(&self, k: usize, u: ConservedCell, gas: f64, mixture: &Mixture) -> Option<FinishedCell> {
+        let own = if self.is_present { self.own[k] } else { 0.0 };
+        if own <= 0.0 {
+            return None;
+        }
+        let [rho, _, _, pressure, phi] = primitive_of::<true>(u, gas, mixture);
+        let of_gas = pressure + (1.0 - share_of_jump(phi, rho, gas, mixture)) * own;
+        let cell = (of_gas >= mixture.pressure_floor(1.0)).then(|| measure_cell(u, gas, mixture));
+        cell.filter(FinishedCell::is_admissible)
+    }
+
     /// Finds the jumps of a block.
     ///
-    /// On a face J = σκ with the mean of both cells' curvatures, weighted by φ(1 − φ): what lies far from the middle of the interface
-    /// knows less of it.
+    /// J = σκ passes from one cell's to the other's where their mean weighted by φ(1 − φ) is that of the face: what lies far from the
+    /// middle of the interface knows less of it. A cell without a height function has the other's.
     ///
     /// - `cells`: the padded cells, primitive; `gas_shares`: the gas's part of their mass.
     pub fn find<const N: usize>(&mut self, block: &Interfaces<'_, N>, cells: Rows<'_>, gas_shares: &[f64]) {
@@ -102,7 +125,13 @@ impl CapillaryRows {
         }
         self.is_present = true;
         let len = Padded::<N>::LEN;
-        for row in self.tension.iter_mut().chain(&mut self.jump) {
+        for (tension, jump) in self.tension.iter_mut().zip(&mut self.jump) {
+            tension.clear();
+            tension.resize(len, Tension::default());
+            jump.clear();
+            jump.resize(len, 0.0);
+        }
+        for row in [&mut self.own, &mut self.stretched] {
             row.clear();
             row.resize(len, 0.0);
         }
@@ -123,17 +152,26 @@ impl CapillaryRows {
                 });
                 *own
             });
-            let weight = below[1] + above[1];
-            let kappa = if weight > 0.0 {
-                (below[0] * below[1] + above[0] * above[1]) / weight
-            } else {
-                0.5 * (below[0] + above[0])
-            };
+            let tension = between([below, above], [phi[k], phi[k + step]], block.tension);
             let axis = usize::from(step != 1);
-            self.tension[axis][k] = block.tension * kappa;
-            self.jump[axis][k] = block.tension * kappa * (self.share[k + step] - self.share[k]);
+            self.tension[axis][k] = tension;
+            for (cell, own) in [k, k + step].into_iter().zip(tension.of_cells) {
+                if own.abs() > self.own[cell].abs() {
+                    self.own[cell] = own;
+                }
+            }
+            self.jump[axis][k] = tension.rise([self.share[k], self.share[k + step]]);
         }
         self.list_cells::<N>();
+        if !block.has_closure {
+            return;
+        }
+        for &k in &self.cells {
+            let of_gas = (1.0 - self.share[k]) * self.own[k];
+            let densities = phase_densities(density[k], gas_shares[k], phi[k], block.mixture);
+            let closure = Compression::at(pressure[k] + of_gas, phi[k], densities, block.mixture, true);
+            self.stretched[k] = if is_mixed(phi[k]) { of_gas * closure.expansion(phi[k]) } else { 0.0 };
+        }
     }
 
     fn list_cells<const N: usize>(&mut self) {
@@ -152,6 +190,9 @@ impl CapillaryRows {
 
     /// What the axial and radial momentum and the energy of cells gain in a step per volume: half of the jump on each of their faces,
     /// and that times the face's velocity, see [`FaceJumps::settle`].
+    ///
+    /// The work of tension is −J ∂φ/∂t: J v·∇φ, and −J times what φ grows by where the gas of a mixed cell expands. So gas does the work of its
+    /// own pressure, p + (1 − ψ)J, not that of the cell's.
     ///
     /// - `n`: cells along the block's side; `velocities`: normal to the faces along z and r; `gain`: gets j N + i and the gains.
     pub fn for_gains(
@@ -173,11 +214,29 @@ impl CapillaryRows {
                 let [north, south] = [k, below].map(|face| 0.5 * self.jump[1][face]);
                 let work = row.axial(z_velocity[k] * east, -(z_velocity[k - 1] * west))
                     + row.radial(r_velocity[k] * north, -(r_velocity[below] * south));
+                let dilatation = row.axial(z_velocity[k], z_velocity[k - 1])
+                    + row.radial(r_velocity[k], r_velocity[below]);
+                let work = work - self.stretched[k] * dilatation;
                 // As the pressure's, the radial force has no weights.
                 let radial = metric.dt * metric.inverse_h[1] * (north + south);
                 gain(j * n + i, [row.axial(east, -west), radial, work]);
             }
         }
+    }
+}
+
+/// The tension beside a face.
+///
+/// - `cells`: κ and its weight, below and above; `phi`: the gas fractions there; `sigma`: N/m.
+fn between([below, above]: [[f64; 2]; 2], phi: [f64; 2], sigma: f64) -> Tension {
+    let weight = below[1] + above[1];
+    let part = if weight > 0.0 { below[1] / weight } else { 0.5 };
+    let mean = part * below[0] + (1.0 - part) * above[0];
+    let both_have_heights = below[1] > 0.0 && above[1] > 0.0;
+    let curvatures = if both_have_heights { [below[0], above[0]] } else { [mean; 2] };
+    Tension {
+        of_cells: curvatures.map(|kappa| sigma * kappa),
+        passes_at: (1.0 - part) * phi[0] + part * phi[1],
     }
 }
 

@@ -25,6 +25,7 @@ pub(super) fn find_jumps<const N: usize>(
         mixture: &ctx.model.mixture,
         tension,
         has_phases: ctx.model.analysis.has_phases,
+        has_closure: ctx.model.scheme.phases.has_closure(),
     };
     capillary.find(&block, cells.split(), gas_shares);
 }

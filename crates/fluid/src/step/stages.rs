@@ -262,6 +262,7 @@ impl<'a, const N: usize> TileStep<'a, N> {
             inverse_r,
             with_sources,
             carried,
+            capillary,
             ..
         } = scratch;
         let metric = self.metric_of(number, face_weight, inverse_weight);
@@ -279,8 +280,8 @@ impl<'a, const N: usize> TileStep<'a, N> {
             NewCells { conserved: split_block::<N>(state), speeds: speeds.each_mut().map(|row| &mut **row) };
         update::<N>(old_rows, faces, &metric, (self.gas.is_present(), gas_after), &ctx.model.mixture, rows);
         if let Some(block) = self.gas.phases() {
-            let before =
-                Before { number, old, pressure: cells.component(PRESSURE), inverse_r, metric: &metric };
+            let pressure = cells.component(PRESSURE);
+            let before = Before { number, old, pressure, inverse_r, metric: &metric, capillary };
             block.update(gas, before, faces, new, speeds, report);
         } else if self.gas.is_present() {
             let (is_left, removed) = remove_traces(&mut new[PHI * N * N..(PHI + 1) * N * N]);

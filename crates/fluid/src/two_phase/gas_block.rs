@@ -9,7 +9,7 @@ use super::phase_model::PhaseModel;
 use super::reconstruction::CellRule;
 use super::scratch::GasScratch;
 use super::update::{OldCells, bound_gas, gas_fluxes, gas_shares, is_zero, update_gas, update_mixed};
-use crate::capillarity::FaceJumps;
+use crate::capillarity::{CapillaryRows, FaceJumps};
 use crate::options::TwoPhaseOptions;
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
@@ -97,6 +97,7 @@ pub(crate) struct GasBlock<'a, const N: usize> {
 }
 
 /// A block at the beginning of a step, and its geometry.
+#[derive(Clone, Copy)]
 pub(crate) struct Before<'a> {
     /// Of the block in the tile.
     pub number: usize,
@@ -107,6 +108,7 @@ pub(crate) struct Before<'a> {
     /// See `pressure`.
     pub inverse_r: &'a [f64],
     pub metric: &'a Metric<'a>,
+    pub capillary: &'a CapillaryRows,
 }
 
 impl<'a, const N: usize> GasBlock<'a, N> {
@@ -220,7 +222,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         speeds: [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
-        let Before { number, old, pressure, inverse_r, metric } = before;
+        let Before { number, old, pressure, inverse_r, metric, .. } = before;
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
@@ -230,7 +232,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
         if self.options.has_closure {
-            self.expand(pressure, metric, [row(PHI), old_gas], new_gas, &mut cells, report);
+            self.expand(before, [row(PHI), old_gas], new_gas, &mut cells, report);
         }
         let [density, _, _, _, phi] = cells.conserved;
         let bounded = bound_gas(phi, density, new_gas);
@@ -250,11 +252,12 @@ impl<'a, const N: usize> GasBlock<'a, N> {
 
     /// Lets the gas of mixed cells expand that the floor would have to lift; these, too, are done again at first order first.
     ///
-    /// - `pressure`: of the padded cells before the step; `before`: φ and m_g then; `gas`: m_g after it.
+    /// Cells whose gas is not in tension, but whose liquid is, by surface tension, stay as they are.
+    ///
+    /// - `before`: φ and m_g before the step; `gas`: m_g after it.
     fn expand(
         &self,
-        pressure: &[f64],
-        metric: &Metric<'_>,
+        Before { pressure, metric, capillary, .. }: Before<'_>,
         before: [&[f64]; 2],
         gas: &[f64],
         cells: &mut NewCells<'_>,
@@ -271,17 +274,21 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             }
             u[ENERGY] -= added;
             let k = metric.origin + cell / N * metric.stride + cell % N;
+            let mixture = &self.ctx.model.mixture;
+            let borne = capillary.borne(k, u, gas[cell], mixture);
             let [phi, mass] = before.map(|row| row[cell]);
             let old = Gas { pressure: pressure[k], phi, mass };
-            let Some(after) = expanded(u, gas[cell], old, &self.ctx.model.mixture) else { continue };
+            let Some(after) = borne.or_else(|| expanded(u, gas[cell], old, mixture)) else { continue };
             for (row, value) in cells.conserved.iter_mut().zip(after.conserved) {
                 row[cell] = value;
             }
             for (row, value) in cells.speeds.iter_mut().zip([after.speed_z, after.speed_r, after.floor]) {
                 row[cell] = value;
             }
-            report.marked.insert(cell);
-            report.clips.expanded_cells += 1;
+            if borne.is_none() {
+                report.marked.insert(cell);
+                report.clips.expanded_cells += 1;
+            }
         }
     }
 

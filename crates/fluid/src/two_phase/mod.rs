@@ -22,7 +22,7 @@ mod update;
 mod windows;
 
 pub(crate) use cells::{Cells, FaceState};
-pub(crate) use closure::{is_compliant, is_mixed};
+pub(crate) use closure::{Compression, is_compliant, is_mixed, phase_densities};
 pub(crate) use face_states::FaceStates;
 pub(crate) use gas_block::{Before, BlockGas, may_have_gas};
 pub(crate) use phase_model::PhaseModel;

@@ -41,6 +41,11 @@ impl PhaseModel {
         }
     }
 
+    /// Whether the gas fraction follows the closure of the phases' compression.
+    pub fn has_closure(self) -> bool {
+        matches!(self, Self::FiveEquation(TwoPhaseOptions { has_closure: true, .. }))
+    }
+
     /// The component that holds the gas's mass.
     pub fn gas_component(self) -> Option<usize> {
         match self {

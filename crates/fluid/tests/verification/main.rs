@@ -22,6 +22,7 @@ mod ledgers;
 mod low_mach;
 mod near_wall;
 mod orders;
+mod oscillations;
 mod phase_change;
 mod random_trees;
 mod rayleigh_start;

@@ -1,4 +1,4 @@
-//! Surface tension: Laplace's jump, spurious currents, oscillations, ledgers.
+//! Surface tension: Laplace's jump, spurious currents, ledgers.
 
 use fluid::{
     Boundary, FluidError, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Phase, PhaseState,
@@ -7,13 +7,14 @@ use fluid::{
 use mesh::{Adaptation, Domain, Geometry};
 
 use crate::helpers::*;
+use crate::oscillations::set_moving;
 
 /// σ = ρ_l U² R with U = 1 m/s, R = 1 m and ρ_l = 1000 kg/m³.
-const TENSION: f64 = 1000.0;
+pub const TENSION: f64 = 1000.0;
 /// So soft that sound is thirty times as fast as capillary waves, not five thousand times.
 const SOFT: StiffenedGas = StiffenedGas { gamma: 4.4, pi: 2e5 };
 const GAS_PRESSURE: f64 = 1e4;
-const GAS_DENSITY: f64 = 10.0;
+pub const GAS_DENSITY: f64 = 10.0;
 
 fn state(phase: Phase, density: f64, pressure: f64) -> PhaseState {
     PhaseState { phase, density, pressure, velocity: [0.0; 2] }
@@ -22,7 +23,7 @@ fn state(phase: Phase, density: f64, pressure: f64) -> PhaseState {
 /// A ball of radius 1 m of one phase in the other, in a box of walls.
 ///
 /// - `cells`: per radius; `half`: half the length of the box, m; `centre`: of the ball, from that of the box or its axis.
-fn ball(
+pub fn ball(
     kind: Kind,
     geometry: Geometry,
     inside: Phase,
@@ -103,81 +104,6 @@ fn study_of_balls_at_rest() {
     }
 }
 
-/// Gives a ball the flow of Lamb's mode n = 2: potentials ½ A (z² − ½ r²) within and ∝ P₂/s³ outside, with one normal velocity on it.
-fn set_moving(fluid: &mut FluidSolver<8>, rate: f64) {
-    for slot in 0..fluid.mesh().blocks() {
-        let id = fluid.mesh().tree().leaves()[slot];
-        for cell in 0..64 {
-            let [z, r] = fluid.mesh().centre(id, cell % 8, cell / 8);
-            let s = z.hypot(r);
-            let v = if s < 1.0 {
-                [rate * z, -0.5 * rate * r]
-            } else {
-                // −(A/3) ∇(P₂/s³), with P₂ = (3z² − s²)/(2s²).
-                let (p2, per) = ((3.0 * z * z - s * s) / (2.0 * s * s), -rate / 3.0 / s.powi(5));
-                [per * (3.0 * z - z - 5.0 * z * p2), per * (-r - 5.0 * r * p2)]
-            };
-            let block = fluid.state_mut().block_mut(slot);
-            let rho = block[cell];
-            block[64 + cell] = rho * v[0];
-            block[128 + cell] = rho * v[1];
-            block[192 + cell] += 0.5 * rho * (v[0] * v[0] + v[1] * v[1]);
-        }
-    }
-}
-
-/// ∫φ (z² − ½r²) r dr dz.
-fn second_moment(fluid: &FluidSolver<8>) -> f64 {
-    let [h_z, h_r] = fluid.mesh().widths(fluid.mesh().tree().finest());
-    let mut sum = 0.0;
-    each_cell(fluid, |[z, r], _, w| sum += w.phi * (z * z - 0.5 * r * r) * r * h_z * h_r);
-    sum
-}
-
-/// The frequency of mode 2 over Lamb's, from the first two times at which a ball is round again.
-///
-/// - `height`: of the oscillation, as a share of the radius; `cells`, `half`: see [`ball`].
-fn frequency(kind: Kind, inside: Phase, (cells, half): (usize, f64), height: f64) -> f64 {
-    let stiff = StiffenedGas { gamma: 4.4, pi: 4e5 };
-    let mut fluid = ball(kind, AXIAL, inside, (cells, half), [0.0; 2], |setup| setup.liquid = stiff.into());
-    let densities = if inside == Phase::Gas { [GAS_DENSITY, 1000.0] } else { [1000.0, GAS_DENSITY] };
-    let lamb = (24.0 * TENSION / (3.0 * densities[0] + 2.0 * densities[1])).sqrt();
-    set_moving(&mut fluid, height * lamb);
-    let start = second_moment(&fluid);
-    let (mut last, mut crossings) = ([0.0; 2], vec![]);
-    loop {
-        advance(&mut fluid);
-        let moved = second_moment(&fluid) - start;
-        if moved * last[1] < 0.0 {
-            let [time, before] = last;
-            crossings.push(time + (fluid.time() - time) * before / (before - moved));
-        }
-        if let [.., first, second] = crossings[..] {
-            return std::f64::consts::PI / (second - first) / lamb;
-        }
-        assert!(fluid.time() * lamb < 10.0, "it comes back: {crossings:?}");
-        last = [fluid.time(), moved];
-    }
-}
-
-fn advance(fluid: &mut FluidSolver<8>) {
-    fluid.step_at(CFL).unwrap();
-}
-
-#[test]
-#[ignore = "a study of minutes: docs/theory/surface-tension.md has its numbers"]
-fn study_of_oscillations() {
-    for (name, kind) in [("sharp", SHARP), ("mixture", MIXTURE)] {
-        for inside in [Phase::Liquid, Phase::Gas] {
-            for (cells, height) in [(10, 0.1), (20, 0.03), (20, 0.1)] {
-                let half = if inside == Phase::Gas { 4.0 } else { 2.4 };
-                let found = frequency(kind, inside, (cells, half), height);
-                eprintln!("{name} {inside:?} {cells} {height}: {found:.5} of Lamb's");
-            }
-        }
-    }
-}
-
 #[test]
 fn balls_at_rest_have_laplaces_jump() {
     for kind in KINDS {
@@ -206,7 +132,7 @@ fn the_ledger_has_the_work_and_the_impulse_of_tension() {
             setup.levels = 1;
             setup.adaptation = Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above: 0 });
         });
-        set_moving(&mut fluid, 0.5);
+        set_moving(&mut fluid, Phase::Gas, 0.5);
         let (start, gas) = (fluid.totals(), fluid.bubble().gas_mass);
         for _ in 0..40 {
             let (dt, steps) = step_locally(&mut fluid);
@@ -265,4 +191,39 @@ fn an_interface_at_a_wall_is_refused_without_an_angle() {
     assert!(matches!(refused, FluidError::Contact { .. }), "{refused}");
     assert!(refused.to_string().contains("fluid.terms.contact_angle = 90"), "{refused}");
     assert!(at(true).is_ok());
+}
+
+/// The gas of a bubble of 10 µm in water has 1 kPa, its jump 14.6 kPa: the liquid is at −13.6 kPa, and mixed cells are in between.
+#[test]
+fn liquid_in_tension_around_a_small_bubble_stays_at_rest() {
+    let (radius, sigma, gas_pressure) = (1e-5, 0.0728, 1e3);
+    let length = 3.0 * radius;
+    let domain = Domain { geometry: AXIAL, z: [-length, length], r: [0.0, length] };
+    let tension = SurfaceTension { coefficient: sigma, density: 1000.0, may_touch_walls: false };
+    let setup = FluidSetup {
+        surface_tension: Some(tension),
+        scales: Scales { pressure: 1e5, density: 1e3 },
+        ..FluidSetup::new(domain, [96, 48], CYLINDER)
+    };
+    let initial = InitialCondition {
+        ambient: state(Phase::Liquid, 1000.0, gas_pressure - 2.0 * sigma / radius),
+        pressure: InitialPressure::Uniform,
+        regions: vec![Region {
+            shape: Shape::Sphere { centre: [0.3 * length / 48.0, 0.0], radius },
+            state: state(Phase::Gas, 0.012, gas_pressure),
+        }],
+        pulses: vec![],
+    };
+    let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
+    for _ in 0..200 {
+        fluid.step_at(CFL).unwrap();
+    }
+    let (fastest, gas, liquid) = at_rest(&fluid);
+    let jump = (gas - liquid) * radius / (2.0 * sigma);
+    let speed = (sigma / (1000.0 * radius)).sqrt();
+    eprintln!("{:.1e} of the capillary speed, jump {jump:.5}", fastest / speed);
+    assert!(liquid < 0.0 && (jump - 1.0).abs() < 5e-3, "{gas} {liquid}");
+    assert!(fastest < 5e-4 * speed, "{fastest}");
+    let fixups = fluid.fixups();
+    assert!(fixups.clips.expanded_cells == 0 && fixups.floored == 0, "{fixups:?}");
 }
