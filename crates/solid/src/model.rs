@@ -133,9 +133,12 @@ impl<const N: usize> Model<N> for Solid {
     }
 
     fn reports_changed(&mut self, reports: &Reports<BlockReport>) {
-        if self.plasticity.is_some() {
-            self.untouched.take(reports);
-        }
+        let Some(plasticity) = &self.plasticity else { return };
+        let cold = plasticity.reference();
+        let yielded = |report: &BlockReport| report.plastic.strain > 0.0 || report.plastic.temperature > cold;
+        let Reports { finished, pending, .. } = reports;
+        let of_slot = |(slot, report)| yielded(report) || pending.get(slot).is_some_and(yielded);
+        self.untouched.take(finished.iter().enumerate().map(of_slot));
     }
 
     fn mesh_changed(&mut self, mesh: &Mesh<N>) {

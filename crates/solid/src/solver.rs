@@ -61,7 +61,8 @@ impl<const N: usize> SolidSolver<N> {
     /// A solid at rest in the cells of an earlier one, with the stress, plastic strain, temperature and displacement that it had.
     ///
     /// - `leaves`, `cells`, `displacement`: of a solid of the same domain and coarsest cells, in their order, see
-    ///   [`SolidSolver::displacements`]. A temperature that it has not is that of what never yielded. `change`: added to the stresses at a cell's centre (z, r); its velocities are not looked at.
+    ///   [`SolidSolver::displacements`]. A temperature that it has not is that of what never yielded. `change`: added to the stresses at
+    ///   a cell's centre (z, r); its velocities are not looked at.
     /// - errors: [`SolidError::Mesh`] where the leaves are not those of such a domain, [`SolidError::NotFinite`].
     pub fn at_rest_with(
         setup: SolidSetup,
@@ -98,13 +99,12 @@ impl<const N: usize> SolidSolver<N> {
         let count = state.components();
         let displacement = displacement.unwrap_or_else(|| Field::zeros(mesh.blocks(), N * N, 2));
         let following = plasticity.as_ref().map(|_| Following::new(displacement, N * N));
-        let cold = plasticity.as_ref().map_or(0.0, Plasticity::reference);
         let solid = Solid {
             elasticity: Elasticity::new(setup.speeds),
             plasticity,
             components,
             following,
-            untouched: Untouched::new(cold),
+            untouched: Untouched::default(),
             terms: Terms::of(&setup),
             boundaries: Boundaries::new(kinds, beyond),
             sides: SideMemory::new(&mesh, kinds),

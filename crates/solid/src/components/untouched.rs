@@ -3,10 +3,6 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use mesh::Reports;
-
-use crate::step::report::BlockReport;
-
 /// Buffers that a block's new state may be written to: two that take turns, and that of levels with steps of their own.
 const BUFFERS: usize = 3;
 
@@ -14,8 +10,6 @@ const BUFFERS: usize = 3;
 #[derive(Debug, Default)]
 pub(crate) struct Untouched {
     blocks: Vec<Block>,
-    /// The temperature of what never yielded, K.
-    temperature: f64,
 }
 
 #[derive(Debug)]
@@ -32,11 +26,6 @@ impl Block {
 }
 
 impl Untouched {
-    /// - `temperature`: of what never yielded, K; 0 of laws without heat.
-    pub fn new(temperature: f64) -> Self {
-        Self { blocks: Vec::new(), temperature }
-    }
-
     /// Of so many blocks whose memory is not what it was.
     pub fn mesh_changed(&mut self, blocks: usize) {
         if self.blocks.len() != blocks {
@@ -50,17 +39,14 @@ impl Untouched {
         self.blocks.len()
     }
 
-    /// Takes what the blocks have told.
-    pub fn take(&mut self, reports: &Reports<BlockReport>) {
-        if self.blocks.len() != reports.finished.len() {
-            self.blocks = reports.finished.iter().map(|_| Block::unknown()).collect();
+    /// Takes what the blocks have told: whether each has yielded by now, or may have by the end of a step that is under way.
+    pub fn take(&mut self, yielded: impl ExactSizeIterator<Item = bool>) {
+        if self.blocks.len() != yielded.len() {
+            self.mesh_changed(yielded.len());
         }
-        let temperature = self.temperature;
-        let yielded =
-            |report: &BlockReport| report.plastic.strain > 0.0 || report.plastic.temperature > temperature;
-        for (slot, (block, finished)) in self.blocks.iter_mut().zip(&reports.finished).enumerate() {
-            block.has_yielded = yielded(finished) || reports.pending.get(slot).is_some_and(yielded);
-            if block.has_yielded {
+        for (block, has_yielded) in self.blocks.iter_mut().zip(yielded) {
+            block.has_yielded = has_yielded;
+            if has_yielded {
                 block.written = Default::default();
             }
         }
