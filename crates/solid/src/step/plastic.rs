@@ -126,8 +126,7 @@ fn totals<const N: usize>(
 
 /// Takes the largest plastic strain and the highest temperature of a block's cells into its report.
 pub(crate) fn measure_flow<const N: usize>(block: &[f64], report: &mut PlasticReport) {
-    let largest =
-        |component: usize| block.chunks_exact(N * N).nth(component).map_or(0.0, |cells| maximum(cells));
+    let largest = |component: usize| block.chunks_exact(N * N).nth(component).map_or(0.0, maximum);
     report.strain = largest(PLASTIC_STRAIN);
     report.temperature = largest(TEMPERATURE);
 }
