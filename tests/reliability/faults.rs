@@ -86,7 +86,7 @@ fn in_other_processes_under_other_numbers_of_threads(workshop: &Workshop) {
             &["--in-process"],
         ];
         let way = ways[number % 4];
-        let mut run = if number == 0 {
+        let mut run = if !out.join("case.toml").exists() {
             workshop.cav("often", &[&longer()[..], &["-q"], way].concat()).spawn().unwrap()
         } else {
             workshop.resume("often", &[&["-q"], way].concat()).spawn().unwrap()
@@ -97,6 +97,10 @@ fn in_other_processes_under_other_numbers_of_threads(workshop: &Workshop) {
         assert!(processes_of(&out).is_empty());
         if code == Some(0) {
             break;
+        }
+        // On a busy machine the signal may come before the program listens to it.
+        if code.is_none() && number < 20 {
+            continue;
         }
         // Before the first step there is nothing to keep.
         assert_eq!(code, Some(if number % 2 == 0 { 130 } else { 143 }));

@@ -225,10 +225,10 @@ fn all_terms_above_a_wall_that_conducts() {
     let sets = [
         "fluid.liquid={fluid = \"water-nasg\"}",
         "fluid.gas={fluid = \"water-vapour\"}",
-        "fluid.terms.surface_tension=700.0",
+        "fluid.terms.surface_tension=70.0",
         "fluid.terms.contact_angle=90.0",
-        "fluid.terms.viscosity={liquid=1e3, gas=5.0, thin_gas=\"super-time-stepping\"}",
-        "fluid.terms.conduction={liquid=6e5, gas=3e3, thin_gas=\"super-time-stepping\", wall=\"conducting\", wall_temperature=293.15}",
+        "fluid.terms.viscosity={liquid=10.0, gas=0.05, thin_gas=\"super-time-stepping\"}",
+        "fluid.terms.conduction={liquid=6e3, gas=30.0, thin_gas=\"super-time-stepping\", wall=\"conducting\", wall_temperature=293.15}",
         "fluid.terms.phase_change={law=\"hertz-knudsen\", accommodation=0.5, vapour_fraction=0.8}",
         "fluid.terms.cavitation={threshold=-1e5}",
         "time.local_steps=true",

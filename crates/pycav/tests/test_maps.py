@@ -110,13 +110,15 @@ def test_an_executor_that_is_none_is_refused(short, tmp_path):
 
 
 def test_a_point_that_was_killed_goes_on_from_its_checkpoint(small, tmp_path):
-    case = small.with_({"time.snapshots": []})
+    # Long enough to be killed in.
+    case = small.with_({"time.snapshots": [], "fluid.levels": 5, "solid.levels": 3})
     place = tmp_path / "stand_off=2.0"
     path = tmp_path / f"{case.name}.toml"
     path.write_text(at_point(case, {"stand_off": 2.0}).to_toml())
     begun = subprocess.Popen([sys.executable, "-m", "pycav", "run", path, "--in-process", "--threads", "1", "--checkpoint-every", "50ms",
                               "--out", place, "-q"])
-    while begun.poll() is None and not list(place.glob("checkpoints/*.ckpt")):
+    # A checkpoint is one of both sides.
+    while begun.poll() is None and not all(list(place.glob(f"checkpoints/{side}-*.ckpt")) for side in ("fluid", "solid")):
         pass
     begun.kill()
     begun.wait()

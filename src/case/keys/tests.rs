@@ -18,7 +18,7 @@ fn root() -> &'static Path {
 /// What no shipped case has, beside a good fluid and a good solid.
 const RARE: [&str; 7] = [
     "fluid = { bubble = { region = 0, reset = {} } }",
-    "fluid = { terms = { phase_change = {}, cavitation = {} } }",
+    "fluid = { terms = { phase_change = {}, cavitation = {}, conduction = {} } }",
     "fluid = { near_wall = {}, refine = [{ shape = 'sphere' }, { shape = 'box' }, { shape = 'interface' }] }",
     "fluid = { region = [{ shape = 'box' }], tracer = { shape = 'sphere' }, pulse = [{ shape = 'plane' }] }",
     "fluid = { z = [0, 1], r = [0, 1], cells = [16, 16], liquid = { gamma = 7, pi = 3e8 }, \

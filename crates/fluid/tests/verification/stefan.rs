@@ -100,7 +100,7 @@ impl Stefan {
     }
 }
 
-/// Where the interface is: the volume of the vapour, or its mass over its exact mean density.
+/// Where the interface is in a strip: the volume of the vapour by the width.
 pub fn interface(fluid: &FluidSolver<8>) -> f64 {
     let mut volume = 0.0;
     for (slot, id) in fluid.mesh().tree().leaves().iter().enumerate() {
@@ -110,6 +110,64 @@ pub fn interface(fluid: &FluidSolver<8>) -> f64 {
     }
     let Domain { r, .. } = *fluid.mesh().domain();
     volume / (r[1] - r[0])
+}
+
+/// What comes in through the far end of a strip between two times, so that the pressure stays [`P`] in liquid that is pushed more slowly as
+/// time goes on.
+///
+/// - `pushing`: how fast it is pushed, m/s, at a time.
+pub fn outlet(
+    liquid: NobleAbelStiffenedGas,
+    density: f64,
+    [begin, end]: [f64; 2],
+    pushing: impl Fn(f64) -> f64,
+) -> Option<PressureHistory> {
+    let impedance = density * liquid.sound_speed(density, P);
+    let pushed = pushing(begin);
+    let points = (0..=200)
+        .map(|k| begin + (end - begin) * f64::from(k) / 200.0)
+        .map(|t| [t - begin, P + 0.5 * impedance * (pushed - pushing(t))])
+        .collect();
+    PressureHistory::new(points)
+}
+
+/// A strip of a length with a wall at its beginning, in which vapour and liquid change into each other.
+pub fn strip(
+    length: f64,
+    cells: usize,
+    [liquid, gas]: [NobleAbelStiffenedGas; 2],
+    conduction: Conduction,
+    law: EvaporationLaw,
+) -> FluidSetup {
+    let domain = Domain { geometry: PLANAR, z: [0.0, length], r: [0.0, 8.0 * length / cells as f64] };
+    let sides = [Boundary::Wall, Boundary::Inflow, Boundary::Symmetry, Boundary::Symmetry];
+    FluidSetup {
+        liquid,
+        gas,
+        conduction: Some(conduction),
+        phase_change: Some(PhaseChange { law, vapour_fraction: 1.0, cavitation: None }),
+        ..FluidSetup::new(domain, [cells, 8], sides)
+    }
+}
+
+/// Puts states into cells, with the mass of the vapour in them.
+///
+/// - `of`: of a centre and the gas fraction there; cells of `None` stay as they are.
+pub fn fill(fluid: &mut FluidSolver<8>, of: impl Fn([f64; 2], f64) -> Option<(Primitive, f64)>) {
+    let (mixture, blocks) = (*fluid.mixture(), fluid.mesh().blocks());
+    for slot in 0..blocks {
+        let id = fluid.mesh().tree().leaves()[slot];
+        for (j, i) in (0..8).flat_map(|j| (0..8).map(move |i| (j, i))) {
+            let phi = fluid.cell(slot, i, j).phi;
+            let Some((state, vapour)) = of(fluid.mesh().centre(id, i, j), phi) else { continue };
+            let u = state.to_conserved(vapour, &mixture);
+            let block = fluid.state_mut().block_mut(slot);
+            for (c, value) in u.into_iter().chain([vapour, vapour]).enumerate() {
+                block[c * 64 + j * 8 + i] = value;
+            }
+        }
+    }
+    fluid.state_changed(0..blocks);
 }
 
 /// Stefan's problem from x_I = 10 to 20 µm in a strip of 40 µm.
@@ -123,29 +181,15 @@ fn stefan(cells: usize, law: EvaporationLaw, wall: f64, density: f64) -> [f64; 2
     let vapour = gas.density_at(P, BOILING).unwrap();
     let pushing = |t: f64| (1.0 - vapour / density) * 0.5 * exact.growth() / t.sqrt();
     let pushed = pushing(begin);
-    // What has to come in for the pressure to stay as it is beyond the liquid that slows down.
-    let impedance = density * liquid.sound_speed(density, P);
-    let outlet = (0..=200)
-        .map(|k| begin + (end - begin) * f64::from(k) / 200.0)
-        .map(|t| [t - begin, P + 0.5 * impedance * (pushed - pushing(t))])
-        .collect();
-    let domain = Domain { geometry: PLANAR, z: [0.0, 40e-6], r: [0.0, 8.0 * h] };
+    let conduction = Conduction {
+        liquid: 0.6,
+        gas: conductivity,
+        thin_gas: ThinGas::SuperTimeStepping,
+        wall: WallHeat::Isothermal(wall),
+    };
     let setup = FluidSetup {
-        liquid,
-        gas,
-        conduction: Some(Conduction {
-            liquid: 0.6,
-            gas: conductivity,
-            thin_gas: ThinGas::SuperTimeStepping,
-            wall: WallHeat::Isothermal(wall),
-        }),
-        phase_change: Some(PhaseChange { law, vapour_fraction: 1.0, cavitation: None }),
-        inflow: PressureHistory::new(outlet),
-        ..FluidSetup::new(
-            domain,
-            [cells, 8],
-            [Boundary::Wall, Boundary::Inflow, Boundary::Symmetry, Boundary::Symmetry],
-        )
+        inflow: outlet(liquid, density, [begin, end], pushing),
+        ..strip(40e-6, cells, [liquid, gas], conduction, law)
     };
     let place = |t: f64| exact.growth() * t.sqrt();
     let state = |z: f64| {
@@ -158,31 +202,13 @@ fn stefan(cells: usize, law: EvaporationLaw, wall: f64, density: f64) -> [f64; 2
     };
     let mut fluid = FluidSolver::<8>::from_fn(&setup, |[z, _]| state(z)).unwrap();
     // The cell that the interface is in.
-    let mixture = *fluid.mixture();
-    for slot in 0..fluid.mesh().blocks() {
-        let id = fluid.mesh().tree().leaves()[slot];
-        for (j, i) in (0..8).flat_map(|j| (0..8).map(move |i| (j, i))) {
-            let z = fluid.mesh().centre(id, i, j)[0];
-            let phi = ((place(begin) - (z - 0.5 * h)) / h).clamp(0.0, 1.0);
-            if phi > 0.0 && phi < 1.0 {
-                let mass = phi * vapour;
-                let whole = Primitive {
-                    density: mass + (1.0 - phi) * density,
-                    v_z: pushed,
-                    v_r: 0.0,
-                    pressure: P,
-                    phi,
-                };
-                let u = whole.to_conserved(mass, &mixture);
-                let block = fluid.state_mut().block_mut(slot);
-                for (c, value) in u.into_iter().chain([mass, mass]).enumerate() {
-                    block[c * 64 + j * 8 + i] = value;
-                }
-            }
-        }
-    }
-    let blocks = fluid.mesh().blocks();
-    fluid.state_changed(0..blocks);
+    fill(&mut fluid, |[z, _], _| {
+        let phi = ((place(begin) - (z - 0.5 * h)) / h).clamp(0.0, 1.0);
+        let mass = phi * vapour;
+        let density = mass + (1.0 - phi) * density;
+        let whole = Primitive { density, v_z: pushed, v_r: 0.0, pressure: P, phi };
+        (phi > 0.0 && phi < 1.0).then_some((whole, mass))
+    });
     let started = interface(&fluid);
     run_to(&mut fluid, end - begin);
     let got = interface(&fluid);

@@ -4,13 +4,13 @@ use std::f64::consts::PI;
 
 use fluid::{
     Boundary, Conduction, EvaporationLaw, FarField, FluidSetup, FluidSolver, InitialCondition,
-    InitialPressure, Mixture, NobleAbelStiffenedGas, Phase, PhaseChange, PhaseState, PressureHistory,
-    Primitive, Region, RiemannSolver, Shape, SurfaceTension, ThinGas, WallHeat,
+    InitialPressure, Mixture, NobleAbelStiffenedGas, Phase, PhaseChange, PhaseState, Primitive, Region,
+    RiemannSolver, Shape, SurfaceTension, ThinGas, WallHeat,
 };
 use mesh::Domain;
 
 use crate::helpers::*;
-use crate::stefan::{BOILING, P, interface, laws};
+use crate::stefan::{BOILING, P, fill, interface, laws, outlet, strip};
 
 /// erfc, by Simpson's rule on what is left of the integral.
 fn erfc(x: f64) -> f64 {
@@ -50,28 +50,15 @@ fn plane(cells: usize, law: EvaporationLaw, jakob: f64) -> f64 {
     let h = size / cells as f64;
     let pushing = |t: f64| (1.0 - ratio) * beta * (diffusivity / t).sqrt();
     let pushed = pushing(begin);
-    let impedance = density * liquid.sound_speed(density, P);
-    let outlet = (0..=200)
-        .map(|k| begin + (end - begin) * f64::from(k) / 200.0)
-        .map(|t| [t - begin, P + 0.5 * impedance * (pushed - pushing(t))])
-        .collect();
-    let domain = Domain { geometry: PLANAR, z: [0.0, size], r: [0.0, 8.0 * h] };
+    let conduction = Conduction {
+        liquid: conductivity,
+        gas: 0.025,
+        thin_gas: ThinGas::Bounded,
+        wall: WallHeat::Adiabatic,
+    };
     let setup = FluidSetup {
-        liquid,
-        gas,
-        conduction: Some(Conduction {
-            liquid: conductivity,
-            gas: 0.025,
-            thin_gas: ThinGas::Bounded,
-            wall: WallHeat::Adiabatic,
-        }),
-        phase_change: Some(PhaseChange { law, vapour_fraction: 1.0, cavitation: None }),
-        inflow: PressureHistory::new(outlet),
-        ..FluidSetup::new(
-            domain,
-            [cells, 8],
-            [Boundary::Wall, Boundary::Inflow, Boundary::Symmetry, Boundary::Symmetry],
-        )
+        inflow: outlet(liquid, density, [begin, end], pushing),
+        ..strip(size, cells, [liquid, gas], conduction, law)
     };
     let gas_state = Primitive { density: vapour, v_z: 0.0, v_r: 0.0, pressure: P, phi: 1.0 };
     let state = |z: f64| {
@@ -83,30 +70,18 @@ fn plane(cells: usize, law: EvaporationLaw, jakob: f64) -> f64 {
         }
     };
     let mut fluid = FluidSolver::<8>::from_fn(&setup, |[z, _]| state(z)).unwrap();
-    let mixture = *fluid.mixture();
-    let blocks = fluid.mesh().blocks();
-    for slot in 0..blocks {
-        let id = fluid.mesh().tree().leaves()[slot];
-        for (j, i) in (0..8).flat_map(|j| (0..8).map(move |i| (j, i))) {
-            let z = fluid.mesh().centre(id, i, j)[0];
-            let low = z - 0.5 * h;
-            let phi = ((place(begin) - low) / h).clamp(0.0, 1.0);
-            let mean = (0..64)
-                .map(|k| low + (phi + (1.0 - phi) * (f64::from(k) + 0.5) / 64.0) * h)
-                .map(|x| liquid.density_at(P, temperature(x, begin)).unwrap())
-                .sum::<f64>()
-                / 64.0;
-            let mass = phi * vapour;
-            let v_z = if phi < 1.0 { pushed } else { 0.0 };
-            let whole = Primitive { density: mass + (1.0 - phi) * mean, v_z, v_r: 0.0, pressure: P, phi };
-            let u = whole.to_conserved(mass, &mixture);
-            let block = fluid.state_mut().block_mut(slot);
-            for (c, value) in u.into_iter().chain([mass, mass]).enumerate() {
-                block[c * 64 + j * 8 + i] = value;
-            }
-        }
-    }
-    fluid.state_changed(0..blocks);
+    fill(&mut fluid, |[z, _], _| {
+        let low = z - 0.5 * h;
+        let phi = ((place(begin) - low) / h).clamp(0.0, 1.0);
+        let mean = (0..64)
+            .map(|k| low + (phi + (1.0 - phi) * (f64::from(k) + 0.5) / 64.0) * h)
+            .map(|x| liquid.density_at(P, temperature(x, begin)).unwrap())
+            .sum::<f64>()
+            / 64.0;
+        let mass = phi * vapour;
+        let v_z = if phi < 1.0 { pushed } else { 0.0 };
+        Some((Primitive { density: mass + (1.0 - phi) * mean, v_z, v_r: 0.0, pressure: P, phi }, mass))
+    });
     let started = interface(&fluid);
     run_to(&mut fluid, end - begin);
     let grown = (interface(&fluid) - started) / (place(end) - place(begin)) - 1.0;
@@ -228,26 +203,15 @@ fn scriven(cells: usize, law: EvaporationLaw, jakob: f64) -> f64 {
         let (sum, count) = far.fold((0.0, 0.0), |(sum, count), far| (sum + of(far), count + 1.0));
         if count > 0.0 { sum / count } else { density }
     };
-    let blocks = fluid.mesh().blocks();
-    for slot in 0..blocks {
-        let id = fluid.mesh().tree().leaves()[slot];
-        for (j, i) in (0..8).flat_map(|j| (0..8).map(move |i| (j, i))) {
-            let [z, r] = fluid.mesh().centre(id, i, j);
-            let far = z.hypot(r);
-            let phi = fluid.cell(slot, i, j).phi.clamp(0.0, 1.0);
-            let mass = phi * vapour;
-            let rho = mass + (1.0 - phi) * mean_density([z, r]);
-            // Liquid is pushed out; the vapour does not move.
-            let v = if far < begin { 0.0 } else { (1.0 - vapour / density) * speed * (begin / far).powi(2) };
-            let whole = Primitive { density: rho, v_z: v * z / far, v_r: v * r / far, pressure: P, phi };
-            let u = whole.to_conserved(mass, &mixture);
-            let block = fluid.state_mut().block_mut(slot);
-            for (c, value) in u.into_iter().chain([mass, mass]).enumerate() {
-                block[c * 64 + j * 8 + i] = value;
-            }
-        }
-    }
-    fluid.state_changed(0..blocks);
+    fill(&mut fluid, |[z, r], phi| {
+        let (far, phi) = (z.hypot(r), phi.clamp(0.0, 1.0));
+        let mass = phi * vapour;
+        let density_of_all = mass + (1.0 - phi) * mean_density([z, r]);
+        // Liquid is pushed out; the vapour does not move.
+        let v = if far < begin { 0.0 } else { (1.0 - vapour / density) * speed * (begin / far).powi(2) };
+        let [v_z, v_r] = [v * z / far, v * r / far];
+        Some((Primitive { density: density_of_all, v_z, v_r, pressure: P, phi }, mass))
+    });
     let started = radius(&fluid);
     let span = time(end) - time(begin);
     let mut line = String::new();
