@@ -333,6 +333,7 @@ impl<const N: usize> Model<N> for Fluid {
     fn remap(
         &mut self,
         adapted: &Adapted<N>,
+        _: f64,
         (mesh, field): (&Mesh<N>, &Field),
         patches: &ScratchPool<Patch<N>>,
         new: &mut Field,

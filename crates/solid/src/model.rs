@@ -1,8 +1,8 @@
 //! What the solid is to the block solver.
 
 use mesh::{
-    Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Side, StageTimer,
+    Adapted, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports, ScratchPool, Side,
+    StageTimer,
 };
 use serde::{Deserialize, Serialize};
 
@@ -112,6 +112,7 @@ impl<const N: usize> Model<N> for Solid {
     fn remap(
         &mut self,
         adapted: &Adapted<N>,
+        time: f64,
         (mesh, field): (&Mesh<N>, &Field),
         patches: &ScratchPool<Patch<N>>,
         new: &mut Field,
@@ -120,7 +121,7 @@ impl<const N: usize> Model<N> for Solid {
             return adapted.remap_into(mesh, field, &self.analysis, patches, new);
         };
         if let Some(following) = &mut self.following {
-            following.remap(adapted, mesh, &self.analysis);
+            following.remap(adapted, (mesh, field), &self.analysis, time);
         }
         adapted.remap_into(mesh, field, &Admissible { analysis: &self.analysis, plasticity }, patches, new);
         for slot in adapted.fresh() {
@@ -145,12 +146,6 @@ impl<const N: usize> Model<N> for Solid {
         self.untouched.mesh_changed(mesh.blocks());
     }
 
-    fn whole_step_ended(solver: &mut BlockSolver<Self, N>) {
-        let Some(mut following) = solver.model_mut().following.take() else { return };
-        following.look(solver.time(), solver.steps(), solver.state());
-        solver.model_mut().following = Some(following);
-    }
-
     fn memory(&self) -> SolidMemory {
         let following = self.following.as_ref().map(Following::saved);
         SolidMemory {
@@ -167,7 +162,7 @@ impl<const N: usize> Model<N> for Solid {
             return Err(Misfit("what absorbing sides remember is not of the solid's sides".to_owned()));
         }
         match (&mut self.following, following) {
-            (Some(own), Some(saved)) => own.restore(saved, self.untouched.blocks())?,
+            (Some(own), Some(saved)) => own.restore(&saved, self.untouched.blocks())?,
             (None, None) => {}
             _ => return Err(Misfit("only one of both can yield".to_owned())),
         }

@@ -98,7 +98,7 @@ impl<const N: usize> SolidSolver<N> {
         let adaptation = setup.adaptation.clone();
         let count = state.components();
         let displacement = displacement.unwrap_or_else(|| Field::zeros(mesh.blocks(), N * N, 2));
-        let following = plasticity.as_ref().map(|_| Following::new(displacement, N * N));
+        let following = plasticity.as_ref().map(|_| Following::new(&displacement, N * N));
         let solid = Solid {
             elasticity: Elasticity::new(setup.speeds),
             plasticity,

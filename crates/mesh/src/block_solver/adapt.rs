@@ -38,7 +38,8 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let at_least = |slot: usize| demanded.get(slot).copied().unwrap_or(0);
         let adapted = self.mesh.adapted(&self.state, analysis, &settings, patches, travel, at_least);
         let Some(adapted) = adapted else { return false };
-        self.model.remap(&adapted, (&self.mesh, &self.state), &self.adapting.patches, &mut self.next);
+        let time = self.progress.time;
+        self.model.remap(&adapted, time, (&self.mesh, &self.state), &self.adapting.patches, &mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
         let blocks = adapted.mesh.blocks();
         self.next.resize(blocks);

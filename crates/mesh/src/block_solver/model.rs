@@ -151,9 +151,12 @@ pub trait Model<const N: usize>: Sized + Sync {
         base
     }
     /// Carries a field over to another mesh.
+    ///
+    /// - `time`: of the field, s.
     fn remap(
         &mut self,
         adapted: &Adapted<N>,
+        _time: f64,
         (mesh, field): (&Mesh<N>, &Field),
         patches: &ScratchPool<Patch<N>>,
         new: &mut Field,

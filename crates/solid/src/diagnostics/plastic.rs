@@ -49,8 +49,10 @@ impl<const N: usize> SolidSolver<N> {
     /// The displacement (u_z, u_r) of one cell since t = 0, m: the integral of its velocity; `None` where nothing can yield, and none is
     /// kept.
     pub fn displacement(&self, slot: usize, i: usize, j: usize) -> Option<[f64; 2]> {
-        let following = self.model().following.as_ref()?;
-        Some(following.of_cell(slot, j * N + i, self.time(), self.state()))
+        let follower = self.model().following.as_ref()?.of_block(slot);
+        let mut moved =
+            follower.displacement(self.time(), self.state().block(slot)).skip(j * N + i).step_by(N * N);
+        Some([moved.next()?, moved.next()?])
     }
 
     /// u_z and u_r of all cells, as [`SolidSolver::displacement`]: what a wall that is hit again starts with.

@@ -231,7 +231,9 @@ impl<const N: usize> BlockStep<'_, N> {
         let (Some(plasticity), Some(following)) = (&model.plasticity, &model.following) else { return };
         let stays = COUNT * N * N..new.len();
         let has_yielded = model.untouched.has_yielded(slot);
-        let mut rates = following.rates(slot);
+        let mut follower = following.of_block(slot);
+        follower.count(ctx.time, ctx.dt, ctx.old.block(slot));
+        let rates = &mut follower.rates;
         rates.clear();
         let is_within = |temperature: f64| {
             let least = plasticity.hardening().yield_stress(0.0, 0.0, temperature);
