@@ -287,7 +287,12 @@ impl PowerLaw {
             let step = residual / (self.three_mu * x + slope);
             let is_round = residual.abs() <= ROUND_OFF * q;
             let is_lost = !(step.abs() < 50.0) | (homologous >= 1.0);
-            let verdict = if step.abs() < LAST_STEP { 1.0 } else { 0.0 };
+            // A step past a kink, of the rate or of the heat, is of a slope that does not hold there.
+            let next = x + x * step;
+            let next_rise = chunk.rise[k] + self.heating * next * (q - self.three_mu * next);
+            let is_smooth =
+                ((log > log_slowest) == (log + step > log_slowest)) & ((rise > 0.0) == (next_rise > 0.0));
+            let verdict = if (step.abs() < LAST_STEP) & is_smooth { 1.0 } else { 0.0 };
             let verdict = if is_round { 1.5 } else { verdict };
             chunk.verdict[k] = if is_lost { 3.0 } else { verdict };
             chunk.step[k] = if is_round { 0.0 } else { step };
