@@ -2,7 +2,7 @@
 //!
 //! The equation and the unknown, ln Δε_p, are those of `consistency.rs`, the logarithms and exponentials of a kind that vectorises. A
 //! cell that has converged keeps its numbers, so that they do not depend on the company it is solved in. What needs more than
-//! Newton's steps (a melting cell, a law so steep that they leave the range) is left to the bracketed solver there.
+//! such steps (a melting cell, a law so steep that they leave the range) is left to the bracketed solver there.
 
 use mesh::{exp_and_less_one, ln_of};
 use multiversion::multiversion;
@@ -12,14 +12,14 @@ use super::hardening::Hardening;
 /// Cells solved together: enough to hide that one step waits for the one before.
 pub(super) const LANES: usize = 32;
 
-/// Newton's steps after which a cell is left to the bracketed solver.
+/// Steps after which a cell is left to the bracketed solver.
 const MOST_STEPS: usize = 8;
 
 /// Relative to the trial stress: residuals below this are rounding.
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
-/// A step in ln Δε_p after which quadratic convergence leaves nothing: its square is below rounding.
-const LAST_STEP: f64 = 3e-8;
+/// A step in ln Δε_p after which cubic convergence leaves nothing: its cube is below rounding.
+const LAST_STEP: f64 = 3e-6;
 
 /// Up to this, powers of 1 + x and eˣ are made of their series.
 const NEAR: f64 = 1.0 / 64.0;
@@ -75,14 +75,17 @@ struct Chunk<const L: usize> {
     q: Lane<L>,
     strain: Lane<L>,
     rise: Lane<L>,
-    /// B ε_pⁿ and the flow stress at rate 0 before the step.
-    power: Lane<L>,
+    /// The flow stress at rate 0 before the step.
     static_stress: Lane<L>,
+    /// An increment, the plastic strain with it, and B ε_pⁿ there.
+    base: Lane<L>,
+    base_strain: Lane<L>,
+    power: Lane<L>,
     /// Δε_p, its logarithm, q at the end.
     increment: Lane<L>,
     log: Lane<L>,
     left: Lane<L>,
-    /// Newton's step in the logarithm, and what it comes to: 0 goes on, 1 the last step, 1.5 no more step, 3 given up.
+    /// The step in the logarithm, and what it comes to: 0 goes on, 1 the last step, 1.5 no more step, 3 given up.
     step: Lane<L>,
     verdict: Lane<L>,
     /// q at the end if this is the last step.
@@ -96,8 +99,10 @@ impl<const L: usize> Chunk<L> {
         q: [0.0; L],
         strain: [0.0; L],
         rise: [0.0; L],
-        power: [0.0; L],
         static_stress: [0.0; L],
+        base: [0.0; L],
+        base_strain: [0.0; L],
+        power: [0.0; L],
         increment: [0.0; L],
         log: [0.0; L],
         left: [0.0; L],
@@ -106,6 +111,12 @@ impl<const L: usize> Chunk<L> {
         next_left: [0.0; L],
         done: [0.0; L],
     };
+
+    /// Whether the power of a cell's strain can be made of that which is known.
+    #[inline(always)]
+    fn is_near(&self, k: usize) -> bool {
+        (self.increment[k] - self.base[k]).abs() < NEAR * self.base_strain[k]
+    }
 
     /// How many of the cells that are not done are so.
     #[inline(always)]
@@ -188,7 +199,7 @@ impl PowerLaw {
             let hardened = self.strength + power;
             let static_stress = hardened * soft;
             let high = q / self.three_mu;
-            chunk.power[k] = power;
+            (chunk.base_strain[k], chunk.power[k]) = (strain, power);
             chunk.static_stress[k] = static_stress;
             let molten = homologous >= 1.0;
             // A stress that is no number stays.
@@ -220,7 +231,7 @@ impl PowerLaw {
         }
     }
 
-    /// Newton's steps in ln Δε_p until all cells are solved or given up.
+    /// Halley's steps in ln Δε_p until all cells are solved or given up.
     #[inline(always)]
     fn solve<const L: usize, const M1: bool>(&self, chunk: &mut Chunk<L>, dt: f64) {
         let log_slowest = (self.reference_rate * dt).ln();
@@ -233,7 +244,7 @@ impl PowerLaw {
         }
         for _ in 0..MOST_STEPS {
             // What a cell gets does not depend on the others: they only say what need not be computed.
-            if chunk.open(|chunk, k| !(chunk.increment[k] < NEAR * chunk.strain[k])) > 0 {
+            if chunk.open(|chunk, k| !chunk.is_near(k)) > 0 {
                 self.step::<L, M1, true>(chunk, log_slowest);
             } else {
                 self.step::<L, M1, false>(chunk, log_slowest);
@@ -249,25 +260,18 @@ impl PowerLaw {
         }
     }
 
-    /// Newton's step of each cell. `FAR`: some increments are not small against the strain.
+    /// Halley's step of each cell, with the second derivative of the flow stress; Newton's where it would be large. `FAR`: some strains are
+    /// not near to those whose powers are known.
     #[inline(always)]
     fn step<const L: usize, const M1: bool, const FAR: bool>(&self, chunk: &mut Chunk<L>, log_slowest: f64) {
         for k in 0..L {
             let (q, x, log) = (chunk.q[k], chunk.increment[k], chunk.log[k]);
-            let strain = chunk.strain[k] + x;
-            let line = q - self.three_mu * x;
-            let ratio = x / chunk.strain[k];
-            let mut series = self.binomial[TERMS - 1];
-            for coefficient in self.binomial[..TERMS - 1].iter().rev() {
-                series = coefficient + ratio * series;
-            }
-            let near = chunk.power[k] + chunk.power[k] * (ratio * series);
-            let power = if FAR {
-                let far = self.hardening * exp(self.exponent * ln(strain));
-                if x < NEAR * chunk.strain[k] { near } else { far }
-            } else {
-                near
-            };
+            let (strain, elastic) = (chunk.strain[k] + x, self.three_mu * x);
+            let line = q - elastic;
+            let power = self.power_at::<L, FAR>(chunk, k);
+            let share = x / strain;
+            let d_power = self.exponent * power * share;
+            let dd_power = d_power * (1.0 + (self.exponent - 1.0) * share);
             let hardened = self.strength + power;
             let over = log - log_slowest;
             let (over, d_fast) = if over > 0.0 { (over, self.rate_coefficient) } else { (0.0, 0.0) };
@@ -277,27 +281,61 @@ impl PowerLaw {
             let homologous = rise * self.per_kelvin;
             let lost = self.lost::<M1>(homologous);
             let soft = 1.0 - lost;
-            let stress = hardened * fast * soft;
-            let by_heat = -self.softening * lost * hardened * fast * heat * (kept - self.three_mu * x) / rise;
-            let by_heat = if homologous > 0.0 { by_heat } else { 0.0 };
-            let slope =
-                self.exponent * power * fast * soft * (x / strain) + hardened * d_fast * soft + by_heat;
+            let is_warm = homologous > 0.0;
+            let per_rise = heat / rise;
+            let (a, b) = ((kept - elastic) * per_rise, (kept - 3.0 * elastic) * per_rise);
+            let d_soft = -self.softening * lost * a;
+            let dd_soft = -self.softening * lost * (b + (self.softening - 1.0) * a * a);
+            let (d_soft, dd_soft) = if is_warm { (d_soft, dd_soft) } else { (0.0, 0.0) };
 
+            let stress = hardened * fast * soft;
+            let both = d_power * fast + hardened * d_fast;
+            let slope = both * soft + hardened * fast * d_soft;
+            let curvature = (dd_power * fast + 2.0 * d_power * d_fast) * soft
+                + 2.0 * both * d_soft
+                + hardened * fast * dd_soft;
             let residual = line - stress;
-            let step = residual / (self.three_mu * x + slope);
+            let steep = elastic + slope;
+            let newton = residual / steep;
+            let bend = 0.5 * newton * (elastic + curvature);
+            let step = residual / (steep + if bend.abs() < 0.25 * steep { bend } else { 0.0 });
+
             let is_round = residual.abs() <= ROUND_OFF * q;
             let is_lost = !(step.abs() < 50.0) | (homologous >= 1.0);
-            // A step past a kink, of the rate or of the heat, is of a slope that does not hold there.
+            // A step past a kink, of the rate or of the heat, is of slopes that do not hold there.
             let next = x + x * step;
             let next_rise = chunk.rise[k] + self.heating * next * (q - self.three_mu * next);
             let is_smooth =
-                ((log > log_slowest) == (log + step > log_slowest)) & ((rise > 0.0) == (next_rise > 0.0));
+                ((log > log_slowest) == (log + step > log_slowest)) & (is_warm == (next_rise > 0.0));
             let verdict = if (step.abs() < LAST_STEP) & is_smooth { 1.0 } else { 0.0 };
             let verdict = if is_round { 1.5 } else { verdict };
+            let end = stress + step * (slope + 0.5 * step * curvature);
             chunk.verdict[k] = if is_lost { 3.0 } else { verdict };
             chunk.step[k] = if is_round { 0.0 } else { step };
-            chunk.next_left[k] = if is_round { stress } else { stress + slope * step };
+            chunk.next_left[k] = if is_round { stress } else { end };
         }
+    }
+
+    /// B ε_pⁿ with the increment of a cell, Pa: by a series about the last strain where it was made of logarithm and exponential.
+    #[inline(always)]
+    fn power_at<const L: usize, const FAR: bool>(&self, chunk: &mut Chunk<L>, k: usize) -> f64 {
+        let (x, base, base_strain) = (chunk.increment[k], chunk.base[k], chunk.base_strain[k]);
+        let ratio = (x - base) / base_strain;
+        let mut series = self.binomial[TERMS - 1];
+        for coefficient in self.binomial[..TERMS - 1].iter().rev() {
+            series = coefficient + ratio * series;
+        }
+        let near = chunk.power[k] + chunk.power[k] * (ratio * series);
+        if !FAR {
+            return near;
+        }
+        let strain = chunk.strain[k] + x;
+        let far = self.hardening * exp(self.exponent * ln(strain));
+        let is_near = chunk.is_near(k);
+        chunk.base[k] = if is_near { base } else { x };
+        chunk.base_strain[k] = if is_near { base_strain } else { strain };
+        chunk.power[k] = if is_near { chunk.power[k] } else { far };
+        if is_near { near } else { far }
     }
 
     /// Takes the steps. `WIDE`: some are not small.

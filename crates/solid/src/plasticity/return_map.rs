@@ -165,7 +165,7 @@ impl Plasticity {
     }
 
     /// The return of what may lie outside; `von_mises` is the trial's q, Pa.
-    fn flow_back(
+    pub(super) fn flow_back(
         &self,
         trial: Stress,
         von_mises: f64,

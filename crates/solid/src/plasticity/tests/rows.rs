@@ -105,6 +105,43 @@ fn guesses_change_nothing_but_rounding() {
     println!("off by {worst:.1e}");
 }
 
+/// The returns of many cells at once are those of the bracketed solver, on both sides of the kinks that rate and heat make.
+#[test]
+fn quick_returns_are_those_of_the_bracketed_solver() {
+    let mut dice = Dice::new(23);
+    for hardening in laws() {
+        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+        let (Some(law), cold) = (&plasticity.power, plasticity.reference()) else { continue };
+        let (mut worst, mut solved) = (0.0_f64, 0);
+        for _ in 0..20_000 {
+            let strain = if dice.unit() < 0.2 { 0.0 } else { dice.power(-9.0, -0.5) };
+            // Some are a little colder than where heat begins to matter, as neighbours of a level jump can be.
+            let temperature = if dice.unit() < 0.3 { cold } else { cold + dice.signed(-6.0, 2.0) };
+            let dt = dice.power(-12.0, -6.0);
+            let q = hardening.yield_stress(strain, 0.0, temperature) * (1.0 + dice.power(-15.0, 1.0));
+            let (increment, left) = law.single(q, strain, temperature - cold, dt);
+            let exact =
+                plasticity.flow_back(Stress { zz: q, ..Stress::default() }, q, strain, temperature, dt);
+            let Some(exact) = exact.filter(|_| increment > 0.0) else { continue };
+            solved += 1;
+            let (mu, what) =
+                (plasticity.mu(), format!("{hardening:?} at {strain:e}, {temperature} K, {dt:e} s"));
+            let rise = temperature - cold + plasticity.heating() * left * increment;
+            let stress = hardening.flow_at_rise(strain + increment, increment / dt, rise).stress;
+            let off = (left - stress).abs().max((q - 3.0 * mu * increment - left).abs()) / q;
+            worst = worst.max(off);
+            assert!(off < 1e-12, "{what}: {increment:e} leaves {off:e}");
+            // Where heat begins to matter with an infinite slope, there may be two solutions.
+            let is_only = temperature >= cold
+                || hardening.softening().is_none_or(|heat| heat.softening_exponent >= 1.0);
+            let apart = 3.0 * mu * (increment - exact.increment).abs() / q;
+            assert!(apart < 1e-12 || !is_only, "{what}: {increment:e}, not {:e}", exact.increment);
+        }
+        println!("{solved} solved, off by {worst:.1e}");
+        assert!(solved > 15_000, "{hardening:?}: {solved}");
+    }
+}
+
 #[test]
 fn the_quick_look_never_overlooks_a_cell_that_yields() {
     let mut dice = Dice::new(3);
