@@ -4,10 +4,12 @@
 //! cell that has converged keeps its numbers, so that they do not depend on the company it is solved in. What needs more than
 //! such steps (a melting cell, a law so steep that they leave the range) is left to the bracketed solver there.
 
-use mesh::{exp_and_less_one, ln_of};
+use mesh::ln_of;
 use multiversion::multiversion;
 
+use super::chunk::Chunk;
 use super::hardening::Hardening;
+use super::powers::{NEAR, TERMS, binomial, exp, ln, lower, series, upper};
 
 /// Cells solved together: enough to hide that one step waits for the one before.
 pub(super) const LANES: usize = 32;
@@ -19,18 +21,10 @@ const MOST_STEPS: usize = 8;
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
 /// A step in ln Δε_p after which cubic convergence leaves nothing: its cube is below rounding.
-const LAST_STEP: f64 = 3e-6;
-
-/// Up to this, powers of 1 + x and eˣ are made of their series.
-const NEAR: f64 = 1.0 / 64.0;
-
-/// Terms of (1 + x)ⁿ: what is left out of it is below 1e-17.
-const TERMS: usize = 8;
+const LAST_STEP: f64 = 1e-5;
 
 /// Smaller increments than this are left to the bracketed solver, as logarithms want normal numbers.
 const SMALLEST: f64 = 1e-280;
-
-type Lane<const L: usize> = [f64; L];
 
 /// Constants of the Johnson–Cook law over an elasticity, as the kernel needs them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,14 +33,17 @@ pub(super) struct PowerLaw {
     strength: f64,
     hardening: f64,
     exponent: f64,
-    /// The binomial coefficients of n, from the first power on.
+    /// The binomial coefficients of n and of m, from the first power on.
     binomial: [f64; TERMS],
+    softening_binomial: [f64; TERMS],
     /// C; ε̇₀, 1/s.
     rate_coefficient: f64,
     reference_rate: f64,
     /// m, and 1/(T_m − T_r), 1/K, which is 0 without heat.
     softening: f64,
     per_kelvin: f64,
+    /// How near temperatures must be, relative to their rise, for a series to lead from one to the other.
+    near_in_heat: f64,
     /// χ/(ρ c_p), K m³/J.
     heating: f64,
     three_mu: f64,
@@ -70,104 +67,23 @@ pub(super) struct LaneCells<'a> {
 /// Marks cells that need the bracketed solver.
 pub(super) const UNSOLVED: f64 = -1.0;
 
-/// Cells that are being solved.
-struct Chunk<const L: usize> {
-    q: Lane<L>,
-    strain: Lane<L>,
-    rise: Lane<L>,
-    /// The flow stress at rate 0 before the step.
-    static_stress: Lane<L>,
-    /// An increment, the plastic strain with it, and B ε_pⁿ there.
-    base: Lane<L>,
-    base_strain: Lane<L>,
-    power: Lane<L>,
-    /// Δε_p, its logarithm, q at the end.
-    increment: Lane<L>,
-    log: Lane<L>,
-    left: Lane<L>,
-    /// The step in the logarithm, and what it comes to: 0 goes on, 1 the last step, 1.5 no more step, 3 given up.
-    step: Lane<L>,
-    verdict: Lane<L>,
-    /// q at the end if this is the last step.
-    next_left: Lane<L>,
-    /// 0 while it is solved, 1 solved, 2 elastic, 3 left to the bracketed solver.
-    done: Lane<L>,
-}
-
-impl<const L: usize> Chunk<L> {
-    const ZERO: Self = Self {
-        q: [0.0; L],
-        strain: [0.0; L],
-        rise: [0.0; L],
-        static_stress: [0.0; L],
-        base: [0.0; L],
-        base_strain: [0.0; L],
-        power: [0.0; L],
-        increment: [0.0; L],
-        log: [0.0; L],
-        left: [0.0; L],
-        step: [0.0; L],
-        verdict: [0.0; L],
-        next_left: [0.0; L],
-        done: [0.0; L],
-    };
-
-    /// Whether the power of a cell's strain can be made of that which is known.
-    #[inline(always)]
-    fn is_near(&self, k: usize) -> bool {
-        (self.increment[k] - self.base[k]).abs() < NEAR * self.base_strain[k]
-    }
-
-    /// How many of the cells that are not done are so.
-    #[inline(always)]
-    fn open(&self, is_so: impl Fn(&Self, usize) -> bool) -> u64 {
-        // In integers: a sum of floating-point numbers has an order, and would keep the loop from vectors.
-        let mut found = 0;
-        for k in 0..L {
-            found += u64::from((self.done[k] == 0.0) & is_so(self, k));
-        }
-        found
-    }
-}
-
-/// The smaller number, by comparison, so that rows vectorise.
-#[inline(always)]
-fn lower(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn upper(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn ln(x: f64) -> f64 {
-    ln_of(x, x - 1.0)
-}
-
-#[inline(always)]
-fn exp(x: f64) -> f64 {
-    exp_and_less_one(x).0
-}
-
 impl PowerLaw {
     /// Of a Johnson–Cook law. `heating`: χ/(ρ c_p), K m³/J.
     pub fn new(hardening: &Hardening, mu: f64, heating: f64) -> Option<Self> {
         let Hardening::JohnsonCook(law) = hardening else { return None };
         let heat = law.softening.as_ref();
-        let mut binomial = [law.hardening_exponent; TERMS];
-        for k in 1..TERMS {
-            binomial[k] = binomial[k - 1] * (law.hardening_exponent - k as f64) / (k + 1) as f64;
-        }
+        let softening = heat.map_or(1.0, |heat| heat.softening_exponent);
         Some(Self {
-            binomial,
+            binomial: binomial(law.hardening_exponent),
+            softening_binomial: binomial(softening),
             strength: law.yield_strength,
             hardening: law.hardening_modulus,
             exponent: law.hardening_exponent,
             rate_coefficient: if law.rate.acts() { law.rate.rate_coefficient } else { 0.0 },
             reference_rate: law.rate.reference_rate,
-            softening: heat.map_or(1.0, |heat| heat.softening_exponent),
+            softening,
+            // Beyond, the series has terms that are left out.
+            near_in_heat: if softening <= TERMS as f64 { NEAR } else { 0.0 },
             per_kelvin: heat.map_or(0.0, |heat| 1.0 / heat.range()),
             heating,
             three_mu: 3.0 * mu,
@@ -200,6 +116,7 @@ impl PowerLaw {
             let static_stress = hardened * soft;
             let high = q / self.three_mu;
             (chunk.base_strain[k], chunk.power[k]) = (strain, power);
+            (chunk.base_rise[k], chunk.lost[k]) = (chunk.rise[k], lost);
             chunk.static_stress[k] = static_stress;
             let molten = homologous >= 1.0;
             // A stress that is no number stays.
@@ -244,7 +161,9 @@ impl PowerLaw {
         }
         for _ in 0..MOST_STEPS {
             // What a cell gets does not depend on the others: they only say what need not be computed.
-            if chunk.open(|chunk, k| !chunk.is_near(k)) > 0 {
+            let is_far =
+                |chunk: &Chunk<L>, k: usize| !chunk.is_near(k) | !(M1 | self.is_near_in_heat(chunk, k));
+            if chunk.open(is_far) > 0 {
                 self.step::<L, M1, true>(chunk, log_slowest);
             } else {
                 self.step::<L, M1, false>(chunk, log_slowest);
@@ -279,7 +198,7 @@ impl PowerLaw {
             let (heat, kept) = (self.heating * x, upper(line, 0.0));
             let rise = chunk.rise[k] + heat * kept;
             let homologous = rise * self.per_kelvin;
-            let lost = self.lost::<M1>(homologous);
+            let lost = self.lost_at::<L, M1, FAR>(chunk, k, rise);
             let soft = 1.0 - lost;
             let is_warm = homologous > 0.0;
             let per_rise = heat / rise;
@@ -316,15 +235,20 @@ impl PowerLaw {
         }
     }
 
+    /// Whether the power of a cell's temperature can be made of that which is known.
+    #[inline(always)]
+    fn is_near_in_heat<const L: usize>(&self, chunk: &Chunk<L>, k: usize) -> bool {
+        let (x, base) = (chunk.increment[k], chunk.base_rise[k]);
+        let rise = chunk.rise[k] + self.heating * x * upper(chunk.q[k] - self.three_mu * x, 0.0);
+        (rise - base).abs() < self.near_in_heat * base
+    }
+
     /// B ε_pⁿ with the increment of a cell, Pa: by a series about the last strain where it was made of logarithm and exponential.
     #[inline(always)]
     fn power_at<const L: usize, const FAR: bool>(&self, chunk: &mut Chunk<L>, k: usize) -> f64 {
         let (x, base, base_strain) = (chunk.increment[k], chunk.base[k], chunk.base_strain[k]);
         let ratio = (x - base) / base_strain;
-        let mut series = self.binomial[TERMS - 1];
-        for coefficient in self.binomial[..TERMS - 1].iter().rev() {
-            series = coefficient + ratio * series;
-        }
+        let series = series(&self.binomial, ratio);
         let near = chunk.power[k] + chunk.power[k] * (ratio * series);
         if !FAR {
             return near;
@@ -335,6 +259,30 @@ impl PowerLaw {
         chunk.base[k] = if is_near { base } else { x };
         chunk.base_strain[k] = if is_near { base_strain } else { strain };
         chunk.power[k] = if is_near { chunk.power[k] } else { far };
+        if is_near { near } else { far }
+    }
+
+    /// T*ᵐ at `rise` = T − T_r, likewise; 0 up to T_r.
+    #[inline(always)]
+    fn lost_at<const L: usize, const M1: bool, const FAR: bool>(
+        &self,
+        chunk: &mut Chunk<L>,
+        k: usize,
+        rise: f64,
+    ) -> f64 {
+        if M1 {
+            return self.lost::<M1>(rise * self.per_kelvin);
+        }
+        let base = chunk.base_rise[k];
+        let ratio = (rise - base) / base;
+        let near = chunk.lost[k] + chunk.lost[k] * (ratio * series(&self.softening_binomial, ratio));
+        if !FAR {
+            return near;
+        }
+        let far = self.lost::<M1>(rise * self.per_kelvin);
+        let is_near = (rise - base).abs() < self.near_in_heat * base;
+        chunk.base_rise[k] = if is_near { base } else { rise };
+        chunk.lost[k] = if is_near { chunk.lost[k] } else { far };
         if is_near { near } else { far }
     }
 
