@@ -3,7 +3,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use mesh::{Adapted, Field, Mesh, Misfit, Multiresolution, Patch, ScratchPool, Side};
+use mesh::{Adapted, Field, Mesh, Misfit, Multiresolution, Patch, ScratchPool, Side, fetch};
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
@@ -16,6 +16,7 @@ const EVERY: u8 = 2;
 /// Displacement and rate of the plastic strain of solids that can yield.
 pub(crate) struct Following {
     blocks: Vec<Mutex<Follower>>,
+    numbers_of_block: usize,
 }
 
 /// What follows the cells of a block.
@@ -70,7 +71,13 @@ impl Following {
     pub fn new(displacement: &Field, cells: usize) -> Self {
         let follower =
             |moved: &[f64]| Mutex::new(Follower::new(moved, Counted::all(0.0), Rates::zeros(cells)));
-        Self { blocks: displacement.as_slice().chunks_exact(2 * cells).map(follower).collect() }
+        let blocks = displacement.as_slice().chunks_exact(2 * cells).map(follower).collect();
+        Self { blocks, numbers_of_block: 3 * cells }
+    }
+
+    /// How many numbers it holds.
+    pub fn numbers(&self) -> usize {
+        self.blocks.len() * self.numbers_of_block
     }
 
     /// What follows the cells of a block. The thread that steps it has it alone.
@@ -127,7 +134,7 @@ impl Following {
 
     /// What of it changes in time.
     pub fn saved(&self) -> SavedFollowing {
-        let cells = self.blocks.first().map_or(0, |_| self.of_block(0).rates.cells.len());
+        let cells = self.numbers_of_block / 3;
         let mut displacement = Field::zeros(self.blocks.len(), cells, 2);
         let mut counted = Vec::with_capacity(self.blocks.len());
         for slot in 0..self.blocks.len() {
@@ -141,7 +148,7 @@ impl Following {
     /// Takes up what was saved of a mesh of so many blocks.
     pub fn restore(&mut self, saved: &SavedFollowing, blocks: usize) -> Result<(), Misfit> {
         let SavedFollowing { displacement, counted, rates } = saved;
-        let cells = self.blocks.first().map_or(0, |_| self.of_block(0).rates.cells.len());
+        let cells = self.numbers_of_block / 3;
         let fits = displacement.has_shape(blocks, cells, 2) && rates.has_shape(blocks, cells, 1);
         if !fits || counted.len() != blocks {
             return Err(Misfit(format!("the displacement is not of {blocks} blocks")));
@@ -174,6 +181,17 @@ impl Follower {
             self.counted.until = time + 0.5 * f64::from(EVERY) * dt;
             let weight = self.counted.until - until;
             self.displacement.iter_mut().zip(state).for_each(|(u, v)| *u += weight * v);
+        }
+    }
+
+    /// Asks for a part of the memory that the step is likely to need.
+    pub fn look_ahead(&self, part: usize, parts: usize) {
+        if self.counted.left == 0 {
+            fetch(&self.displacement, part, parts);
+        }
+        // What flowed goes on with it.
+        if !self.rates.is_zero {
+            fetch(&self.rates.cells, part, parts);
         }
     }
 

@@ -5,6 +5,7 @@ use mesh::{Mesh, Padded, Tile, dispersion_share, limited_differences};
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
 use crate::boundary::Boundaries;
+use crate::components::following::Following;
 use crate::physics::{Solid, SolidStep};
 use crate::reconstruction::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R, V_Z};
@@ -75,7 +76,13 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     /// Fetches a third of what is needed soon into the cache.
     pub(super) fn look_ahead(&self, new: &[f64], part: usize) {
         let target = if self.is_untouched { &new[..COUNT * N * N] } else { new };
-        self.ctx.mesh.look_ahead(self.ctx.old, self.slot, target, part, 3);
+        let following = self.ctx.model.following.as_ref();
+        let beside = following.map_or(0, Following::numbers);
+        if self.ctx.mesh.look_ahead((self.ctx.old, beside), self.slot, target, part, 3)
+            && let Some(following) = following
+        {
+            following.of_block(self.slot).look_ahead(part, 3);
+        }
     }
 
     /// Limited differences, and the states at mid-step.
