@@ -41,5 +41,6 @@ pub(super) fn series(binomial: &[f64; TERMS], x: f64) -> f64 {
 
 #[inline(always)]
 pub(super) fn exp(x: f64) -> f64 {
-    exp_and_less_one(x).0
+    // Below, what is nearly nothing stays so: T*ᵐ of a cell that is hardly warm has such logarithms.
+    exp_and_less_one(upper(x, -700.0)).0
 }

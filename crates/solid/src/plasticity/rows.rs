@@ -47,6 +47,10 @@ impl Plasticity {
     /// - valid for: as there.  errors: none; rows of unequal length panic.
     /// - tested by: equality with the single cells.
     pub fn return_rows(&self, rows: &mut PlasticRows<'_>, dt: f64) -> usize {
+        if let Some(line) = self.line {
+            // As cheap as to look first.
+            return return_batch(line, rows.of_line());
+        }
         let n = rows.strain.len();
         let mut count = 0;
         for first in (0..n).step_by(BATCH) {
@@ -60,8 +64,6 @@ impl Plasticity {
             if !any {
                 batch.increment.fill(0.0);
                 batch.work.fill(0.0);
-            } else if let Some(line) = self.line {
-                count += return_batch(line, batch.of_line());
             } else if let Some(law) = &self.power {
                 count += self.return_power(law, &mut batch, dt);
             } else {

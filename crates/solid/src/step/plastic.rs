@@ -13,7 +13,7 @@ use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
 use crate::material::yield_criterion::von_mises_squared;
 use crate::plasticity::{PlasticRows, Plasticity};
 use crate::state::component::COUNT;
-use crate::step::report::{BlockReport, PlasticReport, report_stresses};
+use crate::step::report::{BlockReport, PlasticReport, largest_mises_of_block};
 
 /// Cells that are returned together: whole rows of a block.
 const BATCH: usize = 64;
@@ -186,9 +186,11 @@ impl<const N: usize> BlockStep<'_, N> {
         let cold = plasticity.reference();
         let is_warm = plasticity.has_heat() && !self.is_untouched;
         let hottest = if is_warm { maximum(&cells.component(TEMPERATURE)[first..][..n]) } else { cold };
-        // Flow stress never falls with plastic strain, so most blocks need no look at their cells.
+        // Flow stress never falls with plastic strain, so most blocks need no look at their cells. What has just flowed goes on with it.
         let least = plasticity.hardening().yield_stress(0.0, 0.0, hottest);
-        flow.acts = !(largest_mises([&*zz, &*zr, &*rr, &*phiphi]) <= LEAST * least * least);
+        let has_flowed =
+            self.ctx.model.following.as_ref().is_some_and(|own| !own.of_block(self.slot).rates.is_zero);
+        flow.acts = has_flowed || !(largest_mises([&*zz, &*zr, &*rr, &*phiphi]) <= LEAST * least * least);
         if !flow.acts {
             return;
         }
@@ -259,7 +261,7 @@ impl<const N: usize> BlockStep<'_, N> {
         if report.plastic.returned > 0 {
             rates.is_zero = false;
             model.untouched.yields(slot);
-            report_stresses(ctx.mesh, slot, new, model.yield_squared(), report);
+            report.mises_squared = largest_mises_of_block::<N>(new);
         }
     }
 }
