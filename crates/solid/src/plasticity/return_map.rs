@@ -116,17 +116,8 @@ impl Plasticity {
             return yields
                 .then(|| self.returned(stress, von_mises, strain + increment, temperature, increment));
         }
-        let squared = trial.von_mises_squared();
-        let beyond = if self.has_heat() {
-            self.screen.is_beyond_hot(squared, strain, temperature)
-        } else {
-            self.screen.is_beyond(squared, strain)
-        };
-        if !beyond {
-            return None;
-        }
-        let von_mises = squared.sqrt();
-        let Some(law) = &self.power else { return self.flow_back(trial, von_mises, strain, temperature, dt) };
+        let Some(law) = &self.power else { return self.return_bracketed(trial, strain, temperature, dt) };
+        let von_mises = self.beyond(trial, strain, temperature)?;
         let (increment, left) = law.single(von_mises, strain, temperature - self.reference, law.time(dt));
         if increment == UNSOLVED {
             self.flow_back(trial, von_mises, strain, temperature, dt)
@@ -136,6 +127,31 @@ impl Plasticity {
                 self.returned(stress, left, strain + increment, temperature, increment)
             })
         }
+    }
+
+    /// The same by the bracketed solver, for laws without a closed form.
+    #[inline]
+    pub(super) fn return_bracketed(
+        &self,
+        trial: Stress,
+        strain: f64,
+        temperature: f64,
+        dt: f64,
+    ) -> Option<Returned> {
+        let von_mises = self.beyond(trial, strain, temperature)?;
+        self.flow_back(trial, von_mises, strain, temperature, dt)
+    }
+
+    /// q of a trial stress that may lie outside, Pa.
+    #[inline]
+    fn beyond(&self, trial: Stress, strain: f64, temperature: f64) -> Option<f64> {
+        let squared = trial.von_mises_squared();
+        let beyond = if self.has_heat() {
+            self.screen.is_beyond_hot(squared, strain, temperature)
+        } else {
+            self.screen.is_beyond(squared, strain)
+        };
+        beyond.then(|| squared.sqrt())
     }
 
     /// The modulus that a wave along z meets while the material flows: C_zzzz of the elastoplastic tangent,

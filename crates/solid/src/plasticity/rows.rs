@@ -107,7 +107,8 @@ impl Plasticity {
                 rr: batch.stress_rr[k],
                 phiphi: batch.stress_phiphi[k],
             };
-            let Some(returned) = self.return_map(stress, batch.strain[k], temperature, dt) else { continue };
+            let returned = self.return_bracketed(stress, batch.strain[k], temperature, dt);
+            let Some(returned) = returned else { continue };
             let Stress { zz, zr, rr, phiphi } = returned.stress;
             (batch.stress_zz[k], batch.stress_zr[k]) = (zz, zr);
             (batch.stress_rr[k], batch.stress_phiphi[k]) = (rr, phiphi);
