@@ -17,7 +17,7 @@ use fluid::{
     RiemannSolver, Shape,
 };
 use mesh::{Domain, Geometry, Limiter};
-use solid::plasticity::{Hardening, JohnsonCook, RateFactor, ThermalSoftening};
+use solid::plasticity::{Hardening, JohnsonCook, RateFactor, Table, ThermalSoftening};
 use solid::{ElasticState, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
 
 /// Samples per measurement; the median is reported.
@@ -68,7 +68,7 @@ fn main() -> Result<(), Failure> {
         "| law | nothing yields, ns per cell and step | over elastic | everything yields | over elastic |"
     );
     println!("|---|---|---|---|---|");
-    for law in ["linear", "johnson-cook"] {
+    for law in ["perfect", "linear", "table", "johnson-cook"] {
         if !wanted(&format!("solids that can yield, {law}, mc, 512 16")) {
             continue;
         }
@@ -126,7 +126,7 @@ enum Solver {
 /// How the solid yields.
 #[derive(Clone, Copy)]
 struct Yielding {
-    /// "linear" or "johnson-cook".
+    /// As in case files.
     law: &'static str,
     /// Whether it is so weak that everything that moves flows, or so strong that nothing does.
     flows: bool,
@@ -136,7 +136,9 @@ impl Yielding {
     fn hardening(self) -> Result<Hardening, Failure> {
         let strength = if self.flows { 1.0 } else { 1e12 };
         Ok(match self.law {
+            "perfect" => Hardening::perfect(strength)?,
             "linear" => Hardening::linear(strength, strength)?,
+            "table" => Hardening::Table(Table::new(&[[0.0, strength], [0.1, 2.0 * strength]])?),
             _ => {
                 let heat = ThermalSoftening::new(1.0, 1700.0, 293.0, 480.0, 0.9)?;
                 let law = JohnsonCook::new(strength, strength, 0.3)?;

@@ -34,22 +34,24 @@ const ROWS: f64 = 11.0;
 #[derive(Clone, Copy)]
 struct Numbers {
     components: usize,
+    /// Numbers that no step depends on, of which there is no second field.
+    once: usize,
     /// Registered at each face between blocks.
     registered: usize,
     values: f64,
 }
 
 fn of_solid(solid: &SolidCase) -> Numbers {
-    // Plastic strain, its rate, two of displacement (three in a snapshot), and temperature where heat matters.
-    let own = solid.plasticity.as_ref().map_or(0, |law| 4 + usize::from(law.softening().is_some()));
-    let values = if own > 0 { SOLID_VALUES + own as f64 + 1.0 } else { SOLID_VALUES };
-    Numbers { components: 6 + own, registered: 4, values }
+    // Plastic strain, and temperature where heat matters; once the rate of the strain and two of displacement (three in a snapshot).
+    let own = solid.plasticity.as_ref().map_or(0, |law| 1 + usize::from(law.softening().is_some()));
+    let (once, values) = if own > 0 { (3, SOLID_VALUES + own as f64 + 4.0) } else { (0, SOLID_VALUES) };
+    Numbers { components: 6 + own, once, registered: 4, values }
 }
 
 fn of_fluid(fluid: &FluidCase) -> Numbers {
     let carried = usize::from(fluid.tracer.is_some()) + usize::from(fluid.terms.phase_change.is_some());
     let values = FLUID_VALUES + carried as f64;
-    Numbers { components: fluid.model.components() + carried, registered: 8 + carried, values }
+    Numbers { components: fluid.model.components() + carried, once: 0, registered: 8 + carried, values }
 }
 
 /// What finding the pressure at t = 0 takes at the most, bytes.
@@ -66,7 +68,9 @@ impl Numbers {
         let adapts = grid.adaptation.is_some();
         let fields = self.components as f64;
         let register = (4 * self.registered) as f64 / BLOCK as f64;
-        let present = 2.0 * fields + register + OF_BLOCKS;
+        // While a grid adapts they are there as they were, as they are and on the new grid.
+        let once = (if adapts { 3 } else { 1 } * self.once) as f64;
+        let present = 2.0 * fields + once + register + OF_BLOCKS;
         // Levels that step by themselves have a third field, and means of what passed between them.
         let local = if adapts && local_steps { fields + register } else { 0.0 };
         (present + local + self.output(adapts)) * if adapts { SPARE } else { 1.0 }

@@ -24,7 +24,7 @@ use super::{OutputError, safe_file};
 
 /// Format of the file and meaning of what states hold; a change of either counts it up. Names and types of what they hold need
 /// nobody's care, see [`layout_of`].
-pub const VERSION: u32 = 9;
+pub const VERSION: u32 = 10;
 
 const MAGIC: [u8; 8] = *b"cav\0ckpt";
 const CHECKSUM: usize = 32;

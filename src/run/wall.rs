@@ -20,6 +20,8 @@ pub struct Wall<'a> {
     ground: Ground,
     leaves: Cow<'a, [BlockId]>,
     cells: Cow<'a, Field>,
+    /// Of the cells.
+    moved: Option<Field>,
     /// (u_z, u_r) on the faces of the finest level, m.
     displacement: Vec<[f64; 2]>,
 }
@@ -110,6 +112,7 @@ impl WallLeaver {
             ground: self.ground.clone(),
             leaves: Cow::Borrowed(solver.mesh().tree().leaves()),
             cells: Cow::Borrowed(solver.state()),
+            moved: solver.displacements(),
             displacement,
         };
         let head = Head::of(self.case, Participant::Solid.name(), solver.steps());
@@ -188,7 +191,7 @@ impl Wall<'static> {
             let now = pressed(point).to_array();
             ElasticState::from_array(std::array::from_fn(|c| now[c] - before[c]))
         };
-        Ok(SolidSolver::at_rest_with(setup, self.leaves.into_owned(), &self.cells, change)?)
+        Ok(SolidSolver::at_rest_with(setup, self.leaves.into_owned(), &self.cells, self.moved, change)?)
     }
 }
 

@@ -324,7 +324,7 @@ impl<const N: usize> Model<N> for Fluid {
     }
 
     /// How many predictions are limited is counted.
-    fn remap(&mut self, remap: &Remap<'_, N>, new: &mut Field) {
+    fn remap(&mut self, remap: &Remap<'_, N>, _: f64, new: &mut Field) {
         let analysis = CountedAnalysis::new(&self.analysis);
         remap.by(&analysis, new);
         self.tally.fixups.clips.limited_predictions += analysis.limited();

@@ -1,7 +1,5 @@
 //! What multiresolution analysis must know of a solid: which details matter, how fields meet the sides.
 
-use std::ops::Range;
-
 use mesh::{MOST_COMPONENTS, Multiresolution, Side};
 
 use crate::Boundary;
@@ -18,15 +16,10 @@ pub struct Analysis {
     pub(crate) impedance: f64,
     /// What details of plastic strain count as stresses, Pa; 0 where nothing can yield.
     pub(crate) strain_modulus: f64,
-    /// Places of the displacement, if there is one.
-    pub(crate) displacement: Range<usize>,
 }
 
 impl Multiresolution for Analysis {
     fn parity(&self, side: Side, component: usize) -> Option<f64> {
-        // A displacement is reflected as its velocity.
-        let displaced = component.checked_sub(self.displacement.start);
-        let component = displaced.filter(|_| self.displacement.contains(&component)).unwrap_or(component);
         match self.boundaries[side as usize] {
             Boundary::Periodic => None,
             kind => parity(kind, side, component),

@@ -1,11 +1,12 @@
 //! What the solid is to the block solver.
 
-use mesh::{BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap, Side};
+use mesh::{BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap, Reports, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::absorbing::SideFilters;
 use crate::components::admissible::Admissible;
+use crate::components::following::{Following, SavedFollowing};
 use crate::physics::{Solid, SolidStep};
 use crate::step::plastic::{measure_flow, return_block};
 use crate::step::reflux::{self, QUANTITIES};
@@ -19,6 +20,7 @@ pub struct SolidMemory {
     sides: [SideFilters; 4],
     ledger: BoundaryLedger,
     plastic: PlasticLedger,
+    following: Option<SavedFollowing>,
 }
 
 impl<const N: usize> Model<N> for Solid {
@@ -101,26 +103,54 @@ impl<const N: usize> Model<N> for Solid {
 
     /// What can yield stays within its yield surface, see `Admissible`; what rounding and laws that soften by heat leave outside
     /// is returned, and counted.
-    fn remap(&mut self, remap: &Remap<'_, N>, new: &mut Field) {
+    fn remap(&mut self, remap: &Remap<'_, N>, time: f64, new: &mut Field) {
         let Some(plasticity) = &self.plasticity else { return remap.by(&self.analysis, new) };
-        remap.by(&Admissible { analysis: &self.analysis, plasticity }, new);
         let adapted = remap.adapted;
+        if let Some(following) = &mut self.following {
+            following.remap(adapted, (remap.mesh, remap.field), &self.analysis, time);
+        }
+        remap.by(&Admissible { analysis: &self.analysis, plasticity }, new);
         for slot in adapted.fresh() {
             let mut report = PlasticReport::default();
             let id = adapted.mesh.tree().leaves()[slot];
             report.corrected =
-                return_block(plasticity, &adapted.mesh, id, new.block_mut(slot), 0.0, &mut report);
+                return_block(plasticity, &adapted.mesh, id, new.block_mut(slot), None, &mut report);
             self.plastic.take(&report);
         }
     }
 
-    fn memory(&self) -> SolidMemory {
-        SolidMemory { sides: self.sides.kept().clone(), ledger: self.ledger, plastic: self.plastic }
+    fn reports_changed(&mut self, reports: &Reports<BlockReport>) {
+        let Some(plasticity) = &self.plasticity else { return };
+        let cold = plasticity.reference();
+        let yielded = |report: &BlockReport| report.plastic.strain > 0.0 || report.plastic.temperature > cold;
+        let Reports { finished, pending, .. } = reports;
+        let of_slot = |(slot, report)| yielded(report) || pending.get(slot).is_some_and(yielded);
+        self.untouched.take(finished.iter().enumerate().map(of_slot));
     }
 
-    fn restore(&mut self, SolidMemory { sides, ledger, plastic }: SolidMemory) -> Result<(), Misfit> {
+    fn mesh_changed(&mut self, mesh: &Mesh<N>) {
+        self.untouched.mesh_changed(mesh.blocks());
+    }
+
+    fn memory(&self) -> SolidMemory {
+        let following = self.following.as_ref().map(Following::saved);
+        SolidMemory {
+            sides: self.sides.kept().clone(),
+            ledger: self.ledger,
+            plastic: self.plastic,
+            following,
+        }
+    }
+
+    fn restore(&mut self, memory: SolidMemory) -> Result<(), Misfit> {
+        let SolidMemory { sides, ledger, plastic, following } = memory;
         if !self.sides.restore(sides) {
             return Err(Misfit("what absorbing sides remember is not of the solid's sides".to_owned()));
+        }
+        match (&mut self.following, following) {
+            (Some(own), Some(saved)) => own.restore(&saved, self.untouched.blocks())?,
+            (None, None) => {}
+            _ => return Err(Misfit("only one of both can yield".to_owned())),
         }
         (self.ledger, self.plastic) = (ledger, plastic);
         Ok(())

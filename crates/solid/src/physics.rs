@@ -1,11 +1,13 @@
 //! What the cells of a solid obey, and what bounds them.
 
-use mesh::Step;
+use mesh::{Mesh, Neighbour, Step};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::absorbing::SideMemory;
 use crate::components::Component;
+use crate::components::following::Following;
+use crate::components::untouched::Untouched;
 use crate::plasticity::Plasticity;
 use crate::step::rows::Elasticity;
 use crate::terms::Terms;
@@ -19,6 +21,9 @@ pub struct Solid {
     pub(crate) plasticity: Option<Plasticity>,
     /// What fields hold beyond velocity and stress.
     pub(crate) components: Vec<Component>,
+    /// What only follows the cells; `None` where nothing can yield.
+    pub(crate) following: Option<Following>,
+    pub(crate) untouched: Untouched,
     pub(crate) terms: Terms,
     pub(crate) boundaries: Boundaries,
     pub(crate) sides: SideMemory,
@@ -38,5 +43,12 @@ impl Solid {
         let strength = self.setup.yield_strength;
         let strength = if self.plasticity.is_some() { ROUNDING * strength } else { strength };
         strength * strength
+    }
+
+    /// Whether neither a block nor a neighbour of it has yielded so far.
+    pub(crate) fn is_untouched<const N: usize>(&self, mesh: &Mesh<N>, slot: usize) -> bool {
+        let around = mesh.tree().neighbours(slot).iter().flat_map(Neighbour::slots);
+        !self.untouched.has_yielded(slot)
+            && around.into_iter().all(|other| !self.untouched.has_yielded(other))
     }
 }

@@ -1,16 +1,17 @@
 //! `SolidSolver`: how a solid is made.
 
-use mesh::{BlockId, BlockSolver, Field, Mesh, SavedBlocks, SideStates};
+use mesh::{BlockId, BlockSolver, Field, Mesh, MeshError, SavedBlocks, SideStates};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::absorbing::SideMemory;
 use crate::boundary::held::Held;
+use crate::components::following::Following;
+use crate::components::untouched::Untouched;
 use crate::components::{self, Component};
 use crate::model::SolidMemory;
 use crate::physics::Solid;
 use crate::plasticity::Plasticity;
-use crate::state::component::COUNT;
 use crate::step::BlockScratch;
 use crate::step::report::BlockReport;
 use crate::step::rows::Elasticity;
@@ -52,46 +53,56 @@ impl<const N: usize> SolidSolver<N> {
         let analysis = analysis(&setup, &components);
         let (mesh, state) = crate::initial::initial_mesh(&setup, &analysis, &components, &initial)?;
         let beyond = Held::along_sides(&mesh, &initial, &with_weight(&setup, at_rest));
-        Self::with(setup, plasticity, (components, analysis), (mesh, state), beyond)
+        Self::with(setup, plasticity, (components, analysis), (mesh, state, None), beyond)
     }
 
-    /// A solid at rest in the cells of an earlier one, with the stress, plastic strain and temperature that it had.
+    /// A solid at rest in the cells of an earlier one, with the stress, plastic strain, temperature and displacement that it had.
     ///
-    /// - `leaves`, `cells`: of a solid of the same domain and coarsest cells, in their order. A temperature that it has not is that of
-    ///   what never yielded. `change`: added to the stresses at a cell's centre (z, r); its velocities are not looked at.
+    /// - `leaves`, `cells`, `displacement`: of a solid of the same domain and coarsest cells, in their order, see
+    ///   [`SolidSolver::displacements`]. A temperature that it has not is that of what never yielded. `change`: added to the stresses at
+    ///   a cell's centre (z, r); its velocities are not looked at.
     /// - errors: [`SolidError::Mesh`] where the leaves are not those of such a domain, [`SolidError::NotFinite`].
     pub fn at_rest_with(
         setup: SolidSetup,
         leaves: Vec<BlockId>,
         cells: &Field,
+        displacement: Option<Field>,
         change: impl Fn([f64; 2]) -> ElasticState + Sync,
     ) -> Result<Self, SolidError> {
         let plasticity = plasticity(&setup);
         let components = components::of(plasticity.as_ref(), setup.speeds);
         let analysis = analysis(&setup, &components);
         let (mesh, state) = crate::initial::earlier_cells(&setup, &components, leaves, cells, &change)?;
+        let blocks = mesh.blocks();
+        if displacement.as_ref().is_some_and(|moved| !moved.has_shape(blocks, N * N, 2)) {
+            return Err(MeshError::NoTiling { blocks }.into());
+        }
         let at = |point: [f64; 2]| {
             let (slot, i, j) = mesh.locate(point).expect("cells along the sides are in the domain");
             ElasticState::from_array(std::array::from_fn(|c| state.component(slot, c)[j * N + i]))
         };
         let beyond = Held::along_sides(&mesh, &at, &with_weight(&setup, change));
-        Self::with(setup, plasticity, (components, analysis), (mesh, state), beyond)
+        Self::with(setup, plasticity, (components, analysis), (mesh, state, displacement), beyond)
     }
 
     fn with(
         setup: SolidSetup,
         plasticity: Option<Plasticity>,
         (components, analysis): (Vec<Component>, Analysis),
-        (mesh, state): (Mesh<N>, Field),
+        (mesh, state, displacement): (Mesh<N>, Field, Option<Field>),
         beyond: SideStates<Held>,
     ) -> Result<Self, SolidError> {
         let kinds = setup.boundaries;
         let adaptation = setup.adaptation.clone();
         let count = state.components();
+        let displacement = displacement.unwrap_or_else(|| Field::zeros(mesh.blocks(), N * N, 2));
+        let following = plasticity.as_ref().map(|_| Following::new(&displacement, N * N));
         let solid = Solid {
             elasticity: Elasticity::new(setup.speeds),
             plasticity,
             components,
+            following,
+            untouched: Untouched::default(),
             terms: Terms::of(&setup),
             boundaries: Boundaries::new(kinds, beyond),
             sides: SideMemory::new(&mesh, kinds),
@@ -142,7 +153,6 @@ fn analysis(setup: &SolidSetup, components: &[Component]) -> Analysis {
         stress_scale: setup.stress_scale,
         impedance: setup.speeds.z1(),
         strain_modulus: components.iter().map(|component| component.as_stress).fold(0.0, f64::max),
-        displacement: components::displacement(COUNT + components.len()),
     }
 }
 

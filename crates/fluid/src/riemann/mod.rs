@@ -1,6 +1,5 @@
 //! Riemann solvers: of one face, and of rows of faces.
 
-pub(crate) mod elementary;
 pub mod exact_riemann;
 pub(crate) mod exact_rows;
 pub(crate) mod godunov;

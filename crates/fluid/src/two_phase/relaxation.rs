@@ -2,7 +2,7 @@
 
 use super::closure::{Compression, LOWEST, PURE, bounded};
 use crate::Mixture;
-use crate::riemann::elementary::{exp_and_less_one, ln_of};
+use mesh::{exp_and_less_one, ln_of};
 
 /// Volume change of a cell per step below which its volumes are relaxed by the linear rule.
 const LINEAR_BELOW: f64 = 1e-3;

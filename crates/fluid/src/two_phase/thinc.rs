@@ -1,7 +1,7 @@
 //! THINC: the gas fraction on the faces of a cell as a step that keeps its width.
 
 use super::closure::THIN;
-use crate::riemann::elementary::{exp_and_less_one, ln_of};
+use mesh::{exp_and_less_one, ln_of};
 
 /// Steepness of the step: three quarters of it lie in one cell. Above 2.5 the time step collapses after a focus; 1.6
 /// is safe and blunter.

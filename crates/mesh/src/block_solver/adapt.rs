@@ -41,7 +41,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let Some(adapted) = adapted else { return false };
         let (mesh, field) = (&self.mesh, &self.state);
         let remap = Remap { adapted: &adapted, mesh, field, patches: &self.adapting.patches };
-        self.model.remap(&remap, &mut self.next);
+        self.model.remap(&remap, self.progress.time, &mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
         let blocks = adapted.mesh.blocks();
         self.next.resize(blocks);

@@ -135,8 +135,8 @@ pub trait Model<const N: usize>: Sized + Sync {
     fn finest_for_details(&self, _mesh: &Mesh<N>, base: u8) -> u8 {
         base
     }
-    /// Carries a field over to another mesh.
-    fn remap(&mut self, remap: &Remap<'_, N>, new: &mut Field) {
+    /// Carries a field over to another mesh; `_time`: of the field, s.
+    fn remap(&mut self, remap: &Remap<'_, N>, _time: f64, new: &mut Field) {
         remap.by(self.analysis(), new);
     }
     /// Called when all levels have come to the end of a whole step.

@@ -22,13 +22,21 @@ impl<const N: usize> Mesh<N> {
     /// In the order of the slots a block's own cells have been read by its lower neighbours, as ghosts. What nobody has
     /// read yet is the block beyond the upper side along z.
     ///
-    /// - `target`: where the block in `slot` will be written; `part` of `parts`: not all at once, since only so many
-    ///   lines can be under way.
-    pub fn look_ahead(&self, field: &Field, slot: usize, target: &[f64], part: usize, parts: usize) {
+    /// - `beside`: numbers of all blocks that a step touches besides those of the field. `target`: where the block in `slot` will be written, as far as it will: of the next one as much is asked for. `part` of `parts`:
+    ///   not all at once, since only so many lines can be under way.
+    /// - returns: whether it was worth while.
+    pub fn look_ahead(
+        &self,
+        (field, beside): (&Field, usize),
+        slot: usize,
+        target: &[f64],
+        part: usize,
+        parts: usize,
+    ) -> bool {
         debug_assert!(part < parts, "part {part} of {parts}");
         debug_assert_eq!(Offset::ALL[Side::ZMax as usize], Offset { i: 1, j: 0 });
-        if field.as_slice().len() < FAR {
-            return;
+        if field.as_slice().len() + beside < FAR {
+            return false;
         }
         fetch(target, part, parts);
         let next = slot + 1;
@@ -36,8 +44,9 @@ impl<const N: usize> Mesh<N> {
             && let Neighbour::Same(other) = self.tree().neighbours(next)[Side::ZMax as usize]
             && other > next
         {
-            fetch(field.block(other), part, parts);
+            fetch(&field.block(other)[..target.len()], part, parts);
         }
+        true
     }
 
     /// [`Mesh::look_ahead`] for tiles of a medium that computes for longer: of the blocks that follow a tile, as many as it has,
@@ -53,9 +62,9 @@ impl<const N: usize> Mesh<N> {
     }
 }
 
-/// Asks for the lines of a part, without waiting for any.
+/// Asks for the lines of a part of some numbers, without waiting for any.
 #[cfg(target_arch = "x86_64")]
-fn fetch(block: &[f64], part: usize, parts: usize) {
+pub fn fetch(block: &[f64], part: usize, parts: usize) {
     let len = block.len() / parts;
     for number in block[part * len..(part + 1) * len].iter().step_by(LINE) {
         safe_arch::prefetch_t0(number);
@@ -64,4 +73,4 @@ fn fetch(block: &[f64], part: usize, parts: usize) {
 
 /// Other machines are left to look ahead for themselves.
 #[cfg(not(target_arch = "x86_64"))]
-fn fetch(_: &[f64], _: usize, _: usize) {}
+pub fn fetch(_: &[f64], _: usize, _: usize) {}

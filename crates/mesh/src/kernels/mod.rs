@@ -3,6 +3,7 @@
 pub(crate) mod ahead;
 pub(crate) mod aligned;
 pub(crate) mod dispersion;
+pub(crate) mod elementary;
 pub(crate) mod limiter;
 pub(crate) mod parallel;
 pub(crate) mod reduce;

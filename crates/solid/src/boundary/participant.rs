@@ -5,7 +5,7 @@ use mesh::{Geometry, GroupStep, Padded, Side};
 
 use crate::SolidSolver;
 use crate::boundary::Boundaries;
-use crate::components::{PLASTIC_STRAIN, TEMPERATURE, acting};
+use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
 use crate::plasticity::{Plasticity, Returned, Stress};
 use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
 use crate::step::rows::{Elasticity, rates};
@@ -79,8 +79,8 @@ impl<const N: usize> SolidSolver<N> {
                     let mut rate = rates(w, d_z, d_r, inverse_r[k], &self.model().elasticity);
                     let mut impedance = self.model().elasticity.z1;
                     if let Some(plasticity) = &self.model().plasticity {
-                        let acting = acting(cells.components());
-                        let own = |c: usize| if c < acting { cells.component(c)[k] } else { 0.0 };
+                        let count = cells.components();
+                        let own = |c: usize| if c < count { cells.component(c)[k] } else { 0.0 };
                         let state = [own(PLASTIC_STRAIN), own(TEMPERATURE)];
                         if let Some(end) = rate_with_flow(plasticity, w, state, 0.5 * dt, &mut rate) {
                             let Elasticity { p_modulus, inverse_density, .. } = self.model().elasticity;

@@ -96,7 +96,6 @@ mod tests {
             stress_scale: 1e6,
             impedance: speeds.z1(),
             strain_modulus: 3.0 * speeds.shear_modulus(),
-            displacement: 0..0,
         };
         let rule = Admissible { analysis: &analysis, plasticity: &plasticity };
         for size in [1e7, 3e8, 2e9] {

@@ -166,6 +166,13 @@ impl<const N: usize> SolidSolver<N> {
             for (number, component) in self.model().components.iter().enumerate() {
                 (component.put)(&mut snapshot, self.state().component(slot, COUNT + number));
             }
+            if let Some(following) = &self.model().following {
+                let follower = following.of_block(slot);
+                snapshot.plastic_strain_rate.extend(&follower.rates.cells);
+                let moved: Vec<f64> = follower.displacement(self.time(), self.state().block(slot)).collect();
+                let (u_z, u_r) = moved.split_at(N * N);
+                snapshot.displacement.extend(u_z.iter().zip(u_r).flat_map(|(u_z, u_r)| [*u_z, *u_r, 0.0]));
+            }
         }
         snapshot
     }

@@ -1,7 +1,9 @@
 //! Numbers of plastic flow.
 
+use mesh::Field;
+
 use crate::SolidSolver;
-use crate::components::{self, PLASTIC_STRAIN, TEMPERATURE};
+use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
 
 /// The largest plastic strain and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +33,7 @@ impl<const N: usize> SolidSolver<N> {
 
     /// Whether temperature is a part of its state.
     pub fn has_heat(&self) -> bool {
-        components::acting(self.state().components()) > TEMPERATURE
+        self.state().components() > TEMPERATURE
     }
 
     /// The plastic strain of one cell; 0 where nothing can yield.
@@ -47,9 +49,15 @@ impl<const N: usize> SolidSolver<N> {
     /// The displacement (u_z, u_r) of one cell since t = 0, m: the integral of its velocity; `None` where nothing can yield, and none is
     /// kept.
     pub fn displacement(&self, slot: usize, i: usize, j: usize) -> Option<[f64; 2]> {
-        let mut places = components::displacement(self.state().components());
-        let mut next = || places.next().map(|place| self.state().component(slot, place)[j * N + i]);
-        Some([next()?, next()?])
+        let follower = self.model().following.as_ref()?.of_block(slot);
+        let mut moved =
+            follower.displacement(self.time(), self.state().block(slot)).skip(j * N + i).step_by(N * N);
+        Some([moved.next()?, moved.next()?])
+    }
+
+    /// u_z and u_r of all cells, as [`SolidSolver::displacement`]: what a wall that is hit again starts with.
+    pub fn displacements(&self) -> Option<Field> {
+        Some(self.model().following.as_ref()?.displacements(self.time(), self.state()))
     }
 
     fn component_or(&self, other: f64, component: usize, slot: usize, cell: usize) -> f64 {

@@ -5,7 +5,7 @@ pub(crate) mod half_space;
 use mesh::{BlockId, Field, Mesh, MeshError, Side, for_some_blocks};
 
 use crate::analysis::Analysis;
-use crate::components::{self, Component};
+use crate::components::Component;
 use crate::state::component::{COUNT, V_R, V_Z};
 use crate::{Boundary, ElasticState, SolidError, SolidSetup};
 
@@ -43,9 +43,7 @@ pub(crate) fn earlier_cells<const N: usize>(
         return Err(MeshError::NoTiling { blocks }.into());
     }
     let mut state = fill(&mesh, components, change);
-    let counts = [state.components(), cells.components()];
-    let [own_acting, acting] = counts.map(components::acting);
-    let displacements = counts.map(components::displacement);
+    let stays = COUNT..state.components().min(cells.components());
     for slot in 0..blocks {
         let block = state.block_mut(slot);
         for component in [V_Z, V_R] {
@@ -55,11 +53,10 @@ pub(crate) fn earlier_cells<const N: usize>(
             let own = &mut block[component * N * N..(component + 1) * N * N];
             own.iter_mut().zip(cells.component(slot, component)).for_each(|(own, earlier)| *own += earlier);
         }
-        // Plastic strain, and the temperature if both have one; displacement. Nothing flows at first.
-        let stays = (COUNT..own_acting.min(acting)).map(|component| (component, component));
-        let [own, earlier] = displacements.clone();
-        for (own, earlier) in stays.chain(own.zip(earlier)) {
-            block[own * N * N..(own + 1) * N * N].copy_from_slice(cells.component(slot, earlier));
+        // Plastic strain, and the temperature if both have one.
+        for component in stays.clone() {
+            block[component * N * N..(component + 1) * N * N]
+                .copy_from_slice(cells.component(slot, component));
         }
     }
     Ok((mesh, state))

@@ -5,9 +5,6 @@ use multiversion::multiversion;
 use super::hardening::Hardening;
 use super::stress::Stress;
 
-/// Cells that are looked at together: with none of them beyond the surface, none is looked at closely.
-pub(super) const BATCH: usize = 64;
-
 /// Y = A + H ε_p over an elasticity of 3μ, all Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
@@ -61,18 +58,19 @@ pub(super) struct LineCells<'a> {
     pub stress: [&'a mut [f64]; 4],
     pub strain: &'a mut [f64],
     /// Written: Δε_p, 0 where a cell stays elastic.
-    pub increment: &'a mut [f64; BATCH],
-    /// Written: q, Pa, where it does not.
-    pub von_mises: &'a mut [f64; BATCH],
+    pub increment: &'a mut [f64],
+    /// Written: q Δε_p, J/m³.
+    pub work: &'a mut [f64],
 }
 
-/// The returns of a batch.
+/// The returns of a batch; tells how many cells flowed.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(super) fn return_batch(line: Line, cells: LineCells<'_>) {
-    let LineCells { stress: [zz, zr, rr, phiphi], strain, increment, von_mises } = cells;
-    let n = strain.len().min(BATCH);
+pub(super) fn return_batch(line: Line, cells: LineCells<'_>) -> usize {
+    let LineCells { stress: [zz, zr, rr, phiphi], strain, increment, work } = cells;
+    let n = strain.len();
+    let mut count = 0;
     let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
-    let (increment, von_mises) = (&mut increment[..n], &mut von_mises[..n]);
+    let (increment, work) = (&mut increment[..n], &mut work[..n]);
     for k in 0..n {
         let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
         let returned = line.return_map(trial, strain[k]);
@@ -83,6 +81,8 @@ pub(super) fn return_batch(line: Line, cells: LineCells<'_>) {
         phiphi[k] = select(returned.stress.phiphi, trial.phiphi);
         strain[k] = select(strain[k] + returned.increment, strain[k]);
         increment[k] = select(returned.increment, 0.0);
-        von_mises[k] = returned.von_mises;
+        work[k] = select(returned.von_mises * returned.increment, 0.0);
+        count += u64::from(returned.yields);
     }
+    count as usize
 }

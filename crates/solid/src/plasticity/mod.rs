@@ -3,13 +3,16 @@
 //! Small strains, isotropic hardening, backward Euler in time. A cell is stepped elastically first; where its stress then
 //! lies outside the yield surface, [`Plasticity::return_map`] brings it back.
 
+mod chunk;
 mod closed;
 mod consistency;
 mod error;
 mod flow;
 mod hardening;
 mod johnson_cook;
+mod lanes;
 mod library;
+mod powers;
 mod rate;
 mod return_map;
 mod rows;

@@ -4,6 +4,7 @@ use super::closed::{Line, LineReturn};
 use super::consistency::Trial;
 use super::flow::Flow;
 use super::hardening::Hardening;
+use super::lanes::{PowerLaw, UNSOLVED};
 use super::screen::Screen;
 use super::stress::Stress;
 use crate::WaveSpeeds;
@@ -15,6 +16,8 @@ pub struct Plasticity {
     pub(super) screen: Screen,
     /// Of laws in closed form.
     pub(super) line: Option<Line>,
+    /// Of laws that are solved many cells at once.
+    pub(super) power: Option<PowerLaw>,
     mu: f64,
     /// χ/(ρ c_p), K m³/J.
     heating: f64,
@@ -51,6 +54,7 @@ impl Plasticity {
         Self {
             screen: Screen::new(&hardening),
             line: Line::new(&hardening, speeds.shear_modulus()),
+            power: PowerLaw::new(&hardening, speeds.shear_modulus(), heating),
             mu: speeds.shear_modulus(),
             heating,
             reference: hardening.reference_temperature().unwrap_or(0.0),
@@ -66,6 +70,21 @@ impl Plasticity {
     /// Shear modulus μ, Pa.
     pub fn mu(&self) -> f64 {
         self.mu
+    }
+
+    /// Whether its returns need an iteration that a guess shortens.
+    pub(crate) fn wants_guess(&self) -> bool {
+        self.power.is_some()
+    }
+
+    /// χ/(ρ c_p), K m³/J.
+    pub(super) fn heating(&self) -> f64 {
+        self.heating
+    }
+
+    /// T_r, K; 0 for laws without heat.
+    pub(crate) fn reference(&self) -> f64 {
+        self.reference
     }
 
     /// Whether temperature is a part of the state.
@@ -97,13 +116,42 @@ impl Plasticity {
             return yields
                 .then(|| self.returned(stress, von_mises, strain + increment, temperature, increment));
         }
+        let Some(law) = &self.power else { return self.return_bracketed(trial, strain, temperature, dt) };
+        let von_mises = self.beyond(trial, strain, temperature)?;
+        let (increment, left) = law.single(von_mises, strain, temperature - self.reference, law.time(dt));
+        if increment == UNSOLVED {
+            self.flow_back(trial, von_mises, strain, temperature, dt)
+        } else {
+            (increment > 0.0).then(|| {
+                let stress = trial.with_deviator_times(left / von_mises);
+                self.returned(stress, left, strain + increment, temperature, increment)
+            })
+        }
+    }
+
+    /// The same by the bracketed solver, for laws without a closed form.
+    #[inline]
+    pub(super) fn return_bracketed(
+        &self,
+        trial: Stress,
+        strain: f64,
+        temperature: f64,
+        dt: f64,
+    ) -> Option<Returned> {
+        let von_mises = self.beyond(trial, strain, temperature)?;
+        self.flow_back(trial, von_mises, strain, temperature, dt)
+    }
+
+    /// q of a trial stress that may lie outside, Pa.
+    #[inline]
+    fn beyond(&self, trial: Stress, strain: f64, temperature: f64) -> Option<f64> {
         let squared = trial.von_mises_squared();
         let beyond = if self.has_heat() {
             self.screen.is_beyond_hot(squared, strain, temperature)
         } else {
             self.screen.is_beyond(squared, strain)
         };
-        if beyond { self.flow_back(trial, squared.sqrt(), strain, temperature, dt) } else { None }
+        beyond.then(|| squared.sqrt())
     }
 
     /// The modulus that a wave along z meets while the material flows: C_zzzz of the elastoplastic tangent,
@@ -133,7 +181,7 @@ impl Plasticity {
     }
 
     /// The return of what may lie outside; `von_mises` is the trial's q, Pa.
-    fn flow_back(
+    pub(super) fn flow_back(
         &self,
         trial: Stress,
         von_mises: f64,

@@ -42,6 +42,8 @@ struct BlockStep<'a, const N: usize> {
     id: BlockId,
     /// 1/h_z, 1/h_r.
     inverse_h: [f64; 2],
+    /// Whether neither it nor a neighbour has yielded so far; what an elastic solid does not have is then not looked at.
+    is_untouched: bool,
 }
 
 /// Advances one block by one step from `ctx.old`; what it registers are star states.
@@ -57,19 +59,19 @@ pub(crate) fn step_block<const N: usize>(
     block.predict(scratch);
     block.flow_to_mid_step(scratch);
     done(Stage::Predict);
-    ctx.mesh.look_ahead(ctx.old, slot, new, 0, 3);
+    block.look_ahead(new, 0);
     block.impose_boundaries(scratch);
     done(Stage::Boundary);
     block.solve_faces(scratch, new);
     done(Stage::Faces);
-    ctx.mesh.look_ahead(ctx.old, slot, new, 2, 3);
+    block.look_ahead(new, 2);
     block.register_stars(scratch, register);
     done(Stage::Register);
     block.update(scratch, new, &mut report);
     done(Stage::Update);
     block.add_sources(new);
     done(Stage::Terms);
-    block.flow(new, &mut report);
+    block.flow(scratch, new, &mut report);
     done(Stage::Plastic);
     block.report(scratch, new, &mut report);
     done(Stage::Report);

@@ -5,20 +5,37 @@
 //! strain, an error of first order. So its states are returned, too, over half a step.
 
 use mesh::{BlockId, Mesh, Padded, maximum};
+use multiversion::multiversion;
 
 use super::BlockStep;
 use super::scratch::BlockScratch;
-use crate::components::{self, PLASTIC_STRAIN, TEMPERATURE, acting};
-use crate::plasticity::{PlasticRows, Plasticity, Returned};
+use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
+use crate::material::yield_criterion::von_mises_squared;
+use crate::plasticity::{PlasticRows, Plasticity};
 use crate::state::component::COUNT;
-use crate::step::report::{BlockReport, PlasticReport, report_stresses};
+use crate::step::report::{BlockReport, PlasticReport, largest_mises_of_block};
+
+/// Cells that are returned together: whole rows of a block.
+const BATCH: usize = 64;
+/// The most rows that are.
+const MOST_ROWS: usize = 8;
+
+/// What a return in a step of time has besides the cells.
+pub(crate) struct InStep<'a> {
+    /// Its length, s.
+    pub dt: f64,
+    /// What has flowed until mid-step, in padded rows, if it is known.
+    pub by_middle: Option<&'a [f64]>,
+    /// Written where cells flow: dε_p/dt, 1/s.
+    pub rates: &'a mut [f64],
+}
 
 /// Returns the cells of a block onto their yield surfaces.
 ///
 /// [`Plasticity::return_rows`]; what flows is counted.
 ///
-/// - `block`: the trial stresses with plastic strain and temperature at the beginning. `dt`: s. After what is no step, a
-///   correction along a level jump or a change of the grid, it is 0: a law without rate returns all the same; one with rate does
+/// - `block`: the trial stresses with plastic strain and temperature at the beginning. `step`: `None` after what is no step, a
+///   correction along a level jump or a change of the grid: a law without rate returns all the same; one with rate does
 ///   not flow in no time, so what such a change has added stays as overstress and relaxes in the next step. (Another return
 ///   over Δt would let the overstress that a rate holds relax twice.)
 /// - returns: how many cells flowed; `report` gets all but the counts.
@@ -28,48 +45,132 @@ pub(crate) fn return_block<const N: usize>(
     mesh: &Mesh<N>,
     id: BlockId,
     block: &mut [f64],
-    dt: f64,
+    mut step: Option<InStep<'_>>,
     report: &mut PlasticReport,
 ) -> u32 {
+    const { assert!(BATCH.is_multiple_of(N) && BATCH / N <= MOST_ROWS) };
     let mut components = block.chunks_exact_mut(N * N);
     let mut next = || components.next().expect("fields of what can yield have plastic strain");
-    let [_, _, stress_zz, stress_zr, stress_rr, stress_phiphi, strain] = std::array::from_fn(|_| next());
+    let [_, _, zz, zr, rr, phiphi, strain] = std::array::from_fn(|_| next());
     let temperature = if plasticity.has_heat() { components.next().unwrap_or_default() } else { &mut [] };
-    let mut rows = PlasticRows { stress_zz, stress_zr, stress_rr, stress_phiphi, strain, temperature };
-    let (mut sums, mut largest): ([[f64; 2]; N], f64) = ([[0.0; 2]; N], 0.0);
-    let count = plasticity.return_rows(&mut rows, dt, |cell, returned: &Returned| {
-        let of_row = &mut sums[cell / N];
-        of_row[0] += returned.plastic_work;
-        of_row[1] += returned.energy_released;
-        largest = largest.max(returned.increment);
-    });
-    if count > 0 {
-        for (j, [work, released]) in sums.into_iter().enumerate() {
-            let volume = mesh.volume(id, j);
+    let dt = step.as_ref().map_or(0.0, |step| step.dt);
+    let (mut count, mut largest): (usize, f64) = (0, 0.0);
+    for first in (0..N * N).step_by(BATCH) {
+        let (mut increment, mut work) = ([0.0; BATCH], [0.0; BATCH]);
+        if let Some(by_middle) = step.as_ref().and_then(|step| step.by_middle) {
+            for (row, increments) in increment.chunks_exact_mut(N).enumerate() {
+                let at = Padded::<N>::index(0, (first / N + row) as isize);
+                let half = by_middle[at..].iter();
+                increments.iter_mut().zip(half).for_each(|(own, half)| *own = 2.0 * half);
+            }
+        }
+        let mut rows = PlasticRows {
+            stress_zz: &mut zz[first..][..BATCH],
+            stress_zr: &mut zr[first..][..BATCH],
+            stress_rr: &mut rr[first..][..BATCH],
+            stress_phiphi: &mut phiphi[first..][..BATCH],
+            strain: &mut strain[first..][..BATCH],
+            temperature: temperature.get_mut(first..first + BATCH).unwrap_or_default(),
+            increment: &mut increment,
+            work: &mut work,
+        };
+        let flowed = plasticity.return_rows(&mut rows, dt);
+        if flowed == 0 {
+            continue;
+        }
+        count += flowed;
+        let (sums, most) = totals::<N>(&increment, &work, 1.5 * plasticity.mu());
+        largest = largest.max(most);
+        for (row, [work, released]) in sums.into_iter().take(BATCH / N).enumerate() {
+            let volume = mesh.volume(id, first / N + row);
             report.work += volume * work;
             report.released += volume * released;
         }
-        if dt > 0.0 {
-            report.rate = report.rate.max(largest / dt);
+        if let Some(step) = &mut step {
+            let per_second = 1.0 / step.dt;
+            let rates = step.rates[first..].iter_mut().zip(&increment);
+            rates.for_each(|(rate, increment)| *rate = increment * per_second);
         }
+    }
+    if count > 0 && dt > 0.0 {
+        report.rate = report.rate.max(largest / dt);
     }
     measure_flow::<N>(block, report);
     // No block has that many cells.
     u32::try_from(count).unwrap_or(u32::MAX)
 }
 
+/// Plastic work and released energy summed over the rows of a batch, J/m³, and the largest increment.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+fn totals<const N: usize>(
+    increment: &[f64; BATCH],
+    work: &[f64; BATCH],
+    three_halves_mu: f64,
+) -> ([[f64; 2]; MOST_ROWS], f64) {
+    const LANES: usize = 8;
+    let mut sums = [[0.0; 2]; MOST_ROWS];
+    let rows = increment.chunks_exact(N).zip(work.chunks_exact(N));
+    for (sum, (increment, work)) in sums.iter_mut().zip(rows) {
+        let (mut works, mut losses) = ([0.0; LANES], [0.0; LANES]);
+        for (increment, work) in increment.chunks_exact(LANES).zip(work.chunks_exact(LANES)) {
+            for lane in 0..LANES {
+                works[lane] += work[lane];
+                losses[lane] += increment[lane] * increment[lane];
+            }
+        }
+        let (work, loss): (f64, f64) = (works.iter().sum(), losses.iter().sum());
+        *sum = [work, work + three_halves_mu * loss];
+    }
+    (sums, maximum(increment))
+}
+
 /// Takes the largest plastic strain and the highest temperature of a block's cells into its report.
 pub(crate) fn measure_flow<const N: usize>(block: &[f64], report: &mut PlasticReport) {
-    let acting = acting(block.len() / (N * N));
-    let largest = |component: usize| {
-        if component < acting { maximum(&block[component * N * N..(component + 1) * N * N]) } else { 0.0 }
-    };
+    let largest = |component: usize| block.chunks_exact(N * N).nth(component).map_or(0.0, maximum);
     report.strain = largest(PLASTIC_STRAIN);
     report.temperature = largest(TEMPERATURE);
 }
 
 /// Of the squared flow stress: rounding must not keep a cell from its return.
 const LEAST: f64 = 1.0 - 1e-9;
+
+/// The largest squared von Mises stress in rows of σ_zz, σ_zr, σ_rr, σ_φφ, infinite if one is not a number.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+fn largest_mises(stress: [&[f64]; 4]) -> f64 {
+    const LANES: usize = 32;
+    let n = stress[0].len();
+    let [zz, zr, rr, phiphi] = stress.map(|row| &row[..n]);
+    let mut lanes = [0.0; LANES];
+    let whole = n - n % LANES;
+    for first in (0..whole).step_by(LANES) {
+        for lane in 0..LANES {
+            let k = first + lane;
+            let squared = von_mises_squared(zz[k], zr[k], rr[k], phiphi[k]);
+            let squared = if squared < f64::MAX { squared } else { f64::INFINITY };
+            lanes[lane] = if squared > lanes[lane] { squared } else { lanes[lane] };
+        }
+    }
+    let mut largest = maximum(&lanes);
+    for k in whole..n {
+        let squared = von_mises_squared(zz[k], zr[k], rr[k], phiphi[k]);
+        let squared = if squared < f64::MAX { squared } else { f64::INFINITY };
+        largest = if squared > largest { squared } else { largest };
+    }
+    largest
+}
+
+/// How much q grows elastically between two rows of stresses, over 3μ: a guess of what flows where it stays on its surface.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+fn guess_flow(before: [&[f64]; 4], trial: [&[f64]; 4], three_mu: f64, guess: &mut [f64]) {
+    let n = guess.len();
+    let (before, trial) = (before.map(|row| &row[..n]), trial.map(|row| &row[..n]));
+    let ([zz, zr, rr, phiphi], [a, b, c, d]) = (trial, before);
+    for k in 0..n {
+        let grown = von_mises_squared(zz[k], zr[k], rr[k], phiphi[k]).sqrt()
+            - von_mises_squared(a[k], b[k], c[k], d[k]).sqrt();
+        guess[k] = grown / three_mu;
+    }
+}
 
 impl<const N: usize> BlockStep<'_, N> {
     /// Returns the states at mid-step, all stresses of which are the elastic predictor's, over half a step: those of the cells
@@ -81,63 +182,86 @@ impl<const N: usize> BlockStep<'_, N> {
         let Some(plasticity) = &self.ctx.model.plasticity else { return };
         let BlockScratch { cells, half, flow, .. } = scratch;
         let (first, n) = (Padded::<N>::index(-2, -1), (N + 2) * Padded::<N>::STRIDE);
-        let (strain, temperature) = flow.split_at_mut(Padded::<N>::LEN);
-        // Ghosts that are predicted or continued may have less than none.
-        for (own, old) in strain.iter_mut().zip(cells.component(PLASTIC_STRAIN)) {
-            *own = old.max(0.0);
+        let [_, _, zz, zr, rr, phiphi] = half.split_mut::<COUNT>().map(|row| &mut row[first..][..n]);
+        let cold = plasticity.reference();
+        let is_warm = plasticity.has_heat() && !self.is_untouched;
+        let hottest = if is_warm { maximum(&cells.component(TEMPERATURE)[first..][..n]) } else { cold };
+        // Flow stress never falls with plastic strain, so most blocks need no look at their cells. What has just flowed goes on with it.
+        let least = plasticity.hardening().yield_stress(0.0, 0.0, hottest);
+        let has_flowed =
+            self.ctx.model.following.as_ref().is_some_and(|own| !own.of_block(self.slot).rates.is_zero);
+        flow.acts = has_flowed || !(largest_mises([&*zz, &*zr, &*rr, &*phiphi]) <= LEAST * least * least);
+        if !flow.acts {
+            return;
         }
-        if !temperature.is_empty() {
-            temperature.copy_from_slice(cells.component(TEMPERATURE));
+        let strain = &mut flow.strain[first..][..n];
+        if self.is_untouched {
+            strain.fill(0.0);
+        } else {
+            // Ghosts that are predicted or continued may have less than none.
+            let old = &cells.component(PLASTIC_STRAIN)[first..][..n];
+            strain.iter_mut().zip(old).for_each(|(own, old)| *own = old.max(0.0));
         }
-        let [_, _, zz, zr, rr, phiphi] = half.split_mut::<COUNT>();
+        let temperature = flow.temperature.get_mut(first..first + n).unwrap_or_default();
+        if is_warm {
+            temperature.copy_from_slice(&cells.component(TEMPERATURE)[first..][..n]);
+        } else {
+            temperature.fill(cold);
+        }
+        let increment = &mut flow.increment[first..][..n];
+        if plasticity.wants_guess() {
+            let [_, _, a, b, c, d] = cells.split::<COUNT>().map(|row| &row[first..][..n]);
+            guess_flow([a, b, c, d], [&*zz, &*zr, &*rr, &*phiphi], 3.0 * plasticity.mu(), increment);
+        }
         let mut rows = PlasticRows {
-            stress_zz: &mut zz[first..][..n],
-            stress_zr: &mut zr[first..][..n],
-            stress_rr: &mut rr[first..][..n],
-            stress_phiphi: &mut phiphi[first..][..n],
-            strain: &mut strain[first..][..n],
-            temperature: temperature.get_mut(first..first + n).unwrap_or_default(),
+            stress_zz: zz,
+            stress_zr: zr,
+            stress_rr: rr,
+            stress_phiphi: phiphi,
+            strain,
+            temperature,
+            increment,
+            work: &mut flow.work[first..][..n],
         };
-        plasticity.return_rows(&mut rows, 0.5 * self.ctx.dt, |_, _| {});
-    }
-
-    /// Moves the cells by the mean of their velocities before and after the step.
-    fn displace(&self, new: &mut [f64]) {
-        let old = self.ctx.old.block(self.slot);
-        let half = 0.5 * self.ctx.dt;
-        let (velocities, rest) = new.split_at_mut(2 * N * N);
-        let first = components::displacement(old.len() / (N * N)).start * N * N;
-        let displacement = &mut rest[first - 2 * N * N..][..2 * N * N];
-        let before = old[..2 * N * N].iter().zip(&old[first..]);
-        for ((u, v), (v_old, u_old)) in displacement.iter_mut().zip(velocities).zip(before) {
-            *u = u_old + half * (v_old + *v);
-        }
+        plasticity.return_rows(&mut rows, 0.5 * self.ctx.dt);
     }
 
     /// The return of the new cells.
-    pub(super) fn flow(&self, new: &mut [f64], report: &mut BlockReport) {
+    pub(super) fn flow(&self, scratch: &BlockScratch<N>, new: &mut [f64], report: &mut BlockReport) {
         let Self { ctx, slot, id, .. } = *self;
-        let Some(plasticity) = &ctx.model.plasticity else { return };
-        let old = ctx.old.block(slot);
-        let places = new.len() / (N * N);
-        let (stays, rate) = (COUNT * N * N..acting(places) * N * N, components::rate(places) * N * N);
-        new[stays.clone()].copy_from_slice(&old[stays]);
-        new[rate..rate + N * N].fill(0.0);
-        self.displace(new);
-        // Flow stress never falls with plastic strain, so most blocks need no look at their cells.
-        measure_flow::<N>(new, &mut report.plastic);
-        let least = plasticity.hardening().yield_stress(0.0, 0.0, report.plastic.temperature);
-        if report.mises_squared <= LEAST * least * least {
+        let model = ctx.model;
+        let (Some(plasticity), Some(following)) = (&model.plasticity, &model.following) else { return };
+        let stays = COUNT * N * N..new.len();
+        let has_yielded = model.untouched.has_yielded(slot);
+        let mut follower = following.of_block(slot);
+        follower.count(ctx.time, ctx.dt, ctx.old.block(slot));
+        let rates = &mut follower.rates;
+        rates.clear();
+        let is_within = |temperature: f64| {
+            let least = plasticity.hardening().yield_stress(0.0, 0.0, temperature);
+            report.mises_squared <= LEAST * least * least
+        };
+        if !has_yielded && is_within(plasticity.reference()) {
+            if !model.untouched.is_written(slot, new) {
+                new[stays.clone()].copy_from_slice(&ctx.old.block(slot)[stays]);
+            }
+            report.plastic.temperature = plasticity.reference();
             return;
         }
-        report.plastic.returned = return_block(plasticity, ctx.mesh, id, new, ctx.dt, &mut report.plastic);
+        new[stays.clone()].copy_from_slice(&ctx.old.block(slot)[stays]);
+        measure_flow::<N>(new, &mut report.plastic);
+        if is_within(report.plastic.temperature) {
+            return;
+        }
+        let has_guess = scratch.flow.acts && plasticity.wants_guess();
+        let by_middle = has_guess.then_some(&scratch.flow.increment[..]);
+        let step = InStep { dt: ctx.dt, by_middle, rates: &mut rates.cells };
+        report.plastic.returned =
+            return_block(plasticity, ctx.mesh, id, new, Some(step), &mut report.plastic);
         if report.plastic.returned > 0 {
-            let per_second = 1.0 / ctx.dt;
-            for k in 0..N * N {
-                let at = PLASTIC_STRAIN * N * N + k;
-                new[rate + k] = (new[at] - old[at]) * per_second;
-            }
-            report_stresses(ctx.mesh, slot, new, ctx.model.yield_squared(), report);
+            rates.is_zero = false;
+            model.untouched.yields(slot);
+            report.mises_squared = largest_mises_of_block::<N>(new);
         }
     }
 }
@@ -160,7 +284,7 @@ mod tests {
         let id = mesh.tree().leaves()[0];
         for law in [Hardening::perfect(4e8), Hardening::linear(4e8, 8e9)] {
             let plasticity = Plasticity::new(law.unwrap_or_else(|e| panic!("{e}")), speeds);
-            let mut block: Vec<f64> = (0..10 * N * N).map(|k| 1e9 * (k as f64 * 0.37).sin()).collect();
+            let mut block: Vec<f64> = (0..7 * N * N).map(|k| 1e9 * (k as f64 * 0.37).sin()).collect();
             block[6 * N * N..7 * N * N].fill(1e-3);
             let energy = |block: &[f64]| -> f64 {
                 let at = |c: usize, k: usize| block[c * N * N + k];
@@ -171,7 +295,10 @@ mod tests {
                 (0..N * N).map(of).sum()
             };
             let (before, mut report) = (energy(&block), PlasticReport::default());
-            let count = return_block(&plasticity, &mesh, id, &mut block, 1e-6, &mut report);
+            let mut rates = vec![0.0; N * N];
+            let step = InStep { dt: 1e-6, by_middle: None, rates: &mut rates };
+            let count = return_block(&plasticity, &mesh, id, &mut block, Some(step), &mut report);
+            assert_eq!(rates.iter().filter(|rate| **rate > 0.0).count(), count as usize);
             let lost = before - energy(&block);
             assert!(count > 20 && (report.released / lost - 1.0).abs() < 1e-12, "{lost} {report:?}");
             assert!(report.work < report.released && report.rate > 0.0 && report.strain > 1e-3, "{report:?}");

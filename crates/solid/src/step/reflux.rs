@@ -84,7 +84,7 @@ pub(crate) fn correct<const N: usize>(
         },
     );
     if let Some(plasticity) = &ctx.model.plasticity {
-        report.plastic.corrected += return_block(plasticity, ctx.mesh, id, new, 0.0, &mut report.plastic);
+        report.plastic.corrected += return_block(plasticity, ctx.mesh, id, new, None, &mut report.plastic);
     }
     report_stresses(ctx.mesh, slot, new, ctx.model.yield_squared(), report);
 }

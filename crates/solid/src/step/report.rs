@@ -49,13 +49,13 @@ pub(crate) fn report_stresses<const N: usize>(
     yield_squared: f64,
     report: &mut BlockReport,
 ) {
-    report.mises_squared = largest_mises::<N>(block);
+    report.mises_squared = largest_mises_of_block::<N>(block);
     report.yielded = yielded_volume(mesh, slot, block, report.mises_squared, yield_squared);
 }
 
 /// The largest squared von Mises stress of a block, infinite if one is not a number.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-fn largest_mises<const N: usize>(block: &[f64]) -> f64 {
+pub(crate) fn largest_mises_of_block<const N: usize>(block: &[f64]) -> f64 {
     let mut largest = [0.0_f64; N];
     for j in 0..N {
         for (largest, squared) in largest.iter_mut().zip(mises_of_row::<N>(block, j)) {

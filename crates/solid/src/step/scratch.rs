@@ -1,8 +1,8 @@
 //! What a thread works in.
 
-use mesh::{Padded, Patch};
+use mesh::{AlignedRow, Padded, Patch};
 
-use crate::components::acting;
+use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
 use crate::state::component::COUNT;
 use crate::step::rows::FaceRows;
 
@@ -13,11 +13,36 @@ pub struct BlockScratch<const N: usize> {
     pub(crate) s_z: Padded<N>,
     pub(crate) s_r: Padded<N>,
     pub(super) half: Padded<N>,
-    /// Plastic strain and temperature at mid-step; empty where nothing can yield.
-    pub(super) flow: Vec<f64>,
+    pub(super) flow: FlowRows,
     pub(crate) inverse_r: Vec<f64>,
     pub(super) z_faces: FaceRows,
     pub(super) r_faces: FaceRows,
+}
+
+/// What flows until mid-step, in padded rows; empty where nothing can yield.
+#[derive(Clone, Debug)]
+pub(crate) struct FlowRows {
+    /// Whether anything may; nothing else means anything otherwise.
+    pub acts: bool,
+    pub strain: AlignedRow,
+    /// Empty where the law has no heat.
+    pub temperature: AlignedRow,
+    pub increment: AlignedRow,
+    pub work: AlignedRow,
+}
+
+impl FlowRows {
+    fn zeros(components: usize, len: usize, stride: usize) -> Self {
+        let row = |is_there: bool| AlignedRow::zeros(if is_there { len } else { 0 }, stride);
+        let yields = components > PLASTIC_STRAIN;
+        Self {
+            acts: false,
+            strain: row(yields),
+            temperature: row(components > TEMPERATURE),
+            increment: row(yields),
+            work: row(yields),
+        }
+    }
 }
 
 impl<const N: usize> BlockScratch<N> {
@@ -30,7 +55,7 @@ impl<const N: usize> BlockScratch<N> {
             s_z: Padded::zeros(COUNT),
             s_r: Padded::zeros(COUNT),
             half: Padded::zeros(COUNT),
-            flow: vec![0.0; (acting(components) - COUNT) * len],
+            flow: FlowRows::zeros(components, len, Padded::<N>::STRIDE),
             inverse_r: vec![0.0; len],
             z_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),
             r_faces: FaceRows::zeros(len, Padded::<N>::STRIDE),

@@ -5,7 +5,7 @@ use mesh::{Padded, Tile, dispersion_share, limited_differences};
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
 use crate::boundary::Boundaries;
-use crate::components::acting;
+use crate::components::following::Following;
 use crate::physics::{Solid, SolidStep};
 use crate::reconstruction::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
 use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R, V_Z};
@@ -23,10 +23,15 @@ impl Solid {
     }
 }
 
-/// Assembles a block with its ghosts: the state in `cells`.
-fn assemble<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize, scratch: &mut BlockScratch<N>) {
+/// Assembles a block with its ghosts: the first so many components of the state in `cells`.
+fn assemble<const N: usize>(
+    ctx: &SolidStep<'_, N>,
+    slot: usize,
+    components: usize,
+    scratch: &mut BlockScratch<N>,
+) {
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    cells.assemble_first(acting(cells.components()), ctx.mesh, ctx.old, slot, &ctx.model.analysis, patch);
+    cells.assemble_first(components, ctx.mesh, ctx.old, slot, &ctx.model.analysis, patch);
     ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
     ctx.mesh.inverse_radii(Tile::one(slot), inverse_r);
 }
@@ -38,7 +43,7 @@ pub(crate) fn reconstruct<const N: usize>(
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
-    assemble(ctx, slot, scratch);
+    assemble(ctx, slot, ctx.old.components(), scratch);
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     // No derivative of the hoop stress enters.
     for component in 0..S_PHIPHI {
@@ -57,8 +62,21 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     pub(super) fn assemble(ctx: &'a SolidStep<'a, N>, slot: usize, scratch: &mut BlockScratch<N>) -> Self {
         let id = ctx.mesh.tree().leaves()[slot];
         let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
-        assemble(ctx, slot, scratch);
-        Self { ctx, slot, id, inverse_h }
+        let is_untouched = ctx.model.is_untouched(ctx.mesh, slot);
+        assemble(ctx, slot, if is_untouched { COUNT } else { ctx.old.components() }, scratch);
+        Self { ctx, slot, id, inverse_h, is_untouched }
+    }
+
+    /// Fetches a third of what is needed soon into the cache.
+    pub(super) fn look_ahead(&self, new: &[f64], part: usize) {
+        let target = if self.is_untouched { &new[..COUNT * N * N] } else { new };
+        let following = self.ctx.model.following.as_ref();
+        let beside = following.map_or(0, Following::numbers);
+        if self.ctx.mesh.look_ahead((self.ctx.old, beside), self.slot, target, part, 3)
+            && let Some(following) = following
+        {
+            following.of_block(self.slot).look_ahead(part, 3);
+        }
     }
 
     /// Limited differences, and the states at mid-step.
@@ -117,7 +135,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             Boundaries::impose_surface::<N>(surface, &along_z, &ctx.model.elasticity, &mut scratch.z_faces);
         }
 
-        ctx.mesh.look_ahead(ctx.old, slot, new, 1, 3);
+        self.look_ahead(new, 1);
         let differences = scratch.s_r.split::<COUNT>();
         let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
         let dispersion = ctx.model.dispersion(ctx.mesh.widths(id.level), ctx.dt, 1);

@@ -3,7 +3,7 @@
 //! With s = −σ_zz and M = K + (4μ/3) H/(3μ + H): an elastic precursor of strength A c₁²/(2c₂²) at c₁, then a plastic wave at
 //! √(M/ρ). Numbers of the pulses are an independent program's, by following all waves and their meetings.
 
-use mesh::{Domain, FaceState};
+use mesh::{Domain, FaceState, GroupStep, Part};
 use solid::plasticity::Hardening;
 use solid::{Boundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
 
@@ -40,22 +40,62 @@ pub fn press<const N: usize>(
     pressure: impl Fn(f64, f64) -> f64,
     mut after: impl FnMut(&mut SolidSolver<N>, f64),
 ) {
-    let mut traces = vec![];
     while solid.time() < end * (1.0 - 1e-12) {
         let left = end - solid.time();
         let dt = left / (left / solid.time_step_limit(CFL)).ceil();
-        solid.traces_at_mid_step(dt, &mut traces);
-        let edges = solid.interface_edges();
-        let middle = solid.time() + 0.5 * dt;
-        let low = solid.mesh().domain().r[0];
-        solid.interface_mut().set_all(|face| {
-            let before = if face == 0 { low } else { edges[face - 1] };
-            let load = pressure(0.5 * (before + edges[face]), middle);
-            let velocity = traces[face].velocity + (traces[face].pressure - load) / traces[face].impedance;
-            FaceState { pressure: load, velocity, power: load * velocity, ..FaceState::default() }
-        });
-        solid.step(dt).unwrap();
+        solid.begin_step(dt, u8::MAX);
+        let step = solid.start(f64::INFINITY);
+        load(solid, step, &pressure);
+        solid.run(step, Part::All).unwrap();
+        solid.finish().unwrap();
         after(solid, dt);
+    }
+}
+
+/// A whole step in which each level makes its own under such a pressure, then adaptation; `after` is called at the end of each step of the
+/// finest level with its length, and once more with none where the grid has adapted.
+pub fn press_locally<const N: usize>(
+    solid: &mut SolidSolver<N>,
+    pressure: impl Fn(f64, f64) -> f64,
+    mut after: impl FnMut(&mut SolidSolver<N>, f64),
+) {
+    let base = solid.mesh().coarsest_base();
+    let dt = solid.local_step_limit(CFL, base);
+    let steps = 1 << (solid.mesh().levels_present()[1] - base);
+    let follows = solid.adaptation_follows(dt, steps);
+    solid.begin_step(dt, base);
+    while !solid.clock().is_over() {
+        while solid.clock().due().is_some() {
+            let limit = solid.due_limit(CFL);
+            let step = solid.start(limit);
+            load(solid, step, &pressure);
+            solid.run(step, Part::All).unwrap();
+        }
+        let own = solid.clock().length(solid.clock().finest());
+        solid.finish().unwrap();
+        after(solid, own);
+    }
+    if follows {
+        solid.adapt(dt, steps);
+        after(solid, 0.0);
+    }
+}
+
+/// Sets the surface of the levels that are about to make a step: what a pressure makes of the solid's own trace.
+fn load<const N: usize>(solid: &mut SolidSolver<N>, step: GroupStep, pressure: impl Fn(f64, f64) -> f64) {
+    let mut traces = vec![];
+    solid.group_traces_at_mid_step(step, &mut traces);
+    let (edges, low) = (solid.interface_edges(), solid.mesh().domain().r[0]);
+    let middle = step.begin + 0.5 * step.dt;
+    for (face, trace) in traces.iter().enumerate() {
+        if solid.group_of_face(face) != step.group {
+            continue;
+        }
+        let before = if face == 0 { low } else { edges[face - 1] };
+        let load = pressure(0.5 * (before + edges[face]), middle);
+        let velocity = trace.velocity + (trace.pressure - load) / trace.impedance;
+        let state = FaceState { pressure: load, velocity, power: load * velocity, ..FaceState::default() };
+        solid.interface_mut().set(face, state);
     }
 }
 

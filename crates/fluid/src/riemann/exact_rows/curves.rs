@@ -1,7 +1,8 @@
 //! The wave curves of rows of faces.
 
+use mesh::{exp_and_less_one, ln_of};
+
 use super::{LANES, Lane, Sides};
-use crate::riemann::elementary::{exp_and_less_one, ln_of};
 
 /// What a wave curve is at the iterate: f_K and its derivatives by P, times P and P².
 #[derive(Clone, Copy)]

@@ -1,7 +1,7 @@
 //! Rows against single cells.
 
-use super::{Dice, STEEL, laws};
-use crate::plasticity::{PlasticRows, Plasticity, Stress};
+use super::{Dice, STEEL, aluminium, laws};
+use crate::plasticity::{Hardening, PlasticRows, Plasticity, Returned, Stress};
 
 /// Columns zz, zr, rr, φφ, ε_p, T of `n` cells, of which about a share `beyond` yields.
 fn columns(dice: &mut Dice, n: usize, beyond: f64) -> [Vec<f64>; 6] {
@@ -23,13 +23,13 @@ fn columns(dice: &mut Dice, n: usize, beyond: f64) -> [Vec<f64>; 6] {
 fn rows_return_what_single_cells_return() {
     let mut dice = Dice::new(11);
     for hardening in laws() {
-        let plasticity = Plasticity::new(hardening, STEEL);
+        let plasticity = Plasticity::new(hardening.clone(), STEEL);
         for (n, beyond) in [(1, 1.0), (63, 0.5), (200, 0.05), (256, 0.0), (300, 1.0)] {
             let before = columns(&mut dice, n, beyond);
             let mut after = before.clone();
             let [zz, zr, rr, phiphi, strain, temperature] = &mut after;
             let temperature: &mut [f64] = if plasticity.has_heat() { temperature } else { &mut [] };
-            let mut told = Vec::new();
+            let (mut increment, mut work) = (vec![0.0; n], vec![f64::NAN; n]);
             let mut rows = PlasticRows {
                 stress_zz: zz,
                 stress_zr: zr,
@@ -37,29 +37,108 @@ fn rows_return_what_single_cells_return() {
                 stress_phiphi: phiphi,
                 strain,
                 temperature,
+                increment: &mut increment,
+                work: &mut work,
             };
-            let count = plasticity.return_rows(&mut rows, 1e-9, |k, returned| told.push((k, *returned)));
-            assert_eq!(count, told.len());
+            let count = plasticity.return_rows(&mut rows, 1e-9);
+            assert_eq!(count, increment.iter().filter(|increment| **increment > 0.0).count());
             assert_eq!(count == 0, beyond == 0.0);
-            let mut told = told.into_iter();
             for k in 0..n {
                 let [zz, zr, rr, phiphi, strain, temperature] = [0, 1, 2, 3, 4, 5].map(|c| before[c][k]);
                 let warm = if plasticity.has_heat() { temperature } else { 0.0 };
                 let single = plasticity.return_map(Stress { zz, zr, rr, phiphi }, strain, warm, 1e-9);
-                let bits = |numbers: [f64; 6]| numbers.map(f64::to_bits);
                 let expected = match single {
-                    None => [zz, zr, rr, phiphi, strain, temperature],
+                    None => [zz, zr, rr, phiphi, strain, temperature, 0.0, 0.0],
                     Some(returned) => {
-                        assert_eq!(told.next(), Some((k, returned)));
                         let Stress { zz, zr, rr, phiphi } = returned.stress;
                         let temperature =
                             if plasticity.has_heat() { returned.temperature } else { temperature };
-                        [zz, zr, rr, phiphi, returned.strain, temperature]
+                        let Returned { strain, increment, plastic_work, .. } = returned;
+                        [zz, zr, rr, phiphi, strain, temperature, increment, plastic_work]
                     }
                 };
-                assert_eq!(bits([0, 1, 2, 3, 4, 5].map(|c| after[c][k])), bits(expected), "cell {k}");
+                let found = [0, 1, 2, 3, 4, 5].map(|c| after[c][k]);
+                let found = found.into_iter().chain([increment[k], work[k]]);
+                assert!(found.map(f64::to_bits).eq(expected.map(f64::to_bits)), "cell {k}: {hardening:?}");
             }
         }
+    }
+}
+
+/// Whatever the guess, the increment is the same but for rounding.
+#[test]
+fn guesses_change_nothing_but_rounding() {
+    let mut dice = Dice::new(17);
+    let mut worst = 0.0_f64;
+    for hardening in laws() {
+        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+        let (mut before, n) = (columns(&mut dice, 320, 1.0), 320);
+        // Below melting, where a law that softens has one solution.
+        before[5].iter_mut().for_each(|temperature| *temperature = temperature.min(400.0));
+        let returned = |guess: &dyn Fn(usize) -> f64| {
+            let mut after = before.clone();
+            let [zz, zr, rr, phiphi, strain, temperature] = &mut after;
+            let temperature: &mut [f64] = if plasticity.has_heat() { temperature } else { &mut [] };
+            let (mut increment, mut work): (Vec<f64>, _) = ((0..n).map(guess).collect(), vec![0.0; n]);
+            let mut rows = PlasticRows {
+                stress_zz: zz,
+                stress_zr: zr,
+                stress_rr: rr,
+                stress_phiphi: phiphi,
+                strain,
+                temperature,
+                increment: &mut increment,
+                work: &mut work,
+            };
+            plasticity.return_rows(&mut rows, 1e-9);
+            increment
+        };
+        let alone = returned(&|_| 0.0);
+        for factor in [1e-12, 0.3, 0.999, 1.0, 1.5, 40.0] {
+            for (k, increment) in returned(&|k| factor * alone[k]).into_iter().enumerate() {
+                let off = (increment - alone[k]).abs() / alone[k].max(1e-30);
+                worst = worst.max(off);
+                assert!(off < 1e-11, "{hardening:?}, cell {k}: {increment:e} {:e}", alone[k]);
+            }
+        }
+    }
+    println!("off by {worst:.1e}");
+}
+
+/// The returns of many cells at once are those of the bracketed solver, on both sides of the kinks that rate and heat make.
+#[test]
+fn quick_returns_are_those_of_the_bracketed_solver() {
+    let mut dice = Dice::new(23);
+    for hardening in laws().into_iter().chain([1.0, 20.0].map(|m| Hardening::JohnsonCook(aluminium(m)))) {
+        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+        let (Some(law), cold) = (&plasticity.power, plasticity.reference()) else { continue };
+        let (mut worst, mut solved) = (0.0_f64, 0);
+        for _ in 0..20_000 {
+            let strain = if dice.unit() < 0.2 { 0.0 } else { dice.power(-9.0, -0.5) };
+            // Some are a little colder than where heat begins to matter, as neighbours of a level jump can be.
+            let temperature = if dice.unit() < 0.3 { cold } else { cold + dice.signed(-6.0, 2.0) };
+            let dt = dice.power(-12.0, -6.0);
+            let q = hardening.yield_stress(strain, 0.0, temperature) * (1.0 + dice.power(-15.0, 1.0));
+            let (increment, left) = law.single(q, strain, temperature - cold, dt);
+            let exact =
+                plasticity.flow_back(Stress { zz: q, ..Stress::default() }, q, strain, temperature, dt);
+            let Some(exact) = exact.filter(|_| increment > 0.0) else { continue };
+            solved += 1;
+            let (mu, what) =
+                (plasticity.mu(), format!("{hardening:?} at {strain:e}, {temperature} K, {dt:e} s"));
+            let rise = temperature - cold + plasticity.heating() * left * increment;
+            let stress = hardening.flow_at_rise(strain + increment, increment / dt, rise).stress;
+            let off = (left - stress).abs().max((q - 3.0 * mu * increment - left).abs()) / q;
+            worst = worst.max(off);
+            assert!(off < 1e-12, "{what}: {increment:e} leaves {off:e}");
+            // Where heat begins to matter with an infinite slope, there may be two solutions.
+            let is_only = temperature >= cold
+                || hardening.softening().is_none_or(|heat| heat.softening_exponent >= 1.0);
+            let apart = 3.0 * mu * (increment - exact.increment).abs() / q;
+            assert!(apart < 1e-12 || !is_only, "{what}: {increment:e}, not {:e}", exact.increment);
+        }
+        println!("{solved} solved, off by {worst:.1e}");
+        assert!(solved > 15_000, "{hardening:?}: {solved}");
     }
 }
 

@@ -14,7 +14,8 @@ const LN2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 /// - valid for: normal `ratio` > 0; otherwise some number. errors: none.
 /// - tested by: 3 units in the last place against the standard library.
 #[inline(always)]
-pub(crate) fn ln_of(ratio: f64, increment: f64) -> f64 {
+#[must_use]
+pub fn ln_of(ratio: f64, increment: f64) -> f64 {
     const ROOT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
     const ONE: u64 = 0x3ff0_0000_0000_0000;
     const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
@@ -46,7 +47,8 @@ pub(crate) fn ln_of(ratio: f64, increment: f64) -> f64 {
 /// - valid for: |x| < 700; otherwise some number. errors: none.
 /// - tested by: 3 units in the last place against the standard library.
 #[inline(always)]
-pub(crate) fn exp_and_less_one(x: f64) -> (f64, f64) {
+#[must_use]
+pub fn exp_and_less_one(x: f64) -> (f64, f64) {
     // Added to a number below 2⁵¹, it leaves the nearest integer in the low bits.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     let shifted = x * std::f64::consts::LOG2_E + ROUND;
