@@ -1,17 +1,18 @@
 //! Viscosity of both phases.
 
+mod friction;
 mod spread;
 mod stress;
 mod velocities;
 
 use super::diffusion::{BY_STAGES, ThinGas, most_diffusivity, step_limit};
 use super::super_stepping::{Spreading, View};
-use super::{Term, TermBlock, WallCell, for_cells_without_mid_step};
+use super::{FinishedCells, Term, TermBlock, WallCell, for_cells_without_mid_step};
 use crate::state::conserved::MOMENTUM_R;
 use crate::state::primitive::{PHI, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
-use stress::{FaceStress, Motion, stresses};
+use stress::{FaceStress, Motion, Parts, stresses};
 use velocities::Velocities;
 
 /// Viscosity of a phase, Pa s.
@@ -28,7 +29,8 @@ pub struct PhaseViscosity {
 /// Momentum and energy pass through faces, −τ and −τ·v; what the hoop stress leaves is a source of radial momentum. Gradients are
 /// central differences of the states at mid-step, which have gained half a step of the stresses' divergence: second order in space and
 /// time. Cells mixed of both phases have μ = φμ_g + (1 − φ)μ_l: what flow about a bubble prescribes is how fast it is deformed, and then
-/// the work of mixed liquid is its share of the volume.
+/// the work of mixed liquid is its share of the volume. What friction takes from the motion warms the cells and the phases that rub, each
+/// by its share of the viscosity.
 ///
 /// - valid for: μ, κ ≥ 0. errors: none.
 /// - tested by: `tests/verification/viscosity.rs`.
@@ -81,7 +83,7 @@ impl Viscosity {
         // From the outer ghosts' inner faces on, so that the first ghosts have all of theirs.
         let end = metric.origin + block.cells * metric.stride + block.cells;
         let (z_first, r_first) = (metric.origin - metric.stride - 2, metric.origin - 2 * metric.stride - 1);
-        let mut stresses_of = Stresses { velocity: [v_z, v_r], z, r };
+        let mut stresses_of = Stresses { velocity: [v_z, v_r], parts: Parts { shear, bulk }, z, r };
         stresses(&motion, 0, z_first..end + 1, &mut stresses_of.z);
         stresses(&motion, 1, r_first..end + 1, &mut stresses_of.r);
         if let Some(view) = &block.spread {
@@ -96,9 +98,15 @@ impl Viscosity {
 /// Rows that the stresses of a block take: two velocities, two viscosities, three numbers on the faces of either direction.
 const ROWS: usize = 10;
 
+/// The rows as [`Viscosity::stresses`] has left them.
+fn rows_of(work: &[f64], len: usize) -> [&[f64]; ROWS] {
+    std::array::from_fn(|row| &work[row * len..(row + 1) * len])
+}
+
 /// The stresses on the faces of a block.
 struct Stresses<'a> {
     velocity: [&'a [f64]; 2],
+    parts: Parts<'a>,
     z: FaceStress<'a>,
     r: FaceStress<'a>,
 }
@@ -112,7 +120,7 @@ fn longitudinal([shear, bulk]: [f64; 2]) -> f64 {
 impl Term for Viscosity {
     /// Half a step of ∇·τ/ρ, in the cells of the block and the first ghosts.
     fn predict(&self, block: &TermBlock<'_>, half: [&mut [f64]; 2], work: &mut Vec<f64>) {
-        let Stresses { z, r, .. } = self.stresses(block, work);
+        let Stresses { parts, z, r, .. } = self.stresses(block, work);
         let metric = block.metric;
         let ([inverse_z, inverse_h], stride) = (metric.inverse_h, metric.stride);
         let [half_z, half_r] = half;
@@ -127,7 +135,7 @@ impl Term for Viscosity {
                     + inverse_h * (high * r.shear[k] - low * r.shear[below]);
                 let force_r = inverse_z * (z.shear[k] - z.shear[k - 1])
                     + inverse_h * (r.normal[k] - r.normal[below])
-                    + 0.5 * inverse_r * (r.hoop[k] + r.hoop[below]);
+                    + 0.5 * inverse_r * parts.hoop(k, stride, r.normal, r.hoop);
                 let gain = 0.5 * metric.dt / block.state[RHO][k];
                 half_z[k] += gain * force_z;
                 half_r[k] += gain * force_r;
@@ -149,7 +157,7 @@ impl Term for Viscosity {
                 (stresses.z.normal[k], stresses.z.shear[k]) = (0.0, 0.0);
             }
         }
-        let Stresses { velocity: [v_z, v_r], z, r } = &stresses;
+        let Stresses { velocity: [v_z, v_r], parts, z, r } = &stresses;
         let last = metric.origin + (n - 1) * metric.stride + n;
         let along_z = metric.origin - 1..last;
         let along_r = metric.origin - metric.stride..last;
@@ -158,7 +166,7 @@ impl Term for Viscosity {
         {
             let [_, _, pressure, shear, energy, _] = faces.fluxes_mut();
             for k in range {
-                let [u, w] = [u, w].map(|v| 0.5 * (v[k] + v[k + step]));
+                let [u, w] = [u, w].map(|v| parts.velocity(k, step, v));
                 pressure[k] -= stress.normal[k];
                 shear[k] -= stress.shear[k];
                 energy[k] -= stress.normal[k] * u + stress.shear[k] * w;
@@ -174,15 +182,20 @@ impl Term for Viscosity {
     /// (τ_rr − τ_φφ)/r. The flux of τ_rr has no weight, as the pressure's: see `update.rs`.
     fn add_sources(&self, block: &TermBlock<'_>, _: [&FaceRows; 2], work: &[f64], block_rows: &mut [f64]) {
         let TermBlock { cells: n, metric, inverse_r, .. } = *block;
-        let len = block.state[RHO].len();
-        let hoop = &work[(ROWS - 1) * len..];
+        let [_, _, shear, bulk, _, _, _, normal, _, hoop] = rows_of(work, block.state[RHO].len());
+        let parts = Parts { shear, bulk };
         for j in 0..n {
             for i in 0..n {
                 let k = metric.origin + j * metric.stride + i;
-                let force = 0.5 * inverse_r[k] * (hoop[k] + hoop[k - metric.stride]);
+                let force = 0.5 * inverse_r[k] * parts.hoop(k, metric.stride, normal, hoop);
                 block_rows[MOMENTUM_R * n * n + j * n + i] += metric.dt * force;
             }
         }
+    }
+
+    /// Gives each phase of mixed cells its share of what friction makes of the motion.
+    fn finish(&self, cells: &mut FinishedCells<'_>, work: &[f64]) {
+        self.finish_phases(cells, work);
     }
 
     /// The largest (4μ/3 + κ)/ρ that limits the step; of thin gas that does not, the liquid's part in a cell.

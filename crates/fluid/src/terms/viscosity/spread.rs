@@ -1,6 +1,6 @@
 //! Viscosity in many stages within one step.
 
-use super::stress::{FaceStress, Motion, stresses};
+use super::stress::{FaceStress, Motion, Parts, stresses};
 use super::velocities::{Sides, Velocities};
 use super::{PhaseViscosity, Viscosity, longitudinal};
 use crate::state::primitive::{PHI, RHO};
@@ -119,6 +119,7 @@ impl Spreading for Viscosity {
         let row = |number: usize| &fluxes[number * len..(number + 1) * len];
         let [z_normal, z_shear, r_normal, r_shear, hoop] = [0, 1, 2, 3, 4].map(row);
         let density = &constants[2 * len..];
+        let parts = Parts { shear: &constants[..len], bulk: &constants[len..2 * len] };
         let ([inverse_z, inverse_h], stride) = (frame.inverse_h, frame.stride);
         let (along_z, along_r) = rates.split_at_mut(len);
         for j in 0..frame.cells {
@@ -130,7 +131,7 @@ impl Spreading for Viscosity {
                     + inverse_h * (high * r_shear[k] - low * r_shear[below]);
                 let force_r = inverse_z * (z_shear[k] - z_shear[k - 1])
                     + inverse_h * (r_normal[k] - r_normal[below])
-                    + 0.5 * inverse_r * (hoop[k] + hoop[below]);
+                    + 0.5 * inverse_r * parts.hoop(k, stride, r_normal, hoop);
                 (along_z[k], along_r[k]) = (force_z / density[k], force_r / density[k]);
             }
         }

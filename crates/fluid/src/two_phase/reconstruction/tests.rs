@@ -26,6 +26,7 @@ fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState
         is_low_mach: false,
         velocity_gain: None,
         jumps: None,
+        excess: None,
     };
     let mut states = FaceStates::default();
     face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &rule, &mut states);
@@ -76,6 +77,7 @@ fn what_is_bounded_is_told() {
             is_low_mach: false,
             velocity_gain: None,
             jumps: None,
+            excess: None,
         };
         let mut states = FaceStates::default();
         let window = Window { first: 2 * STRIDE + 2, step: 1, listed: 1 };
