@@ -42,6 +42,8 @@ impl<const N: usize> TileStep<'_, N> {
             wall: (!wall.is_empty()).then_some(wall),
             capillary,
             gas: self.gas.mass(gas_shares),
+            closure: (self.gas.phases().is_some() && self.ctx.model.scheme.phases.has_closure())
+                .then_some(&self.ctx.model.mixture),
             heat_beyond,
             spread: View::of(self.ctx.prepared, self.ctx.mesh, self.slot),
         }

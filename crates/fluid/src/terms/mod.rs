@@ -62,6 +62,8 @@ pub(crate) struct TermBlock<'a> {
     pub capillary: &'a CapillaryRows,
     /// How much of the mass is gas at the beginning of the step.
     pub gas: GasMass<'a>,
+    /// The laws of phases that give way each by its own, as in the five-equation model.
+    pub closure: Option<&'a Mixture>,
     /// What walls do with heat.
     pub heat_beyond: HeatBeyond<'a>,
     /// What blocks have found together in stages, if any.

@@ -1,17 +1,20 @@
 //! Viscosity of both phases.
 
 mod friction;
+mod layered;
 mod spread;
 mod stress;
 mod velocities;
 
 use super::diffusion::{BY_STAGES, ThinGas, most_diffusivity, step_limit};
 use super::super_stepping::{Spreading, View};
-use super::{FinishedCells, Term, TermBlock, WallCell, for_cells_without_mid_step};
+use super::{FinishedCells, GasMass, Term, TermBlock, WallCell, for_cells_without_mid_step};
 use crate::state::conserved::MOMENTUM_R;
-use crate::state::primitive::{PHI, RHO};
+use crate::state::primitive::{PHI, PRESSURE, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
+use crate::two_phase::{Compression, is_mixed, phase_densities};
+use layered::{Layers, SHEET, take_for_layers};
 use stress::{FaceStress, Motion, Parts, stresses};
 use velocities::Velocities;
 
@@ -53,6 +56,12 @@ impl Viscosity {
         [mean(self.liquid.shear, self.gas.shear), mean(self.liquid.bulk, self.gas.bulk)]
     }
 
+    /// 4μ/3 + κ of a mixture, and what layers of liquid in it resist besides, Pa s.
+    fn stiffest(&self, phi: f64) -> f64 {
+        let of_layers = if is_mixed(phi) { SHEET * (1.0 - phi) * self.liquid.shear } else { 0.0 };
+        longitudinal(self.at(phi)) + of_layers
+    }
+
     /// The stresses on all faces of a block and of its first ghosts.
     ///
     /// - `work`: gets velocities, viscosities and stresses, in rows of padded cells.
@@ -61,13 +70,14 @@ impl Viscosity {
         work.resize(ROWS * len, 0.0);
         let mut rows = work.chunks_exact_mut(len);
         let mut next = || rows.next().expect("resized to that many");
-        let [v_z, v_r, shear, bulk] = std::array::from_fn(|_| next());
+        let [v_z, v_r, shear, bulk, spared] = std::array::from_fn(|_| next());
         Velocities { v_z: &mut *v_z, v_r: &mut *v_r }.gather(block);
         for (k, phi) in block.state[PHI].iter().enumerate() {
             [shear[k], bulk[k]] = self.at(*phi);
         }
         // What kernels left of mixed cells differs from block to block.
         for_cells_without_mid_step(block, |k| [shear[k], bulk[k]] = self.at(block.before[PHI][k]));
+        let is_layered = spared_dilatation(block, spared);
         let [z, r] = std::array::from_fn(|_| FaceStress { normal: next(), shear: next(), hoop: next() });
         let metric = block.metric;
         let motion = Motion {
@@ -86,6 +96,11 @@ impl Viscosity {
         let mut stresses_of = Stresses { velocity: [v_z, v_r], parts: Parts { shear, bulk }, z, r };
         stresses(&motion, 0, z_first..end + 1, &mut stresses_of.z);
         stresses(&motion, 1, r_first..end + 1, &mut stresses_of.r);
+        if is_layered {
+            let layers = self.layers(block.before[PHI], spared);
+            take_for_layers(&motion, &layers, 0, z_first..end + 1, &mut stresses_of.z);
+            take_for_layers(&motion, &layers, 1, r_first..end + 1, &mut stresses_of.r);
+        }
         if let Some(view) = &block.spread {
             let Stresses { z, r, .. } = &mut stresses_of;
             let rows = [&mut *z.normal, &mut *z.shear, &mut *r.normal, &mut *r.shear, &mut *r.hoop];
@@ -95,8 +110,30 @@ impl Viscosity {
     }
 }
 
-/// Rows that the stresses of a block take: two velocities, two viscosities, three numbers on the faces of either direction.
-const ROWS: usize = 10;
+impl Viscosity {
+    fn layers<'a>(&self, phi: &'a [f64], spared: &'a [f64]) -> Layers<'a> {
+        Layers { liquid: [self.liquid.shear, self.liquid.bulk], phi, spared }
+    }
+}
+
+/// Finds (1 − φ)(1 − K/K_l) of the padded cells at the beginning of the step, see [`Layers::spared`], and whether any has some.
+fn spared_dilatation(block: &TermBlock<'_>, spared: &mut [f64]) -> bool {
+    spared.fill(0.0);
+    let (Some(mixture), GasMass::Shares(shares)) = (block.closure, block.gas) else { return false };
+    let excess = block.capillary.excess();
+    let mut is_any = false;
+    for (k, phi) in block.before[PHI].iter().enumerate().filter(|(_, phi)| is_mixed(**phi)) {
+        let pressure = block.before[PRESSURE][k] + excess.map_or(0.0, |excess| excess[k]);
+        let densities = phase_densities(block.before[RHO][k], shares[k], *phi, mixture);
+        spared[k] = Compression::at(pressure, *phi, densities, mixture, true).expansion(*phi);
+        is_any = true;
+    }
+    is_any
+}
+
+/// Rows that the stresses of a block take: two velocities, two viscosities, what the liquid is spared, three numbers on the faces of either
+/// direction.
+const ROWS: usize = 11;
 
 /// The rows as [`Viscosity::stresses`] has left them.
 fn rows_of(work: &[f64], len: usize) -> [&[f64]; ROWS] {
@@ -182,7 +219,7 @@ impl Term for Viscosity {
     /// (τ_rr − τ_φφ)/r. The flux of τ_rr has no weight, as the pressure's: see `update.rs`.
     fn add_sources(&self, block: &TermBlock<'_>, _: [&FaceRows; 2], work: &[f64], block_rows: &mut [f64]) {
         let TermBlock { cells: n, metric, inverse_r, .. } = *block;
-        let [_, _, shear, bulk, _, _, _, normal, _, hoop] = rows_of(work, block.state[RHO].len());
+        let [_, _, shear, bulk, _, _, _, _, normal, _, hoop] = rows_of(work, block.state[RHO].len());
         let parts = Parts { shear, bulk };
         for j in 0..n {
             for i in 0..n {
@@ -206,7 +243,7 @@ impl Term for Viscosity {
             ThinGas::SuperTimeStepping => return Spreading::diffusivity(self, density, phi) / BY_STAGES,
         };
         let counted = Self { gas, ..*self };
-        let of = |(density, phi): (&f64, &f64)| longitudinal(counted.at(*phi)) / density;
+        let of = |(density, phi): (&f64, &f64)| counted.stiffest(*phi) / density;
         density.iter().zip(phi).map(of).fold(0.0, f64::max)
     }
 
@@ -233,8 +270,7 @@ impl Viscosity {
     fn count_bounded(&self, block: &TermBlock<'_>) -> u64 {
         let TermBlock { cells: n, metric, .. } = *block;
         let most = most_diffusivity(metric.dt, metric.inverse_h);
-        let is_bounded =
-            |k: &usize| longitudinal(self.at(block.state[PHI][*k])) > most * block.state[RHO][*k];
+        let is_bounded = |k: &usize| self.stiffest(block.state[PHI][*k]) > most * block.state[RHO][*k];
         (0..n)
             .flat_map(|j| (0..n).map(move |i| metric.origin + j * metric.stride + i))
             .filter(is_bounded)

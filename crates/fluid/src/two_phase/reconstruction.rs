@@ -164,7 +164,7 @@ fn window_states(
     }
     let mut is_bounded = [[0; LANES]; 3];
     for (phases, face) in ends.as_flattened().iter().zip(faces) {
-        admissible(phases, &w, face, &mut is_bounded);
+        admissible(phases, &w, &of_gas, face, &mut is_bounded);
     }
     let [densities, pressures, fractions] = is_bounded.map(|lanes| bits(lanes.map(|lane| lane != 0)));
     let [halved, dropped] = [0.5, 0.0].map(|kept| bits(shares.map(|share| share == kept)));
@@ -311,17 +311,25 @@ const LEAST_PRESSURE: f64 = 0.1;
 
 /// From phases to ρ, v_z, v_r, p, φ and the gas's part of the mass, within the bounds.
 ///
-/// - `is_bounded`: becomes 1 in lanes where the bounds of densities, pressure or gas fraction act; of the last by more than what
+/// - `of_gas`: the gas's pressure in the cells, Pa; `is_bounded`: becomes 1 in lanes where the bounds of densities, pressure or gas fraction act; of the last by more than what
 ///   counts as pure.
 #[inline(always)]
-fn admissible(phases: &Phases, w: &Phases, face: &mut [Lane; 6], is_bounded: &mut [[u64; LANES]; 3]) {
+fn admissible(
+    phases: &Phases,
+    w: &Phases,
+    of_gas: &Lane,
+    face: &mut [Lane; 6],
+    is_bounded: &mut [[u64; LANES]; 3],
+) {
     let lower = |a: f64, b: f64| if a < b { a } else { b };
     let upper = |a: f64, b: f64| if a > b { a } else { b };
     for k in 0..LANES {
         let within = |rho: f64, own: f64| lower(upper(rho, DENSITIES[0] * own), DENSITIES[1] * own);
         let phi = lower(upper(phases[PHI][k], 0.0), 1.0);
-        let (unbounded, own) = (phases[PRESSURE][k], w[PRESSURE][k]);
-        let p = if own > 0.0 { upper(unbounded, LEAST_PRESSURE * own) } else { unbounded };
+        let (unbounded, own) = (phases[PRESSURE][k], of_gas[k]);
+        // What the cell's pressure is below its gas's is so on the face.
+        let lowest = LEAST_PRESSURE * own - (own - w[PRESSURE][k]);
+        let p = if own > 0.0 { upper(unbounded, lowest) } else { unbounded };
         let (rho_g, rho_l) = (phases[RHO_G][k], phases[RHO_L][k]);
         let (within_g, within_l) = (within(rho_g, w[RHO_G][k]), within(rho_l, w[RHO_L][k]));
         is_bounded[0][k] |= u64::from((within_g != rho_g) | (within_l != rho_l));
