@@ -120,10 +120,10 @@ impl Viscosity {
 fn spared_dilatation(block: &TermBlock<'_>, spared: &mut [f64]) -> bool {
     spared.fill(0.0);
     let (Some(mixture), GasMass::Shares(shares)) = (block.closure, block.gas) else { return false };
-    let excess = block.capillary.excess();
     let mut is_any = false;
     for (k, phi) in block.before[PHI].iter().enumerate().filter(|(_, phi)| is_mixed(**phi)) {
-        let pressure = block.before[PRESSURE][k] + excess.map_or(0.0, |excess| excess[k]);
+        // What surface tension adds to the gas's pressure is not known of all ghosts, and K of the gas is small beside K_l anyway.
+        let pressure = block.before[PRESSURE][k];
         let densities = phase_densities(block.before[RHO][k], shares[k], *phi, mixture);
         spared[k] = Compression::at(pressure, *phi, densities, mixture, true).expansion(*phi);
         is_any = true;
