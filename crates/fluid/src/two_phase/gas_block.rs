@@ -252,7 +252,6 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     }
 
     /// Lets the gas of mixed cells expand that the floor would have to lift; these, too, are done again at first order first.
-    ///
     /// Cells whose gas is not in tension, but whose liquid is, by surface tension, stay as they are.
     ///
     /// - `before`: φ and m_g before the step; `gas`: m_g after it.
