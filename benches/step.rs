@@ -47,7 +47,7 @@ fn main() -> Result<(), Failure> {
         .into_iter()
         .flat_map(|model| [Flow::Smooth, Flow::Bubble, Flow::Jumps].map(|flow| (model, flow)))
     {
-        let name = format!("{}, {}", name_of(model), flow.name());
+        let name = format!("{}, {}", model.name(), flow.name());
         for (block, measure) in [(8, measure::<8> as Measure), (16, measure::<16>), (32, measure::<32>)] {
             if !wanted(&format!("exact against hllc, {name}, 512 {block}")) {
                 continue;
@@ -107,11 +107,6 @@ fn wanted(row: &str) -> bool {
 
 /// The default model, with its sharp interface, and the paper's mixture.
 const MODELS: [Model; 2] = [Model::FiveEquation, Model::SaurelAbgrall];
-
-/// The name of a model in case files.
-fn name_of(model: Model) -> &'static str {
-    Model::NAMES.into_iter().find(|(_, other)| *other == model).map_or("?", |(name, _)| name)
-}
 
 /// How the fluid is computed.
 #[derive(Clone, Copy)]
@@ -195,7 +190,7 @@ impl Solver {
                     RiemannSolver::HllcLowMach => "hllc-lm",
                     RiemannSolver::Exact => "exact",
                 };
-                format!("fluid, {}, {riemann}, {}", name_of(model), limiter(l))
+                format!("fluid, {}, {riemann}, {}", model.name(), limiter(l))
             }
             Self::Solid(l, _) => format!("solid, {}", limiter(l)),
         }

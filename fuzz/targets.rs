@@ -1,6 +1,6 @@
 //! What reads bytes that others have made: none of them may panic, hang, or take memory without bounds.
 //!
-//! The same functions are run by cargo-fuzz for hours and by `tests/hostile.rs` for seconds.
+//! The same functions are run by cargo-fuzz for hours and by `tests/coupled/hostile.rs` for seconds.
 
 #![allow(dead_code, clippy::unwrap_used)]
 

@@ -17,6 +17,7 @@ use cav::watch::seen::Seen;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use rustix::process::{Pid, Signal, kill_process};
+use tempfile::TempDir;
 
 mod fixture;
 
@@ -37,6 +38,14 @@ fn command(place: &Path, arguments: &[&str]) -> Command {
 
 fn cav(place: &Path, arguments: &[&str]) -> Output {
     command(place, arguments).output().expect("cav starts")
+}
+
+/// A directory with the case, of which a run to this time has begun.
+fn begun(end: f64, out: &str, checkpoints: &str) -> (TempDir, Child) {
+    let place = tempfile::tempdir().expect("a directory");
+    case(place.path(), end);
+    let run = start(place.path(), out, checkpoints);
+    (place, run)
 }
 
 fn start(place: &Path, out: &str, checkpoints: &str) -> Child {
@@ -71,11 +80,9 @@ fn picture(seen: &Seen) -> String {
 
 #[test]
 fn a_run_is_seen_to_begin_to_go_on_and_to_be_interrupted_and_taken_up_again() {
-    let place = tempfile::tempdir().expect("a directory");
-    let place = place.path();
     // Longer than anybody waits: it is ended here.
-    case(place, 1e-2);
-    let mut run = start(place, "run", "100ms");
+    let (place, mut run) = begun(1e-2, "run", "100ms");
+    let place = place.path();
     let early = until(place, "run", "a running run with a curve", |seen| {
         seen.state == RunState::Running
             && seen.curves.len() == 3
@@ -129,10 +136,8 @@ fn a_run_is_seen_to_begin_to_go_on_and_to_be_interrupted_and_taken_up_again() {
 /// Ten looks a second, and as many askings for its lock, from the first moment to the last.
 #[test]
 fn a_run_that_is_watched_ends_with_the_same_numbers_bit_for_bit() {
-    let place = tempfile::tempdir().expect("a directory");
+    let (place, mut watched) = begun(2e-4, "watched", "off");
     let place = place.path();
-    case(place, 2e-4);
-    let mut watched = start(place, "watched", "off");
     let (mut looks, mut seen_running, mut reader) = (0, 0, Reader::new(&place.join("watched")));
     let status = loop {
         if let Some(status) = watched.try_wait().expect("it is asked") {

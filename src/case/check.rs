@@ -173,7 +173,7 @@ fn sides(text: &mut String, fluid: &FluidCase) {
     let name = |kind: Boundary| match kind {
         Boundary::Axis => "axis",
         Boundary::Interface => "interface",
-        other => Boundary::NAMES.iter().find(|(_, named)| *named == other).map_or("", |(name, _)| name),
+        other => other.name(),
     };
     let sides = Side::NAMES.map(|(key, side)| format!("{key} {}", name(fluid.boundary[side as usize])));
     line(text, "  sides", &sides.join(", "));

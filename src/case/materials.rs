@@ -54,16 +54,17 @@ pub fn materials_table() -> String {
     text
 }
 
+/// A line of a table: a name, numbers under each other, and where they are from.
+fn row(text: &mut String, [first, others]: [usize; 2], cells: &[String], source: &str) {
+    for (place, cell) in cells.iter().enumerate() {
+        let _ = if place == 0 { write!(text, "{cell:<first$}") } else { write!(text, "{cell:>others$}") };
+    }
+    let _ = writeln!(text, "  {source}");
+}
+
 /// The constants of `[fluid.liquid]` and `[fluid.gas]` by `fluid = "name"`, and those of terms.
 fn fluids_table(text: &mut String) {
-    let row = |text: &mut String, cells: [String; 9], source: &str| {
-        let [name, numbers @ ..] = cells;
-        let _ = write!(text, "{name:<19}");
-        for number in numbers {
-            let _ = write!(text, "{number:>10}");
-        }
-        let _ = writeln!(text, "  {source}");
-    };
+    let row = |text: &mut String, cells: [String; 9], source: &str| row(text, [19, 10], &cells, source);
     let _ = writeln!(
         text,
         "\np = (gamma - 1)(e - q)/(1/rho - b) - gamma pi, `fluid = \"name\"` in [fluid.liquid], [fluid.gas]:"
@@ -92,14 +93,7 @@ fn fluids_table(text: &mut String) {
 
 /// The constants of `[solid.plasticity] law = "johnson-cook"` for those that have some.
 fn hardening_table(text: &mut String) {
-    let row = |text: &mut String, cells: [String; 11], source: &str| {
-        let [name, numbers @ ..] = cells;
-        let _ = write!(text, "{name:<25}");
-        for number in numbers {
-            let _ = write!(text, "{number:>9}");
-        }
-        let _ = writeln!(text, "  {source}");
-    };
+    let row = |text: &mut String, cells: [String; 11], source: &str| row(text, [25, 9], &cells, source);
     let _ = writeln!(text, "\n(A + B eps^n)(1 + C ln(rate/rate0))(1 - T*^m), `law = \"johnson-cook\"`:");
     row(
         text,

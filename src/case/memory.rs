@@ -187,15 +187,7 @@ fn group_memory() -> Option<f64> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-
-    fn case(sets: &[&str]) -> Case {
-        let text = "[time]\nend = 1e-6\n[coupling]\nscheme = \"rigid\"\n[fluid]\nz = [0, 0.01]\nr = [0, 0.01]\ncells = [16, 16]\n\
-                    levels = 4\n[fluid.liquid]\ngamma = 7.15\npi = 3e8\n[fluid.ambient]\ndensity = 1000\npressure = 1e6\n\
-                    [[fluid.region]]\nshape = \"sphere\"\ncentre = [0.004, 0]\nradius = 0.002\nphase = \"gas\"\ndensity = 1.2\n\
-                    pressure = 1e5\n";
-        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        Case::from_toml(text, "small", &sets).unwrap()
-    }
+    use crate::case::fixture::of_four_levels as case;
 
     #[test]
     fn an_adaptive_grid_begins_with_what_its_regions_and_bounds_ask_for() {

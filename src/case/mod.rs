@@ -7,6 +7,8 @@ mod cross;
 mod effective;
 mod error;
 mod far_field;
+#[cfg(test)]
+mod fixture;
 pub(crate) mod format;
 mod initial_pressure;
 mod keys;
@@ -296,18 +298,14 @@ pub struct CouplingCase {
     pub patience: f64,
 }
 
-/// One of the two media.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Medium {
-    /// The fluid.
-    Fluid,
-    /// The solid.
-    Solid,
-}
-
-impl Medium {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 2] = [("fluid", Self::Fluid), ("solid", Self::Solid)];
+mesh::named! {
+    /// One of the two media.
+    pub enum Medium {
+        /// The fluid.
+        Fluid = "fluid",
+        /// The solid.
+        Solid = "solid",
+    }
 }
 
 /// `[[probe]]`: a point at which all fields of a medium are recorded every step.

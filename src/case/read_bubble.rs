@@ -11,6 +11,7 @@ use super::bubble::{BubbleCase, ResetCase};
 use super::keys::bubble::TEMPERATURE;
 use super::read_shape::{extent, on_axis};
 use super::reader::{Faults, Given, Table};
+use super::shared::not_below_zero;
 
 /// What a bubble is described against, as far as it could be read.
 pub(super) struct Surroundings<'a> {
@@ -66,8 +67,8 @@ pub(super) fn bubble(
         gas_density: table.positive("gas_density", faults),
         vapour_gamma: above_one(&mut table, faults),
     };
-    let vapour = not_negative(&mut table, "vapour_pressure", "Pa", faults);
-    let tension = not_negative(&mut table, "surface_tension", "N/m", faults);
+    let vapour = not_below_zero(&mut table, "vapour_pressure", "", faults);
+    let tension = not_below_zero(&mut table, "surface_tension", "", faults);
     let temperature = table.positive("temperature", faults).unwrap_or(TEMPERATURE);
     let cells = table.within("cells_per_radius", "40 is a good begin; 20 is quick", faults);
     let reset = table.table("reset", faults).map(|table| (table.span.clone(), reset(table, faults)));
@@ -335,20 +336,6 @@ fn positive(table: &mut Table<'_>, key: &'static str, faults: &mut Faults) -> Op
     let place = table.place(key);
     let value = table.positive(key, faults)?;
     place.map(|place| Given { value, path: place.path, span: place.span })
-}
-
-fn not_negative(
-    table: &mut Table<'_>,
-    key: &'static str,
-    unit: &str,
-    faults: &mut Faults,
-) -> Option<Given<f64>> {
-    let given = table.number(key, faults)?;
-    if given.value < 0.0 {
-        let message = format!("must not be negative, got {:?} {unit}", given.value);
-        faults.of(&given, message, format!("give a number ≥ 0 in {unit}"));
-    }
-    Some(given)
 }
 
 fn above_one(table: &mut Table<'_>, faults: &mut Faults) -> Option<Given<f64>> {

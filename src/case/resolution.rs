@@ -47,16 +47,7 @@ fn equivalent_radius(geometry: Geometry, shape: Shape) -> f64 {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::*;
-
-    fn case(sets: &[&str]) -> Case {
-        let text = "[time]\nend = 1e-6\n[coupling]\nscheme = \"rigid\"\n[fluid]\nz = [0, 0.01]\nr = [0, 0.01]\ncells = [16, 16]\n\
-                    levels = 2\n[fluid.liquid]\ngamma = 7.15\npi = 3e8\n[fluid.ambient]\ndensity = 1000\npressure = 5e7\n\
-                    [[fluid.region]]\nshape = \"sphere\"\ncentre = [0.004, 0]\nradius = 0.002\nphase = \"gas\"\ndensity = 1.2\n\
-                    pressure = 1e5\n";
-        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        Case::from_toml(text, "small", &sets).unwrap()
-    }
+    use crate::case::fixture::of_two_levels as case;
 
     #[test]
     fn cells_are_counted_along_the_radius_of_a_ball_of_gas() {

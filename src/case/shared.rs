@@ -117,12 +117,24 @@ pub(super) fn name_of(
 
 /// A number that is not below 0; 0 switches off what it is for.
 pub(super) fn not_negative(table: &mut Table<'_>, key: &'static str, faults: &mut Faults) -> Option<f64> {
+    let given = not_below_zero(table, key, "; 0 switches it off", faults)?;
+    (given.value >= 0.0).then_some(given.value)
+}
+
+/// A number, with a fault if it is below 0.
+///
+/// - `at_zero`: what 0 does, behind what is to be given.
+pub(super) fn not_below_zero(
+    table: &mut Table<'_>,
+    key: &'static str,
+    at_zero: &str,
+    faults: &mut Faults,
+) -> Option<Given<f64>> {
     let given: Given<f64> = table.number(key, faults)?;
     if given.value < 0.0 {
         let unit = table.unit(key);
         let message = format!("must not be negative, got {:?} {unit}", given.value);
-        faults.of(&given, message, format!("give a number >= 0 in {unit}; 0 switches it off"));
-        return None;
+        faults.of(&given, message, format!("give a number >= 0 in {unit}{at_zero}"));
     }
-    Some(given.value)
+    Some(given)
 }

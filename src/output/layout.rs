@@ -67,15 +67,25 @@ impl Asked {
         what: &str,
         ask: impl FnOnce(&mut Self) -> Result<R, Refused>,
     ) -> Result<R, Refused> {
+        self.open(what)?;
+        let result = ask(self);
+        self.close();
+        result
+    }
+
+    // The halves of `within` that are compiled once, and not for each type that is asked for.
+    fn open(&mut self, what: &str) -> Result<(), Refused> {
         if self.depth == DEEPEST {
             return Err(Refused("it holds itself".to_owned()));
         }
         let _ = write!(self.text, "{what}( ");
         self.depth += 1;
-        let result = ask(self);
+        Ok(())
+    }
+
+    fn close(&mut self) {
         self.depth -= 1;
         self.note(")");
-        result
     }
 }
 
@@ -227,17 +237,25 @@ impl<'a> Parts<'a> {
     fn unnamed(asked: &'a mut Asked, left: usize) -> Self {
         Self { asked, names: &[], left }
     }
+
+    /// Notes the next part's name; whether there is one.
+    fn begins_next(&mut self) -> bool {
+        let Some(left) = self.left.checked_sub(1) else { return false };
+        if let Some(name) = self.names.len().checked_sub(self.left).and_then(|k| self.names.get(k)) {
+            let _ = write!(self.asked.text, "{name}:");
+        }
+        self.left = left;
+        true
+    }
 }
 
 impl<'de> SeqAccess<'de> for Parts<'_> {
     type Error = Refused;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Refused> {
-        let Some(left) = self.left.checked_sub(1) else { return Ok(None) };
-        if let Some(name) = self.names.len().checked_sub(self.left).and_then(|k| self.names.get(k)) {
-            let _ = write!(self.asked.text, "{name}:");
+        if !self.begins_next() {
+            return Ok(None);
         }
-        self.left = left;
         seed.deserialize(&mut *self.asked).map(Some)
     }
 }

@@ -7,35 +7,21 @@ use serde_json::{Map, Value};
 use super::run_directory::{CASE, CHECKPOINTS, FLUID_HISTORY, SOLID_HISTORY, SUMMARY, is_held};
 use super::{OutputError, summary};
 
-/// What has become of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum RunState {
-    /// A process is at it: it holds the directory.
-    Running,
-    /// It has reached its end.
-    Finished,
-    /// It ended with an error.
-    Failed,
-    /// It was stopped or killed before its end, and can be gone on with.
-    Interrupted,
+mesh::named! {
+    /// What has become of a run.
+    pub enum RunState {
+        /// A process is at it: it holds the directory.
+        Running = "running",
+        /// It has reached its end.
+        Finished = "finished",
+        /// It ended with an error.
+        Failed = "failed",
+        /// It was stopped or killed before its end, and can be gone on with.
+        Interrupted = "interrupted",
+    }
 }
 
 impl RunState {
-    /// All of them with their names.
-    pub const NAMES: [(&'static str, Self); 4] = [
-        ("running", Self::Running),
-        ("finished", Self::Finished),
-        ("failed", Self::Failed),
-        ("interrupted", Self::Interrupted),
-    ];
-
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        let of_self = Self::NAMES.iter().find(|(_, state)| *state == self);
-        of_self.map_or("", |(name, _)| name)
-    }
-
     /// The state of the run in a directory, of which the summary says so much.
     ///
     /// Whether it is running its lock says, whatever the files say and however old they are.

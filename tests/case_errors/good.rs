@@ -25,6 +25,13 @@ fn load(path: &Path) -> Case {
     Case::load(path, &[]).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
+/// One of the cases that come with the program, changed.
+fn of_file(name: &str, sets: &[&str]) -> Case {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
 /// Written out in full and read again, a case is the same, and so is its hash.
 pub fn round_trip(case: &Case) {
     let text = case.effective_toml();
@@ -311,18 +318,20 @@ fn set_changes_what_it_names() {
     assert!(material(&["solid.material=copper", table]).is_some_and(|m| m.name() == "custom"));
 }
 
-fn says(report: &str, parts: &[&str]) {
+/// What `cav check` says of a case, which has all of this.
+fn says(case: &Case, parts: &[&str]) -> String {
+    let report = cav::case::report(case);
     for part in parts {
         assert!(report.contains(part), "no `{part}` in:\n{report}");
     }
+    report
 }
 
 #[test]
 fn the_report_knows_the_papers_case() {
-    let case = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml"));
-    let report = cav::case::report(&case);
-    says(
-        &report,
+    let case = of_file("dickopp2012-coarse", &[]);
+    let report = says(
+        &case,
         &[
             "256 x 256 = 65536 cells of 195.3 µm",
             "256 blocks of 16 x 16",
@@ -334,10 +343,8 @@ fn the_report_knows_the_papers_case() {
         ],
     );
     assert!(!report.contains("adaptive") && !report.contains("warning"), "{report}");
-    let fine = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012.toml"));
-    let report = cav::case::report(&fine);
     says(
-        &report,
+        &of_file("dickopp2012", &[]),
         &[
             "adaptive, level 2 to 9: 16 x 16 to 2048 x 2048 cells of 24.41 µm",
             "adaptive, level 0 to 9: 16 x 16 to 8192 x 8192 cells of 6.104 µm",
@@ -349,21 +356,14 @@ fn the_report_knows_the_papers_case() {
         ],
     );
     // Two mirrored spheres at one potential: by the series of image charges 11.25 MPa on the plane between them.
-    let sets = ["fluid.initial_pressure=rayleigh".to_owned()];
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml");
-    let start = Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}"));
-    let report = cav::case::report(&start);
-    assert!(report.contains("rayleigh, 11.25 MPa at z_min on the axis"), "{report}");
+    let start = of_file("dickopp2012-coarse", &["fluid.initial_pressure=rayleigh"]);
+    says(&start, &["rayleigh, 11.25 MPa at z_min on the axis"]);
     // The same bubble above a rigid wall is the rigid case, to the last key.
-    let rigid = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/rigid-wall.toml"));
+    let rigid = of_file("rigid-wall", &[]);
     let text = case.effective_toml();
     let same = Case::from_toml(&text, "rigid-wall", &["coupling.scheme=rigid".to_owned()]);
     assert_eq!(same.unwrap_or_else(|errors| panic!("{errors}")).hash(), rigid.hash());
-    let coarse = Case::load(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml"),
-        &["fluid.levels=2".to_owned(), "time.cfl=0.6".to_owned()],
-    )
-    .unwrap_or_else(|errors| panic!("{errors}"));
+    let coarse = of_file("dickopp2012-coarse", &["fluid.levels=2", "time.cfl=0.6"]);
     let warnings = coarse.warnings().join("\n");
     assert!(warnings.contains("3.2 cells per radius") && warnings.contains("time.cfl = 0.6"), "{warnings}");
     let table = cav::case::materials_table();

@@ -5,6 +5,13 @@ use std::process::Command;
 
 use crate::{Workshop, good_run, text};
 
+/// The program ends with this exit code, and says what helps.
+fn is_refused(workshop: &Workshop, arguments: &[&str], code: i32, remedy: &str) {
+    let wrong = workshop.cav(arguments);
+    assert_eq!(wrong.status.code(), Some(code));
+    assert!(text(&wrong).contains(remedy), "{}", text(&wrong));
+}
+
 #[test]
 fn keys_are_shown_and_wrong_paths_named_with_the_nearest() {
     let workshop = Workshop::new();
@@ -48,9 +55,7 @@ fn bash_completes_commands_options_and_keys() {
     for shell in ["zsh", "fish", "elvish", "powershell"] {
         assert!(text(&good_run(&workshop, &["completions", shell])).contains("materials"), "{shell}");
     }
-    let wrong = workshop.cav(&["completions", "bsh"]);
-    assert_eq!(wrong.status.code(), Some(2));
-    assert!(text(&wrong).contains("bash"), "{}", text(&wrong));
+    is_refused(&workshop, &["completions", "bsh"], 2, "bash");
 }
 
 #[test]
@@ -65,9 +70,7 @@ fn the_manual_has_a_page_for_every_command() {
         let text = fs::read_to_string(workshop.path("pages/man1").join(page)).expect(page);
         assert!(text.contains(part), "no `{part}` in {page}: {text}");
     }
-    let wrong = workshop.cav(&["man", "case.toml/pages"]);
-    assert_eq!(wrong.status.code(), Some(5));
-    assert!(text(&wrong).contains("choose another directory"), "{}", text(&wrong));
+    is_refused(&workshop, &["man", "case.toml/pages"], 5, "choose another directory");
 }
 
 #[test]

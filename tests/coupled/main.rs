@@ -8,6 +8,8 @@ mod fixture;
 mod hammer;
 mod harness;
 mod hits;
+#[allow(clippy::unwrap_used, clippy::print_stdout, reason = "how many inputs were tried is told")]
+mod hostile;
 mod ledgers;
 mod load;
 mod modes;

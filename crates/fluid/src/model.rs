@@ -1,8 +1,8 @@
 //! What the fluid is to the block solver.
 
 use mesh::{
-    Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, Reports,
-    ScratchPool, Scratches, Side, StageTimer, Tile,
+    BlockSolver, BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap, Reports,
+    Scratches, Side, Tile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -147,13 +147,10 @@ impl<const N: usize> Model<N> for Fluid {
         &self,
         step: &FluidStep<'_, N>,
         slot: usize,
-        new: &mut [f64],
-        register: &mut [f64],
-        scratch: &mut BlockScratch<N>,
-        timer: &mut StageTimer,
+        work: BlockWork<'_, BlockScratch<N>>,
     ) -> BlockReport<N> {
         let mut report = [BlockReport::default()];
-        step_tile(step, Tile::one(slot), (new, register), &mut report, (scratch, timer));
+        step_tile(step, Tile::one(slot), work, &mut report);
         let [report] = report;
         report
     }
@@ -162,21 +159,19 @@ impl<const N: usize> Model<N> for Fluid {
         &self,
         step: &FluidStep<'_, N>,
         tile: Tile,
-        new: &mut [f64],
-        register: &mut [f64],
+        mut work: BlockWork<'_, BlockScratch<N>>,
         reports: &mut [BlockReport<N>],
-        scratch: &mut BlockScratch<N>,
-        timer: &mut StageTimer,
     ) {
-        if let Some(of_four) = scratch.of_four.as_mut().filter(|_| !tile.is_one() && is_one(step, tile)) {
-            step_tile(step, tile, (new, register), reports, (of_four, timer));
+        if !tile.is_one()
+            && is_one(step, tile)
+            && let Some(of_four) = &mut work.scratch.of_four
+        {
+            step_tile(step, tile, BlockWork { scratch: of_four, ..work }, reports);
             return;
         }
-        let (len, registered) = (new.len() / tile.blocks(), register.len() / tile.blocks());
-        let parts = new.chunks_exact_mut(len).zip(register.chunks_exact_mut(registered));
-        for ((slot, report), parts) in tile.slots().zip(reports.chunks_exact_mut(1)).zip(parts) {
-            step_tile(step, Tile::one(slot), parts, report, (scratch, timer));
-        }
+        work.each_of(tile, reports, |slot, work, report| {
+            step_tile(step, Tile::one(slot), work, std::slice::from_mut(report));
+        });
     }
 
     fn correct(
@@ -314,8 +309,7 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn demanded_levels(
         &self,
-        mesh: &Mesh<N>,
-        field: &Field,
+        (mesh, field): (&Mesh<N>, &Field),
         base: u8,
         travel: &(dyn Fn(usize) -> f64 + Sync),
     ) -> Vec<u8> {
@@ -330,15 +324,9 @@ impl<const N: usize> Model<N> for Fluid {
     }
 
     /// How many predictions are limited is counted.
-    fn remap(
-        &mut self,
-        adapted: &Adapted<N>,
-        (mesh, field): (&Mesh<N>, &Field),
-        patches: &ScratchPool<Patch<N>>,
-        new: &mut Field,
-    ) {
+    fn remap(&mut self, remap: &Remap<'_, N>, new: &mut Field) {
         let analysis = CountedAnalysis::new(&self.analysis);
-        adapted.remap_into(mesh, field, &analysis, patches, new);
+        remap.by(&analysis, new);
         self.tally.fixups.clips.limited_predictions += analysis.limited();
     }
 

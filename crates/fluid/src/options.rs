@@ -2,44 +2,34 @@
 
 use mesh::Limiter;
 
-/// The two-phase model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
-    /// Partial densities, one velocity and one pressure, and a gas fraction that feels compression: five equations in
-    /// one dimension (Kapila et al. 2001). The default.
-    FiveEquation,
-    /// The same without the K term: the gas fraction is only advected (Allaire, Clerc & Kokh 2002). For study.
-    Allaire,
-    /// One density, advected gas fraction, linear β₁ and β₂: the paper's mixture (Saurel & Abgrall 1999).
-    SaurelAbgrall,
+mesh::named! {
+    /// The two-phase model.
+    pub enum Model {
+        /// Partial densities, one velocity and one pressure, and a gas fraction that feels compression: five equations in
+        /// one dimension (Kapila et al. 2001). The default.
+        FiveEquation = "five-equation",
+        /// The same without the K term: the gas fraction is only advected (Allaire, Clerc & Kokh 2002). For study.
+        Allaire = "allaire",
+        /// One density, advected gas fraction, linear β₁ and β₂: the paper's mixture (Saurel & Abgrall 1999).
+        SaurelAbgrall = "saurel-abgrall",
+    }
 }
 
 impl Model {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("five-equation", Self::FiveEquation),
-        ("allaire", Self::Allaire),
-        ("saurel-abgrall", Self::SaurelAbgrall),
-    ];
-
     /// Numbers in a cell: ρ, ρv_z, ρv_r, ρE, φ, and the gas's mass m_g where phases have densities of their own.
     pub fn components(self) -> usize {
         if self == Self::SaurelAbgrall { 5 } else { 6 }
     }
 }
 
-/// What keeps the interface between gas and liquid sharp.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sharpening {
-    /// The gas fraction on a mixed cell's faces is that of a step (THINC; Shyue & Xiao 2014).
-    Thinc,
-    /// The limited linear reconstruction serves it, too.
-    None,
-}
-
-impl Sharpening {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 2] = [("thinc", Self::Thinc), ("none", Self::None)];
+mesh::named! {
+    /// What keeps the interface between gas and liquid sharp.
+    pub enum Sharpening {
+        /// The gas fraction on a mixed cell's faces is that of a step (THINC; Shyue & Xiao 2014).
+        Thinc = "thinc",
+        /// The limited linear reconstruction serves it, too.
+        None = "none",
+    }
 }
 
 /// What the five-equation model does in mixed cells.
@@ -61,55 +51,41 @@ impl TwoPhaseOptions {
     }
 }
 
-/// The Riemann solver at cell faces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RiemannSolver {
-    /// Harten–Lax–van Leer with contact (Toro, Spruce & Speares 1994).
-    Hllc,
-    /// The same with less damping where flow is slow against sound, see [`crate::flux_hllc_low_mach`].
-    HllcLowMach,
-    /// The exact solver for two stiffened gases.
-    Exact,
+mesh::named! {
+    /// The Riemann solver at cell faces.
+    pub enum RiemannSolver {
+        /// Harten–Lax–van Leer with contact (Toro, Spruce & Speares 1994).
+        Hllc = "hllc",
+        /// The same with less damping where flow is slow against sound, see [`crate::flux_hllc_low_mach`].
+        HllcLowMach = "hllc-lm",
+        /// The exact solver for two stiffened gases.
+        Exact = "exact",
+    }
 }
 
-impl RiemannSolver {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 3] =
-        [("hllc", Self::Hllc), ("hllc-lm", Self::HllcLowMach), ("exact", Self::Exact)];
-}
-
-/// What bounds the fluid on one side of its domain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Boundary {
-    /// The axis r = 0 of an axisymmetric domain.
-    Axis,
-    /// A rigid wall, frictionless in fluids without viscosity; those with it stick to it.
-    Wall,
-    /// A plane of symmetry, which is a wall that fluids slip along.
-    Symmetry,
-    /// Waves leave: the incoming characteristic is held at the initial state there.
-    NonReflecting,
-    /// Waves leave, and liquid flows to the bubbles and back as in unbounded liquid, see [`crate::FarField`].
-    FarField,
-    /// A pressure history enters as a plane wave.
-    Inflow,
-    /// The opposite side of the domain.
-    Periodic,
-    /// The interface to the solid.
-    Interface,
+mesh::named! {
+    /// What bounds the fluid on one side of its domain.
+    pub enum Boundary {
+        /// The axis r = 0 of an axisymmetric domain.
+        Axis,
+        /// A rigid wall, frictionless in fluids without viscosity; those with it stick to it.
+        Wall = "wall",
+        /// A plane of symmetry, which is a wall that fluids slip along.
+        Symmetry = "symmetry",
+        /// Waves leave: the incoming characteristic is held at the initial state there.
+        NonReflecting = "non-reflecting",
+        /// Waves leave, and liquid flows to the bubbles and back as in unbounded liquid, see [`crate::FarField`].
+        FarField = "far-field",
+        /// A pressure history enters as a plane wave.
+        Inflow = "inflow",
+        /// The opposite side of the domain.
+        Periodic = "periodic",
+        /// The interface to the solid.
+        Interface,
+    }
 }
 
 impl Boundary {
-    /// Those a case file may name.
-    pub const NAMES: [(&'static str, Self); 6] = [
-        ("wall", Self::Wall),
-        ("symmetry", Self::Symmetry),
-        ("non-reflecting", Self::NonReflecting),
-        ("far-field", Self::FarField),
-        ("inflow", Self::Inflow),
-        ("periodic", Self::Periodic),
-    ];
-
     /// Whether fluid passes: the side holds a state outside.
     pub fn is_open(self) -> bool {
         matches!(self, Self::NonReflecting | Self::FarField | Self::Inflow)

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mesh::{Limiter, Mesh, Step};
+use mesh::{Limiter, Step};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
@@ -96,15 +96,8 @@ impl Fluid {
 }
 
 impl Fluid {
-    /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.
-    pub(crate) fn dispersion<const N: usize>(
-        &self,
-        mesh: &Mesh<N>,
-        dt: f64,
-        level: u8,
-        axis: usize,
-    ) -> Dispersion {
-        let widths = mesh.widths(level);
+    /// For the faces normal to an axis (0: z, 1: r) of cells of these widths, in a step of length `dt`.
+    pub(crate) fn dispersion(&self, widths: [f64; 2], dt: f64, axis: usize) -> Dispersion {
         Dispersion {
             per_speed: dt / widths[axis],
             aspect: widths[axis] / widths[1 - axis],

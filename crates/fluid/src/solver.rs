@@ -1,7 +1,5 @@
 //! `FluidSolver`: how a fluid is made.
 
-use std::ops::{Deref, DerefMut};
-
 use mesh::{BlockSolver, Domain, Mesh, SavedBlocks, Side, SideStates};
 
 use crate::analysis::Analysis;
@@ -171,16 +169,4 @@ fn wall_memory<const N: usize>(setup: &FluidSetup, mesh: &Mesh<N>) -> Option<Wal
     is_wall.then(|| WallMemory::new(wall, setup.coarsest[1] << mesh.tree().finest()))
 }
 
-impl<const N: usize> Deref for FluidSolver<N> {
-    type Target = BlockSolver<Fluid, N>;
-
-    fn deref(&self) -> &Self::Target {
-        &self.0
-    }
-}
-
-impl<const N: usize> DerefMut for FluidSolver<N> {
-    fn deref_mut(&mut self) -> &mut Self::Target {
-        &mut self.0
-    }
-}
+mesh::derefs!([const N: usize] FluidSolver<N> => BlockSolver<Fluid, N>, 0);

@@ -20,15 +20,18 @@
 pub mod array;
 mod block_solver;
 mod cell_fields;
+mod derefs;
 mod ghosts;
 mod kernels;
 mod multiresolution;
+mod named;
 mod subcycling;
 mod tree;
 
 pub use block_solver::stage_timer::StageTimer;
 pub use block_solver::{
-    BlockSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks, Scratches, Step,
+    BlockSolver, BlockWork, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks,
+    Scratches, Step,
 };
 pub use cell_fields::CellField;
 pub use ghosts::frame::Frame;
@@ -44,7 +47,7 @@ pub use kernels::reduce::maximum;
 pub use multiresolution::adaptation::{Adaptation, LevelBound, Zone};
 pub use multiresolution::horizon::Horizon;
 pub use multiresolution::patch::Patch;
-pub use multiresolution::remap::{Adapted, Origin};
+pub use multiresolution::remap::{Adapted, Origin, Remap};
 pub use multiresolution::{MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution};
 pub use subcycling::courant::longest_step;
 pub use subcycling::level_clock::{GroupStep, LevelClock, steps_in};

@@ -11,8 +11,7 @@ use cav::run::process::launch_options::Options;
 use cav::run::process::session::{Session, Solvers};
 use cav::run::process::stop::Stop;
 use cav::run::record::conclusion::{closing_words, conclude};
-use cav::run::side::fluid_side::{FluidSide, Turn};
-use cav::run::side::solid_side::SolidSide;
+use cav::run::side::fluid_side::Turn;
 use coupler::FrameHeader;
 use numpy::{IntoPyArray, PyReadonlyArray1};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -227,7 +226,7 @@ impl Simulation {
     fn dt(&self) -> PyResult<f64> {
         let run = self.run()?;
         let (fluid, solid) = (run.session.fluid(), run.session.solid());
-        Ok(fluid.map(FluidSide::last_step).or(solid.map(SolidSide::last_step)).unwrap_or(0.0))
+        Ok(fluid.map(|side| side.last_step()).or(solid.map(|side| side.last_step())).unwrap_or(0.0))
     }
 
     /// Whether the end is reached.

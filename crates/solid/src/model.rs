@@ -1,8 +1,6 @@
 //! What the solid is to the block solver.
 
-use mesh::{
-    Adapted, Field, FinerSide, Interface, Mesh, Misfit, Model, Patch, Place, ScratchPool, Side, StageTimer,
-};
+use mesh::{BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
@@ -50,12 +48,9 @@ impl<const N: usize> Model<N> for Solid {
         &self,
         step: &SolidStep<'_, N>,
         slot: usize,
-        new: &mut [f64],
-        register: &mut [f64],
-        scratch: &mut BlockScratch<N>,
-        timer: &mut StageTimer,
+        work: BlockWork<'_, BlockScratch<N>>,
     ) -> BlockReport {
-        step_block(step, slot, new, register, scratch, timer)
+        step_block(step, slot, work)
     }
 
     fn correct(
@@ -106,17 +101,10 @@ impl<const N: usize> Model<N> for Solid {
 
     /// What can yield stays within its yield surface, see `Admissible`; what rounding and laws that soften by heat leave outside
     /// is returned, and counted.
-    fn remap(
-        &mut self,
-        adapted: &Adapted<N>,
-        (mesh, field): (&Mesh<N>, &Field),
-        patches: &ScratchPool<Patch<N>>,
-        new: &mut Field,
-    ) {
-        let Some(plasticity) = &self.plasticity else {
-            return adapted.remap_into(mesh, field, &self.analysis, patches, new);
-        };
-        adapted.remap_into(mesh, field, &Admissible { analysis: &self.analysis, plasticity }, patches, new);
+    fn remap(&mut self, remap: &Remap<'_, N>, new: &mut Field) {
+        let Some(plasticity) = &self.plasticity else { return remap.by(&self.analysis, new) };
+        remap.by(&Admissible { analysis: &self.analysis, plasticity }, new);
+        let adapted = remap.adapted;
         for slot in adapted.fresh() {
             let mut report = PlasticReport::default();
             let id = adapted.mesh.tree().leaves()[slot];

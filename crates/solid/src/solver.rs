@@ -1,7 +1,5 @@
 //! `SolidSolver`: how a solid is made.
 
-use std::ops::{Deref, DerefMut};
-
 use mesh::{BlockId, BlockSolver, Field, Mesh, SavedBlocks, SideStates};
 
 use crate::analysis::Analysis;
@@ -148,16 +146,4 @@ fn analysis(setup: &SolidSetup, components: &[Component]) -> Analysis {
     }
 }
 
-impl<const N: usize> Deref for SolidSolver<N> {
-    type Target = BlockSolver<Solid, N>;
-
-    fn deref(&self) -> &Self::Target {
-        &self.0
-    }
-}
-
-impl<const N: usize> DerefMut for SolidSolver<N> {
-    fn deref_mut(&mut self) -> &mut Self::Target {
-        &mut self.0
-    }
-}
+mesh::derefs!([const N: usize] SolidSolver<N> => BlockSolver<Solid, N>, 0);

@@ -1,7 +1,7 @@
 //! How the grids adapt: thresholds in `[fluid]` and `[solid]`, `[fluid.near_wall]` and the zones of `[[....refine]]`.
 
 use super::declared::{Interval, Key, Preset, Section, Values};
-use super::grid::MOST_LEVELS;
+use super::grid::{MOST_LEVELS, centre};
 
 /// Steps between two adaptations where a case does not say.
 pub const DEFAULT_ADAPT_EVERY: usize = 8;
@@ -67,13 +67,7 @@ static ZONE: [Key; 8] = [
         about: "What the zone is. `\"outer\"` takes neither `at_least` nor `at_most`; waves that are too short for its \
                 cells fade there.",
     },
-    Key {
-        name: "centre",
-        unit: "m",
-        values: Values::Point,
-        default: Preset::Required,
-        about: "Sphere and outer: the centre.",
-    },
+    centre("Sphere and outer: the centre."),
     Key {
         name: "radius",
         unit: "m",
@@ -118,6 +112,10 @@ static ZONE: [Key; 8] = [
     },
 ];
 
+const fn threshold(default: Preset, about: &'static str) -> Key {
+    Key { name: "epsilon", unit: "1", values: Values::Within(Interval::open(0.0, 1.0)), default, about }
+}
+
 pub(super) static ADAPTATION_OF_FLUID: [Section; 3] = [
     Section {
         path: "fluid",
@@ -127,14 +125,11 @@ pub(super) static ADAPTATION_OF_FLUID: [Section; 3] = [
         keys: &[
             ADAPT,
             ERROR,
-            Key {
-                name: "epsilon",
-                unit: "1",
-                values: Values::Within(Interval::open(0.0, 1.0)),
-                default: Preset::Words("3/100 of `error`"),
-                about: "The threshold of details on the finest level, relative to the scales below; half of it on the \
+            threshold(
+                Preset::Words("3/100 of `error`"),
+                "The threshold of details on the finest level, relative to the scales below; half of it on the \
                         next coarser one, and so on. Instead of `error`.",
-            },
+            ),
             Key {
                 name: "epsilon_waves",
                 unit: "1",
@@ -217,14 +212,11 @@ pub(super) static ADAPTATION_OF_SOLID: [Section; 2] = [
         keys: &[
             ADAPT,
             ERROR,
-            Key {
-                name: "epsilon",
-                unit: "1",
-                values: Values::Within(Interval::open(0.0, 1.0)),
-                default: Preset::Words("that of waves, from `error`"),
-                about: "The threshold of details on the finest level, relative to the scale below; half of it on the next \
+            threshold(
+                Preset::Words("that of waves, from `error`"),
+                "The threshold of details on the finest level, relative to the scale below; half of it on the next \
                         coarser one, and so on. Instead of `error`.",
-            },
+            ),
             ADAPT_EVERY,
             Key {
                 name: "scale_stress",

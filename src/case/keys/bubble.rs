@@ -1,6 +1,7 @@
 //! `[fluid.bubble]`: a bubble by what is in it, how the grid follows it, and how its gas is cut.
 
 use super::declared::{Interval, Key, Preset, Section, Values};
+use super::grid::centre;
 
 /// Room temperature where a case does not say, K.
 pub(in crate::case) const TEMPERATURE: f64 = 293.15;
@@ -18,13 +19,7 @@ pub(super) static BUBBLE: [Section; 2] = [
         about: "Gas and vapour as laboratories describe them, see [what is in the bubble][bubble]: it makes the first region of gas, \
                 painted before others. With `region` instead of `centre` and a radius it is about a region that is there.",
         keys: &[
-            Key {
-                name: "centre",
-                unit: "m",
-                values: Values::Point,
-                default: Preset::Required,
-                about: "The centre, on the axis and in the fluid.",
-            },
+            centre("The centre, on the axis and in the fluid."),
             Key {
                 name: "radius_max",
                 unit: "m",

@@ -15,6 +15,16 @@ const FLUID_NAME: Key = Key {
     about: "A fluid known by name, of which all constants are taken that the table does not give.",
 };
 
+/// γ of a phase.
+const fn exponent(default: Preset, about: &'static str) -> Key {
+    Key { name: "gamma", unit: "1", values: Values::Words("> 1"), default, about }
+}
+
+/// π of a phase.
+const fn stiffness(default: Preset, about: &'static str) -> Key {
+    Key { name: "pi", unit: "Pa", values: Values::Words("≥ 0"), default, about }
+}
+
 const COVOLUME: Key = Key {
     name: "covolume",
     unit: "m3/kg",
@@ -123,20 +133,11 @@ pub(super) static FLUID: [Section; 3] = [
         about: "Required. A [stiffened gas][eos], p = (γ − 1) ρe − γπ, or with a covolume b a Noble–Abel one. Everywhere density > 0 and p + π > 0.",
         keys: &[
             FLUID_NAME,
-            Key {
-                name: "gamma",
-                unit: "1",
-                values: Values::Words("> 1"),
-                default: Preset::Words("that of `fluid`; else required"),
-                about: "The adiabatic exponent γ; 7.15 for water.",
-            },
-            Key {
-                name: "pi",
-                unit: "Pa",
-                values: Values::Words("≥ 0"),
-                default: Preset::Words("that of `fluid`; else required"),
-                about: "The stiffness π; 3e8 for water.",
-            },
+            exponent(
+                Preset::Words("that of `fluid`; else required"),
+                "The adiabatic exponent γ; 7.15 for water.",
+            ),
+            stiffness(Preset::Words("that of `fluid`; else required"), "The stiffness π; 3e8 for water."),
             COVOLUME,
             HEAT_CAPACITY,
             ENERGY,
@@ -150,20 +151,8 @@ pub(super) static FLUID: [Section; 3] = [
         about: "The same law as the liquid's.",
         keys: &[
             FLUID_NAME,
-            Key {
-                name: "gamma",
-                unit: "1",
-                values: Values::Words("> 1"),
-                default: Preset::Number(GAS[0]),
-                about: "The adiabatic exponent γ; 1.4 for air.",
-            },
-            Key {
-                name: "pi",
-                unit: "Pa",
-                values: Values::Words("≥ 0"),
-                default: Preset::Number(GAS[1]),
-                about: "The stiffness π; 0 for a gas.",
-            },
+            exponent(Preset::Number(GAS[0]), "The adiabatic exponent γ; 1.4 for air."),
+            stiffness(Preset::Number(GAS[1]), "The stiffness π; 0 for a gas."),
             COVOLUME,
             HEAT_CAPACITY,
             ENERGY,

@@ -1,4 +1,4 @@
-//! Keys that stand in `[fluid]` and in `[solid]`: the domain and its cells.
+//! Keys that stand in several tables: the domain and its cells, centres and widths.
 
 use super::declared::{Key, Preset, Values};
 
@@ -50,4 +50,18 @@ pub(super) const LIMITER: Key = Key {
     ]),
     default: Preset::Name("mc"),
     about: "The limiter of the linear reconstruction.",
+};
+
+/// The centre of something that has to be somewhere.
+pub(super) const fn centre(about: &'static str) -> Key {
+    Key { name: "centre", unit: "m", values: Values::Point, default: Preset::Required, about }
+}
+
+/// Of a pulse exp(−d²/a²).
+pub(super) const WIDTH: Key = Key {
+    name: "width",
+    unit: "m",
+    values: Values::Positive,
+    default: Preset::Required,
+    about: "Its width a.",
 };

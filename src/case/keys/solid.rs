@@ -1,7 +1,7 @@
 //! `[solid]`: the domain, the material, and waves that are there at t = 0.
 
 use super::declared::{Key, Preset, Section, Values};
-use super::grid::{CELLS, LEVELS, LIMITER, R, Z};
+use super::grid::{CELLS, LEVELS, LIMITER, R, WIDTH, Z, centre};
 
 /// What stands at the moduli and speeds of a material.
 const ONE_PAIR: Preset = Preset::Words("exactly one of the three pairs");
@@ -132,20 +132,8 @@ pub(super) static SOLID: [Section; 3] = [
         title: "Waves in the solid",
         about: "A spherical P wave at rest: u = ∇(Φ exp(−R²/a²)), v = 0.",
         keys: &[
-            Key {
-                name: "centre",
-                unit: "m",
-                values: Values::Point,
-                default: Preset::Required,
-                about: "Its centre; in axisymmetric geometry on the axis.",
-            },
-            Key {
-                name: "width",
-                unit: "m",
-                values: Values::Positive,
-                default: Preset::Required,
-                about: "Its width a.",
-            },
+            centre("Its centre; in axisymmetric geometry on the axis."),
+            WIDTH,
             Key {
                 name: "amplitude",
                 unit: "m2",

@@ -1,6 +1,7 @@
 //! What fills the fluid at t = 0: `[fluid.ambient]`, regions, pulses and the tracer.
 
 use super::declared::{Key, Preset, Section, Values};
+use super::grid::WIDTH;
 
 const PHASES: Values = Values::Names(&[("liquid", "as `[fluid.liquid]`"), ("gas", "as `[fluid.gas]`")]);
 
@@ -133,13 +134,7 @@ pub(super) static START: [Section; 4] = [
                 default: Preset::Required,
                 about: "The middle of the pulse. In axisymmetric geometry a sphere is on the axis.",
             },
-            Key {
-                name: "width",
-                unit: "m",
-                values: Values::Positive,
-                default: Preset::Required,
-                about: "Its width a.",
-            },
+            WIDTH,
             Key {
                 name: "amplitude",
                 unit: "Pa",

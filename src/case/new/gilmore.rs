@@ -91,6 +91,7 @@ fn rate(content: &BubbleContent, rest: f64, [radius, speed]: [f64; 2]) -> [f64; 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::scales::RAYLEIGH_FACTOR;
     use fluid::StiffenedGas;
 
     #[test]
@@ -106,7 +107,7 @@ mod tests {
             cycles(&content, 20e-6, 184.1e-6, Some(64e-6)).expect("four turns");
         assert!((480e-6..520e-6).contains(&largest.radius), "{largest:?}");
         // As long as it grew, by Rayleigh's time.
-        let rayleigh = 0.91468 * largest.radius * (1000.0_f64 / 1e5).sqrt();
+        let rayleigh = RAYLEIGH_FACTOR * largest.radius * (1000.0_f64 / 1e5).sqrt();
         assert!(((collapse.time - largest.time) / rayleigh - 1.0).abs() < 0.02, "{largest:?} {collapse:?}");
         let [_, _, whole, _] = cycles(&content, 20e-6, 184.1e-6, None).expect("four turns");
         assert!(rebound.radius < 0.6 * whole.radius, "{rebound:?} {whole:?}");

@@ -7,7 +7,7 @@ use super::super::format::si;
 use super::checks::Checks;
 use super::gilmore::{Turn, cycles};
 use super::grid::Blocks;
-use super::parts::{DENSITY, WATER, number, sound, times};
+use super::parts::{DENSITY, media, number, sound, times};
 use super::quantity::Dimension;
 use super::wall::Wall;
 
@@ -167,27 +167,14 @@ impl LaserBubble {
             )
         });
         format!(
-            "
-[fluid.liquid]                  # water, p = (gamma - 1) rho e - gamma pi
-gamma = {gamma:?}
-pi = {pi:e}
-
-[fluid.gas]
-gamma = 1.4
-
-[fluid.ambient]
-density = {DENSITY:?}
-pressure = {pressure}
-
+            "{media}
 [fluid.bubble]
 centre = [{centre}, 0.0]
 radius = {radius}
 equilibrium_radius = {rest:<11} # of its gas
 cells_per_radius = {cells:<13} # at least, along the present radius
 {reset}",
-            gamma = WATER.gamma,
-            pi = WATER.pi,
-            pressure = number(self.pressure),
+            media = media(self.pressure),
             centre = number(height),
             radius = number(self.radius),
             rest = number(self.equilibrium_radius),

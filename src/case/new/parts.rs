@@ -59,10 +59,32 @@ impl Bubble {
 
     /// `[fluid.liquid]` to `[[fluid.region]]`, the bubble's centre at `height` over z = 0.
     pub fn keys(&self, height: f64) -> String {
-        let (at_rest, StiffenedGas { gamma, pi, .. }) = (DENSITY, WATER);
+        let media = media(self.pressure);
         let density = self.gas_pressure / (AIR[0] * AIR[1]);
         format!(
-            "
+            "{media}
+[[fluid.region]]
+shape = \"sphere\"
+centre = [{centre}, 0.0]
+radius = {radius}
+phase = \"gas\"
+density = {density:<22} # air at 20 degrees Celsius
+pressure = {gas}
+",
+            centre = number(height),
+            radius = number(self.radius),
+            density = number(density),
+            gas = number(self.gas_pressure),
+        )
+    }
+}
+
+/// `[fluid.liquid]`, `[fluid.gas]` and `[fluid.ambient]`: water at a pressure, Pa, and a gas.
+pub(super) fn media(pressure: f64) -> String {
+    let (at_rest, StiffenedGas { gamma, pi, .. }) = (DENSITY, WATER);
+    let pressure = number(pressure);
+    format!(
+        "
 [fluid.liquid]                  # water, p = (gamma - 1) rho e - gamma pi
 gamma = {gamma:?}
 pi = {pi:e}
@@ -73,22 +95,8 @@ gamma = 1.4
 [fluid.ambient]
 density = {at_rest:?}
 pressure = {pressure}
-
-[[fluid.region]]
-shape = \"sphere\"
-centre = [{centre}, 0.0]
-radius = {radius}
-phase = \"gas\"
-density = {density:<22} # air at 20 degrees Celsius
-pressure = {gas}
-",
-            pressure = number(self.pressure),
-            centre = number(height),
-            radius = number(self.radius),
-            density = number(density),
-            gas = number(self.gas_pressure),
-        )
-    }
+"
+    )
 }
 
 /// The sound speed of water at a pressure, m/s.

@@ -60,13 +60,10 @@ fn letter(content: Content) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
-    use crate::case::new::Collapse;
 
     #[test]
     fn a_bubble_is_round_and_above_the_wall() {
-        let text = Collapse::default().text().expect("a case");
-        let case = Case::from_toml(&text, "collapse", &[]).expect("a case");
+        let case = super::super::collapse();
         let drawn = draw(&Scene::of(&case).expect("media"));
         let lines: Vec<&str> = drawn.lines().collect();
         let wall = lines.iter().position(|line| line.ends_with("wall")).expect("a wall");

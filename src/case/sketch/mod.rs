@@ -22,3 +22,10 @@ pub fn png(case: &Case, path: &Path) -> std::io::Result<()> {
     let scene = Scene::of(case).ok_or_else(|| std::io::Error::other("the case has no media"))?;
     pixels::write(&scene, path)
 }
+
+/// The first case of all, as tests draw it.
+#[cfg(test)]
+fn collapse() -> Case {
+    let text = super::new::Collapse::default().text().expect("a case");
+    Case::from_toml(&text, "collapse", &[]).expect("a case")
+}

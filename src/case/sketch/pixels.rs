@@ -191,13 +191,10 @@ fn words(picture: &mut Picture, place: &Place<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
-    use crate::case::new::Collapse;
 
     #[test]
     fn the_picture_shows_the_bubble_where_it_is() {
-        let text = Collapse::default().text().expect("a case");
-        let case = Case::from_toml(&text, "collapse", &[]).expect("a case");
+        let case = super::super::collapse();
         let scene = Scene::of(&case).expect("media");
         let picture = draw(&scene);
         let tall = scene.z[1] - scene.z[0];

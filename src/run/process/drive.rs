@@ -99,15 +99,11 @@ pub fn joined(
     match joining.participant {
         Participant::Fluid => {
             let fluid = case.fluid.as_ref().ok_or(RunError::NoPeer { side })?;
-            let side = match keeping.from {
-                Some(step) => (checkpoints.read(Participant::Fluid, step))
-                    .and_then(|saved| FluidSide::resumed(case, fluid, &directory, saved)),
-                None => FluidSide::new(case, fluid, Some(&directory)),
-            };
-            let mut side = told(side, &mut link)?;
-            if let Some(keeper) = keeper {
-                side.keep_with(keeper);
-            }
+            let resumed = |saved| FluidSide::resumed(case, fluid, &directory, saved);
+            let new = || FluidSide::new(case, fluid, Some(&directory));
+            let side =
+                begun(keeping.from.map(|step| checkpoints.read(Participant::Fluid, step)), resumed, new);
+            let mut side = keeping_by(keeper, told(side, &mut link)?);
             let result = loop {
                 match side.turn(&mut link, stop) {
                     Ok(Turn::Continues) => on_step(&line(&side)),
@@ -119,15 +115,11 @@ pub fn joined(
         }
         Participant::Solid => {
             let solid = case.solid.as_ref().ok_or(RunError::NoPeer { side })?;
-            let side = match keeping.from {
-                Some(step) => (checkpoints.read(Participant::Solid, step))
-                    .and_then(|saved| SolidSide::resumed(case, solid, &directory, saved)),
-                None => SolidSide::new(case, solid, Some(&directory)),
-            };
-            let mut side = told(side, &mut link)?;
-            if let Some(keeper) = keeper {
-                side.keep_with(keeper);
-            }
+            let resumed = |saved| SolidSide::resumed(case, solid, &directory, saved);
+            let new = || SolidSide::new(case, solid, Some(&directory));
+            let side =
+                begun(keeping.from.map(|step| checkpoints.read(Participant::Solid, step)), resumed, new);
+            let mut side = keeping_by(keeper, told(side, &mut link)?);
             let mut rounds = || -> Result<Turn, RunError> {
                 side.open(&mut link, stop)?;
                 loop {
@@ -142,6 +134,23 @@ pub fn joined(
             end(&mut side, Some(&directory), result, link.counters())
         }
     }
+}
+
+/// A side as it was kept, or at t = 0.
+fn begun<S, T>(
+    saved: Option<Result<T, RunError>>,
+    resumed: impl FnOnce(T) -> Result<S, RunError>,
+    new: impl FnOnce() -> Result<S, RunError>,
+) -> Result<S, RunError> {
+    saved.map_or_else(new, |saved| saved.and_then(resumed))
+}
+
+/// A side that keeps checkpoints, if there is what keeps them.
+fn keeping_by<S: RunSide>(keeper: Option<Keeper>, mut side: S) -> S {
+    if let Some(keeper) = keeper {
+        side.keep_with(keeper);
+    }
+    side
 }
 
 /// Passes a side on, or tells the peer why there is none.

@@ -14,6 +14,7 @@ use crate::run::RunError;
 use crate::run::checkpoints::{Checkpoints, Keeper};
 use crate::run::process::stop::Stop;
 use crate::run::record::fluid_record::FluidRecord;
+use crate::run::record::of_side::Record;
 use crate::run::record::solid_record::SolidRecord;
 use crate::run::schedule::Schedule;
 use crate::run::setup::{fluid_solver, solid_and_displacement};
@@ -227,8 +228,8 @@ impl Session {
 
     /// The histories of both sides.
     pub fn histories(&self) -> impl Iterator<Item = &HistoryFile> {
-        let fluid = self.fluid().and_then(FluidSide::record).map(FluidRecord::history);
-        let solid = self.solid().and_then(SolidSide::record).map(SolidRecord::history);
+        let fluid = self.fluid().and_then(|side| side.record()).map(Record::history);
+        let solid = self.solid().and_then(|side| side.record()).map(Record::history);
         fluid.into_iter().chain(solid)
     }
 

@@ -8,13 +8,9 @@ use serde_json::{Map, Value, json};
 use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
 
-/// The history of the film, and where it was thinnest.
+/// The history of the film.
 #[derive(Clone, Copy, Debug)]
-pub struct FilmRecord {
-    series: SeriesId,
-    /// What changes in time.
-    pub thinnest: ThinnestFilm,
-}
+pub struct FilmRecord(SeriesId);
 
 /// The film where it had the fewest cells, as long as there was one everywhere.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -28,19 +24,19 @@ pub struct ThinnestFilm {
 impl FilmRecord {
     /// Makes its history.
     pub fn create(history: &mut HistoryFile) -> Result<Self, OutputError> {
-        Ok(Self { series: history.add_series("", &COLUMNS)?, thinnest: ThinnestFilm::default() })
+        history.add_series("", &COLUMNS).map(Self)
     }
 
     /// Takes notice of a finished step.
     pub fn after_step(
-        &mut self,
+        self,
         solver: &FluidSolver<BLOCK>,
+        ThinnestFilm { thinnest, broken }: &mut ThinnestFilm,
         history: &mut HistoryFile,
     ) -> Result<(), OutputError> {
         let (film, is_broken) = solver.film();
         let row = film.map_or([f64::NAN; 3], |film| [film.thickness, film.cells(), film.radius]);
-        history.push(self.series, &row)?;
-        let ThinnestFilm { thinnest, broken } = &mut self.thinnest;
+        history.push(self.0, &row)?;
         if is_broken && broken.is_none() {
             *broken = Some(solver.time());
         }

@@ -8,11 +8,11 @@ use serde_json::{Map, Value, json};
 use crate::case::{Case, Medium};
 use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
 use crate::run::record::collapse::CollapseFinder;
-use crate::run::record::film::FilmRecord;
+use crate::run::record::film::{FilmRecord, ThinnestFilm};
 use crate::run::record::interface_history::{InterfaceHistory, OnFaces};
+use crate::run::record::of_side::Record;
 use crate::run::record::side_files::SideFiles;
-use crate::run::record::{CellCount, ProbeSeries, Ticker, column, probe_series};
-use crate::run::schedule::Plan;
+use crate::run::record::{CellCount, ProbeSeries, Ticker, column, entries, probe_series};
 use crate::run::side::wall_faces::WallFaces;
 
 mod columns;
@@ -31,7 +31,7 @@ pub struct FluidRecord {
     files: SideFiles<fluid::Snapshot>,
     steps: SeriesId,
     /// How often bounds acted, every step.
-    clips: SeriesId,
+    fixups: SeriesId,
     /// One row for each bubble side by side; absent with less than two.
     bubbles: Option<SeriesId>,
     interface: Option<InterfaceHistory>,
@@ -46,6 +46,15 @@ pub struct FluidRecord {
     wall_shears: Vec<f64>,
     /// Heat fluxes into the wall and its temperatures, where heat is conducted; else none.
     wall_heat: [Vec<f64>; 2],
+    film: FilmRecord,
+    seen: Seen,
+    /// Finest cells along the radius of the first region, where that is a ball of gas.
+    cells_per_radius: Option<f64>,
+}
+
+/// What it has seen so far, of which the summary tells.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Seen {
     cells: CellCount,
     collapse: CollapseFinder,
     peaks: Peaks,
@@ -54,9 +63,7 @@ pub struct FluidRecord {
     /// Ambient pressure times the gas's initial volume, J/rad (planar: J/m): what a collapse sets free.
     collapse_energy: f64,
     cuts: BubbleCuts,
-    film: FilmRecord,
-    /// Finest cells along the radius of the first region, where that is a ball of gas.
-    cells_per_radius: Option<f64>,
+    film: ThinnestFilm,
 }
 
 /// Largest values so far, with their times.
@@ -77,18 +84,11 @@ impl FluidRecord {
         solver: &FluidSolver<BLOCK>,
     ) -> Result<Self, OutputError> {
         let mut record = Self::on(case, SideFiles::create(case, directory, files::names(solver))?, solver)?;
-        record.cells.see(solver.mesh().cells());
+        record.seen.cells.see(solver.mesh().cells());
         let [fluxes, temperatures] = &mut record.wall_heat;
         solver.wall_face_heat(fluxes, temperatures);
         record.write(solver, 0.0)?;
-        record.snapshot(solver)?;
-        record.files.history.flush()?;
-        Ok(record)
-    }
-
-    /// Brings everything so far to the disk.
-    pub fn settle(&mut self) -> Result<(), OutputError> {
-        self.files.settle()
+        record.begun(solver)
     }
 
     /// A record in these files of a fluid as it is, with nothing written.
@@ -101,7 +101,7 @@ impl FluidRecord {
         let history = &mut files.history;
         let cuts = case.fluid.as_ref().map(|fluid| BubbleCuts::of(&fluid.initial)).unwrap_or_default();
         let steps = history.add_series("", &STEP_COLUMNS)?;
-        let clips = history.add_series("", &fixups::CLIP_COLUMNS)?;
+        let fixups = history.add_series("/fixups", &fixups::columns())?;
         let bubbles = bubble_series(&cuts, history)?;
         let film = FilmRecord::create(history)?;
         let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
@@ -116,14 +116,14 @@ impl FluidRecord {
             }
             None => None,
         };
-        let conservation = history.add_series("/conservation/fluid", &conservation::COLUMNS)?;
+        let conservation = history.add_series("/conservation/fluid", &conservation::columns())?;
         let cut = CutRecord::create(solver, history)?;
         let interface_z = case.solid.as_ref().map(|_| mesh.domain().z[0]);
         let probes = probe_series(case, Medium::Fluid, interface_z, &PROBE_COLUMNS, history)?;
         Ok(Self {
             files,
             steps,
-            clips,
+            fixups,
             interface,
             conservation,
             cut,
@@ -133,62 +133,17 @@ impl FluidRecord {
             wall_pressures,
             wall_shears: Vec::new(),
             wall_heat: Default::default(),
-            cells: CellCount::default(),
-            collapse: CollapseFinder::default(),
-            peaks: Peaks::default(),
-            last_bubble: Bubble::default(),
-            largest_thin_volume: 0.0,
-            collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
-                fluid.initial.ambient.pressure * solver.bubble().volume / case.geometry.turn()
-            }),
-            cuts,
             bubbles,
             film,
+            seen: Seen {
+                collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
+                    fluid.initial.ambient.pressure * solver.bubble().volume / case.geometry.turn()
+                }),
+                cuts,
+                ..Seen::default()
+            },
             cells_per_radius: case.cells_per_radius(),
         })
-    }
-
-    /// The histories.
-    pub fn history(&self) -> &HistoryFile {
-        &self.files.history
-    }
-
-    /// Writes a batch of the histories.
-    pub fn flush(&mut self) -> Result<(), OutputError> {
-        self.files.history.flush()
-    }
-
-    /// Takes notice of a finished step.
-    pub fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
-        let mesh = solver.mesh();
-        self.cells.see(mesh.cells());
-        if self.faces.update(mesh.generation(), || solver.interface_edges())
-            && let Some(interface) = &mut self.interface
-        {
-            interface.follow(&self.faces);
-        }
-        if solver.interface().states().is_empty() {
-            solver.wall_face_pressures(&mut self.wall_pressures);
-        } else {
-            self.wall_pressures.clear();
-            self.wall_pressures.extend(solver.interface().states().iter().map(|wall| wall.pressure));
-        }
-        solver.wall_face_shears(&mut self.wall_shears);
-        let [fluxes, temperatures] = &mut self.wall_heat;
-        solver.wall_face_heat(fluxes, temperatures);
-        self.write(solver, plan.dt)?;
-        if plan.snapshot {
-            self.snapshot(solver)?;
-        }
-        self.files.after_step()
-    }
-
-    /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
-    pub fn close(&mut self, solver: &FluidSolver<BLOCK>, failed: bool) -> Result<(), OutputError> {
-        if failed {
-            self.snapshot(solver)?;
-        }
-        self.files.close()
     }
 
     fn write(&mut self, solver: &FluidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
@@ -196,7 +151,6 @@ impl FluidRecord {
         let bubble = solver.bubble();
         let axis = solver.axis();
         let wall = solver.wall_pressures();
-        let fixups = solver.fixups();
         let history = &mut self.files.history;
         history.push(
             self.steps,
@@ -213,28 +167,20 @@ impl FluidRecord {
                 bubble.gas_mass,
                 wall.axis,
                 wall.anywhere,
-                fixups.first_order as f64,
-                fixups.redone as f64,
-                fixups.redone_volume,
-                fixups.floored as f64,
-                fixups.floored_volume,
-                fixups.floor_energy,
-                fixups.gas_mass_added,
-                fixups.liquid_mass_added,
             ],
         )?;
-        history.push(self.clips, &fixups.clips.counts().map(|count| count as f64))?;
+        history.push(self.fixups, &fixups::row(&solver.fixups()))?;
         if let Some(series) = self.bubbles {
-            self.cuts.follow(solver);
+            self.seen.cuts.follow(solver);
             let numbers = |b: Bubble| [b.volume, b.equivalent_radius, b.centroid_z, b.gas_mass];
-            let row: Vec<f64> = solver.bubbles(&self.cuts).into_iter().flat_map(numbers).collect();
+            let row: Vec<f64> = solver.bubbles(&self.seen.cuts).into_iter().flat_map(numbers).collect();
             history.push(series, &row)?;
         }
-        self.film.after_step(solver, history)?;
-        self.collapse.push(time, bubble.volume);
-        self.last_bubble = bubble;
-        self.largest_thin_volume = self.largest_thin_volume.max(bubble.thin_volume);
-        let peaks = &mut self.peaks;
+        self.film.after_step(solver, &mut self.seen.film, history)?;
+        self.seen.collapse.push(time, bubble.volume);
+        self.seen.last_bubble = bubble;
+        self.seen.largest_thin_volume = self.seen.largest_thin_volume.max(bubble.thin_volume);
+        let peaks = &mut self.seen.peaks;
         for (peak, value) in [
             (&mut peaks.wall, wall.axis),
             (&mut peaks.wall_anywhere, wall.anywhere),
@@ -281,57 +227,6 @@ impl FluidRecord {
         }
         Ok(())
     }
-
-    fn snapshot(&mut self, solver: &FluidSolver<BLOCK>) -> Result<(), OutputError> {
-        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
-    }
-
-    /// The fluid's part of the summary.
-    pub fn summary(&self, solver: &FluidSolver<BLOCK>) -> Map<String, Value> {
-        let radius = |volume: f64| match solver.mesh().domain().geometry {
-            Geometry::Axisymmetric => (0.75 * volume / std::f64::consts::PI).cbrt(),
-            Geometry::Planar => (volume / std::f64::consts::PI).sqrt(),
-        };
-        let collapse = self.collapse.found();
-        let grown = self.collapse.grown();
-        let largest = self.collapse.largest().filter(|largest| largest.volume > 0.0);
-        let with_wall = self.interface.is_some();
-        let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
-        let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
-        let value = json!({
-            "collapse_time": collapse.map(|c| c.time),
-            "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
-            "growth_time": grown.map(|largest| largest.time),
-            "max_equivalent_radius": largest.map(|largest| radius(largest.volume)),
-            "final_equivalent_radius": self.last_bubble.equivalent_radius,
-            "trace_gas_volume": self.last_bubble.trace_volume,
-            "thin_gas_volume": self.last_bubble.thin_volume,
-            "thin_gas_volume_largest": self.largest_thin_volume,
-            "wall_pressure_peak": peak(self.peaks.wall),
-            "wall_pressure_peak_time": peak_time(self.peaks.wall),
-            "wall_pressure_peak_interface": peak(self.peaks.wall_interface),
-            "wall_pressure_peak_interface_time": peak_time(self.peaks.wall_interface),
-            "wall_pressure_peak_anywhere": peak(self.peaks.wall_anywhere),
-            "wall_pressure_peak_anywhere_time": peak_time(self.peaks.wall_anywhere),
-            "jet_velocity_peak": self.peaks.jet[0],
-            "jet_velocity_peak_time": self.peaks.jet[1],
-            "fixups": fixups::summary(solver.fixups(), self.collapse_energy),
-        });
-        match value {
-            Value::Object(mut map) => {
-                map.extend(self.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
-                map.extend(self.film.thinnest.summary());
-                map.extend(cut::summary(solver));
-                let masses = solver.carried_masses();
-                map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
-                map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));
-                map.extend(phases::summary(solver));
-                map.extend(self.cells_per_radius.map(|cells| ("cells_per_radius".to_owned(), json!(cells))));
-                map
-            }
-            _ => unreachable!("an object was written"),
-        }
-    }
 }
 
 /// Makes the series of the single bubbles, `bubbles/1` the one nearest to the wall, where there are several.
@@ -348,4 +243,82 @@ fn bubble_series(cuts: &BubbleCuts, history: &mut HistoryFile) -> Result<Option<
         .map(|(name, (_, unit, description))| column(name, unit, description))
         .collect();
     history.add_series("", &columns).map(Some)
+}
+
+impl Record for FluidRecord {
+    type Solver = FluidSolver<BLOCK>;
+    type Snapshot = fluid::Snapshot;
+
+    fn follow(&mut self, solver: &FluidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
+        let mesh = solver.mesh();
+        self.seen.cells.see(mesh.cells());
+        if self.faces.update(mesh.generation(), || solver.interface_edges())
+            && let Some(interface) = &mut self.interface
+        {
+            interface.follow(&self.faces);
+        }
+        if solver.interface().states().is_empty() {
+            solver.wall_face_pressures(&mut self.wall_pressures);
+        } else {
+            self.wall_pressures.clear();
+            self.wall_pressures.extend(solver.interface().states().iter().map(|wall| wall.pressure));
+        }
+        solver.wall_face_shears(&mut self.wall_shears);
+        let [fluxes, temperatures] = &mut self.wall_heat;
+        solver.wall_face_heat(fluxes, temperatures);
+        self.write(solver, dt)
+    }
+
+    fn snapshot(&mut self, solver: &FluidSolver<BLOCK>) -> Result<(), OutputError> {
+        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
+    }
+
+    fn summary(&self, solver: &FluidSolver<BLOCK>) -> Map<String, Value> {
+        let radius = |volume: f64| match solver.mesh().domain().geometry {
+            Geometry::Axisymmetric => (0.75 * volume / std::f64::consts::PI).cbrt(),
+            Geometry::Planar => (volume / std::f64::consts::PI).sqrt(),
+        };
+        let collapse = self.seen.collapse.found();
+        let grown = self.seen.collapse.grown();
+        let largest = self.seen.collapse.largest().filter(|largest| largest.volume > 0.0);
+        let with_wall = self.interface.is_some();
+        let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
+        let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
+        let mut map = entries(json!({
+            "collapse_time": collapse.map(|c| c.time),
+            "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
+            "growth_time": grown.map(|largest| largest.time),
+            "max_equivalent_radius": largest.map(|largest| radius(largest.volume)),
+            "final_equivalent_radius": self.seen.last_bubble.equivalent_radius,
+            "trace_gas_volume": self.seen.last_bubble.trace_volume,
+            "thin_gas_volume": self.seen.last_bubble.thin_volume,
+            "thin_gas_volume_largest": self.seen.largest_thin_volume,
+            "wall_pressure_peak": peak(self.seen.peaks.wall),
+            "wall_pressure_peak_time": peak_time(self.seen.peaks.wall),
+            "wall_pressure_peak_interface": peak(self.seen.peaks.wall_interface),
+            "wall_pressure_peak_interface_time": peak_time(self.seen.peaks.wall_interface),
+            "wall_pressure_peak_anywhere": peak(self.seen.peaks.wall_anywhere),
+            "wall_pressure_peak_anywhere_time": peak_time(self.seen.peaks.wall_anywhere),
+            "jet_velocity_peak": self.seen.peaks.jet[0],
+            "jet_velocity_peak_time": self.seen.peaks.jet[1],
+            "fixups": fixups::summary(solver.fixups(), self.seen.collapse_energy),
+        }));
+        map.extend(self.seen.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
+        map.extend(self.seen.film.summary());
+        map.extend(cut::summary(solver));
+        let masses = solver.carried_masses();
+        map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
+        map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));
+        map.extend(phases::summary(solver));
+        map.extend(self.cells_per_radius.map(|cells| ("cells_per_radius".to_owned(), json!(cells))));
+        map
+    }
+
+    fn files(&self) -> &SideFiles<fluid::Snapshot> {
+        &self.files
+    }
+
+    fn files_mut(&mut self) -> &mut SideFiles<fluid::Snapshot> {
+        &mut self.files
+    }
 }

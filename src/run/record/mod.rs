@@ -3,6 +3,7 @@
 //! | module | is |
 //! |---|---|
 //! | [`fluid_record`], [`solid_record`] | what each side writes |
+//! | [`of_side`] | what records of both sides can do |
 //! | [`side_files`] | into which files |
 //! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`sensors`] | of discs on it |
@@ -26,6 +27,7 @@ pub mod film;
 pub mod fluid_record;
 pub mod how_sure;
 pub mod interface_history;
+pub mod of_side;
 pub mod running_mean;
 pub mod sensors;
 pub mod side_files;
@@ -126,10 +128,45 @@ impl Ticker {
     }
 }
 
+/// The entries of an object that `json!` has written.
+pub fn entries(object: Value) -> Map<String, Value> {
+    match object {
+        Value::Object(entries) => entries,
+        _ => unreachable!("an object was written"),
+    }
+}
+
 /// A column of one number.
 pub const fn column<'a>(name: &'a str, unit: &'a str, description: &'a str) -> Column<'a> {
     Column { name, unit, description, width: 1 }
 }
+
+/// Of histories with a row after each step.
+pub const TIME_AFTER_STEP: Column<'static> = column("time", "s", "time after the step");
+/// Of those with a row now and then.
+pub const TIME: Column<'static> = column("time", "s", "time");
+/// Of a side's whole domain.
+pub const MOMENTUM: Column<'static> = column("momentum_z", "N s/rad", "axial momentum in the domain");
+/// At a probe, along z and r.
+pub const PROBE_VELOCITY: [Column<'static>; 2] = [
+    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
+    column("velocity_r", "m/s", "radial velocity"),
+];
+
+/// The columns of what came in through each of the four sides, `NAME_in_SIDE`, in their order.
+///
+/// - a description of z_min's, of z_max's, and of r_min's and r_max's but for the side.
+macro_rules! through_sides {
+    ($name:literal, $unit:literal, [$z_min:literal, $z_max:literal, $others:literal]) => {
+        [
+            $crate::run::record::column(concat!($name, "_in_z_min"), $unit, $z_min),
+            $crate::run::record::column(concat!($name, "_in_z_max"), $unit, $z_max),
+            $crate::run::record::column(concat!($name, "_in_r_min"), $unit, concat!($others, "r_min")),
+            $crate::run::record::column(concat!($name, "_in_r_max"), $unit, concat!($others, "r_max")),
+        ]
+    };
+}
+pub(crate) use through_sides;
 
 /// A probe with its series.
 pub struct ProbeSeries {

@@ -10,14 +10,15 @@ use solid::SolidSolver;
 use self::plastic::PlasticPeak;
 use crate::case::{Case, Medium};
 use crate::output::run_directory::{SOLID_FIELDS as FIELDS_FILE, SOLID_HISTORY};
-use crate::output::{Column, HistoryFile, OutputError, RunDirectory, SeriesId};
+use crate::output::{Column, OutputError, RunDirectory, SeriesId};
 use crate::run::RunError;
+use crate::run::record::of_side::Record;
 use crate::run::record::side_files::{FilesState, SideFiles, SideNames};
 use crate::run::record::surface::surface_record::{SurfaceRecord, SurfaceState};
 use crate::run::record::{
-    CellCount, ProbeSeries, StepEnds, Ticker, column, probe_series, restore_probes, saved_probes,
+    CellCount, MOMENTUM, PROBE_VELOCITY, ProbeSeries, StepEnds, TIME, TIME_AFTER_STEP, Ticker, column,
+    entries, probe_series, restore_probes, saved_probes, through_sides,
 };
-use crate::run::schedule::Plan;
 use crate::run::side::wall_faces::WallFaces;
 
 /// Everything that the solid's side writes.
@@ -73,9 +74,7 @@ impl SolidRecord {
         let mut record = Self::on(case, files, solver, displacement)?;
         record.cells.see(solver.mesh().cells());
         record.write(solver, 0.0)?;
-        record.snapshot(solver)?;
-        record.files.history.flush()?;
-        Ok(record)
+        record.begun(solver)
     }
 
     /// Takes up the files of a run, and what was kept of its record; what was written since is forgotten.
@@ -134,11 +133,6 @@ impl SolidRecord {
         }
     }
 
-    /// Brings everything so far to the disk.
-    pub fn settle(&mut self) -> Result<(), OutputError> {
-        self.files.settle()
-    }
-
     /// A record in these files of a solid as it is, with nothing written.
     fn on(
         case: &Case,
@@ -151,9 +145,11 @@ impl SolidRecord {
         let steps = history.add_series("/solid", &columns(&STEP_COLUMNS, &plastic::STEP_COLUMNS, solver))?;
         let time = match &case.fluid {
             Some(_) => None,
-            None => Some(history.add_series("", &[column("time", "s", "time after the step")])?),
+            None => Some(history.add_series("", &[TIME_AFTER_STEP])?),
         };
-        let columns = columns(&CONSERVATION_COLUMNS, &[plastic::CONSERVATION_COLUMN], solver);
+        let through_sides = (0..4).flat_map(|side| THROUGH_SIDES.map(|quantity| quantity[side]));
+        let always: Vec<Column<'_>> = CONSERVATION_COLUMNS.into_iter().chain(through_sides).collect();
+        let columns = columns(&always, &[plastic::CONSERVATION_COLUMN], solver);
         let conservation = history.add_series("/conservation/solid", &columns)?;
         // A load has a star state, too; a boundary has not.
         let covered = case.coupling.scheme != coupler::Scheme::None;
@@ -176,39 +172,6 @@ impl SolidRecord {
             peak: Peak { stress: -1.0, time: 0.0, position: [f64::NAN; 2], yielded: 0.0 },
             initial_energy: totals.kinetic + totals.elastic,
         })
-    }
-
-    /// The histories.
-    pub fn history(&self) -> &HistoryFile {
-        &self.files.history
-    }
-
-    /// Writes a batch of the histories.
-    pub fn flush(&mut self) -> Result<(), OutputError> {
-        self.files.history.flush()
-    }
-
-    /// Takes notice of a finished step.
-    pub fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
-        let mesh = solver.mesh();
-        self.cells.see(mesh.cells());
-        let changed = self.faces.update(mesh.generation(), || solver.interface_edges());
-        if let Some(surface) = &mut self.surface {
-            surface.after_step(solver, plan.dt, (&self.faces, changed), &mut self.files.history)?;
-        }
-        self.write(solver, plan.dt)?;
-        if plan.snapshot {
-            self.snapshot(solver)?;
-        }
-        self.files.after_step()
-    }
-
-    /// Writes what is still in memory; after a numerical failure the last good state as a snapshot, too.
-    pub fn close(&mut self, solver: &SolidSolver<BLOCK>, failed: bool) -> Result<(), OutputError> {
-        if failed {
-            self.snapshot(solver)?;
-        }
-        self.files.close()
     }
 
     fn write(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
@@ -285,34 +248,6 @@ impl SolidRecord {
     pub fn surface(&self) -> Option<&SurfaceRecord> {
         self.surface.as_ref()
     }
-
-    /// Writes a snapshot.
-    pub fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
-        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
-    }
-
-    /// The solid's part of the summary.
-    pub fn summary(&self, solver: &SolidSolver<BLOCK>) -> Map<String, Value> {
-        let strength = solver.setup().yield_strength;
-        let value = json!({
-            "von_mises_peak": self.peak.stress,
-            "von_mises_peak_time": self.peak.time,
-            "von_mises_peak_position": self.peak.position,
-            "yield_strength": strength.is_finite().then_some(strength),
-            "yielded_volume_peak": self.peak.yielded,
-        });
-        match value {
-            Value::Object(mut map) => {
-                if solver.is_plastic() {
-                    map.extend(self.plastic.summary(solver));
-                }
-                map.extend(self.surface.iter().flat_map(|surface| surface.summary(solver)));
-                map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
-                map
-            }
-            _ => unreachable!("an object was written"),
-        }
-    }
 }
 
 /// Columns, and those that are only there where the solid can yield.
@@ -325,17 +260,61 @@ fn columns(
     always.iter().chain(plastic).copied().collect()
 }
 
+impl Record for SolidRecord {
+    type Solver = SolidSolver<BLOCK>;
+    type Snapshot = solid::Snapshot;
+
+    fn follow(&mut self, solver: &SolidSolver<BLOCK>, dt: f64) -> Result<(), OutputError> {
+        let mesh = solver.mesh();
+        self.cells.see(mesh.cells());
+        let changed = self.faces.update(mesh.generation(), || solver.interface_edges());
+        if let Some(surface) = &mut self.surface {
+            surface.after_step(solver, dt, (&self.faces, changed), &mut self.files.history)?;
+        }
+        self.write(solver, dt)
+    }
+
+    fn snapshot(&mut self, solver: &SolidSolver<BLOCK>) -> Result<(), OutputError> {
+        self.files.snapshot(solver.time(), solver.mesh(), || solver.snapshot())
+    }
+
+    fn summary(&self, solver: &SolidSolver<BLOCK>) -> Map<String, Value> {
+        let strength = solver.setup().yield_strength;
+        let mut map = entries(json!({
+            "von_mises_peak": self.peak.stress,
+            "von_mises_peak_time": self.peak.time,
+            "von_mises_peak_position": self.peak.position,
+            "yield_strength": strength.is_finite().then_some(strength),
+            "yielded_volume_peak": self.peak.yielded,
+        }));
+        if solver.is_plastic() {
+            map.extend(self.plastic.summary(solver));
+        }
+        map.extend(self.surface.iter().flat_map(|surface| surface.summary(solver)));
+        map.extend(self.cells.summary("solid", solver.cell_updates(), solver.common_updates()));
+        map
+    }
+
+    fn files(&self) -> &SideFiles<solid::Snapshot> {
+        &self.files
+    }
+
+    fn files_mut(&mut self) -> &mut SideFiles<solid::Snapshot> {
+        &mut self.files
+    }
+}
+
 const STEP_COLUMNS: [Column<'static>; 4] = [
-    column("time", "s", "time after the step"),
+    TIME_AFTER_STEP,
     column("von_mises_max", "Pa", "largest von Mises stress in a cell"),
     Column { name: "von_mises_max_position", unit: "m", description: "centre (z, r) of that cell", width: 2 },
     column("yielded_volume", "m3", "volume in which the von Mises stress exceeds the yield strength"),
 ];
 
-const CONSERVATION_COLUMNS: [Column<'static>; 15] = [
-    column("time", "s", "time"),
+const CONSERVATION_COLUMNS: [Column<'static>; 7] = [
+    TIME,
     column("mass", "kg/rad", "mass in the domain, constant (planar: kg/m)"),
-    column("momentum_z", "N s/rad", "axial momentum in the domain"),
+    MOMENTUM,
     column("energy", "J/rad", "kinetic and elastic energy in the domain"),
     column("kinetic_energy", "J/rad", "kinetic energy in the domain"),
     column("elastic_energy", "J/rad", "elastic energy in the domain"),
@@ -344,20 +323,30 @@ const CONSERVATION_COLUMNS: [Column<'static>; 15] = [
         "J/rad",
         "work done on the solid minus the growth of its energy: the scheme's loss",
     ),
-    column("momentum_in_z_min", "N s/rad", "axial impulse of the traction on z_min"),
-    column("energy_in_z_min", "J/rad", "work of the traction on z_min"),
-    column("momentum_in_z_max", "N s/rad", "the same on z_max; under a fluid the interface"),
-    column("energy_in_z_max", "J/rad", "the same on z_max; under a fluid the interface"),
-    column("momentum_in_r_min", "N s/rad", "the same on r_min"),
-    column("energy_in_r_min", "J/rad", "the same on r_min"),
-    column("momentum_in_r_max", "N s/rad", "the same on r_max"),
-    column("energy_in_r_max", "J/rad", "the same on r_max"),
+];
+
+/// Axial momentum and energy that came in, on each side.
+const THROUGH_SIDES: [[Column<'static>; 4]; 2] = [
+    through_sides!(
+        "momentum",
+        "N s/rad",
+        [
+            "axial impulse of the traction on z_min",
+            "the same on z_max; under a fluid the interface",
+            "the same on "
+        ]
+    ),
+    through_sides!(
+        "energy",
+        "J/rad",
+        ["work of the traction on z_min", "the same on z_max; under a fluid the interface", "the same on "]
+    ),
 ];
 
 const PROBE_COLUMNS: [Column<'static>; 7] = [
-    column("time", "s", "time after the step"),
-    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
-    column("velocity_r", "m/s", "radial velocity"),
+    TIME_AFTER_STEP,
+    PROBE_VELOCITY[0],
+    PROBE_VELOCITY[1],
     column("stress_zz", "Pa", "axial stress; on the interface that of the star state"),
     column("stress_zr", "Pa", "shear stress"),
     column("stress_rr", "Pa", "radial stress"),

@@ -2,15 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use fluid::FluidSolver;
-use mesh::BLOCK;
 use serde::{Deserialize, Serialize};
-use solid::SolidSolver;
 
-use crate::output::OutputError;
 use crate::run::RunError;
-use crate::run::record::fluid_record::FluidRecord;
-use crate::run::record::solid_record::SolidRecord;
+use crate::run::record::of_side::Record;
 use crate::run::schedule::Plan;
 use crate::run::side::coupled_solver::CoupledSolver;
 
@@ -27,24 +22,6 @@ pub struct Clock {
     pub checkpointing: Duration,
 }
 
-/// What takes notice of a solver's steps.
-pub trait Records<S> {
-    /// Takes notice of a finished step of the finest level.
-    fn after_step(&mut self, solver: &S, plan: Plan) -> Result<(), OutputError>;
-}
-
-impl Records<FluidSolver<BLOCK>> for FluidRecord {
-    fn after_step(&mut self, solver: &FluidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
-        Self::after_step(self, solver, plan)
-    }
-}
-
-impl Records<SolidSolver<BLOCK>> for SolidRecord {
-    fn after_step(&mut self, solver: &SolidSolver<BLOCK>, plan: Plan) -> Result<(), OutputError> {
-        Self::after_step(self, solver, plan)
-    }
-}
-
 /// A stretch of computing, interrupted by recording.
 pub struct Timed<'a> {
     clock: &'a mut Clock,
@@ -59,7 +36,7 @@ impl<'a> Timed<'a> {
 
     /// What is to be called after each step of the finest level: it is recorded, the last one with the snapshot that
     /// `plan` asks for.
-    pub fn recorded<M: CoupledSolver + 'a, R: Records<M>>(
+    pub fn recorded<M: CoupledSolver + 'a, R: Record<Solver = M>>(
         mut self,
         record: &'a mut Option<R>,
         plan: Plan,

@@ -68,9 +68,7 @@ mod tests {
 
     #[test]
     fn the_peak_is_the_highest_with_its_place() {
-        let faces = WallFaces::new(0, 0.0, vec![1.0, 2.0]);
-        let mut map = CommonRefinement::default();
-        map.update(0.0, faces.edges(), &[0.5, 1.0, 2.0], false);
+        let (faces, map) = WallFaces::two_on_three();
         let mut heat = WallHeat::new(3);
         heat.after_step(&faces, &map, [&[5.0, 7.0], &[300.0, 350.0]], 0.1);
         assert_eq!(heat.rows().copied().collect::<Vec<_>>(), [300.0, 300.0, 350.0, 5.0, 5.0, 7.0]);

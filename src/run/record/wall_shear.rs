@@ -56,9 +56,7 @@ mod tests {
 
     #[test]
     fn the_peak_is_the_largest_magnitude_with_its_sign_and_place() {
-        let faces = WallFaces::new(0, 0.0, vec![1.0, 2.0]);
-        let mut map = CommonRefinement::default();
-        map.update(0.0, faces.edges(), &[0.5, 1.0, 2.0], false);
+        let (faces, map) = WallFaces::two_on_three();
         let mut shear = WallShear::new(3);
         shear.after_step(&faces, &map, &[2.0, -3.0], 0.1);
         assert_eq!(shear.means(), [2.0, 2.0, -3.0]);

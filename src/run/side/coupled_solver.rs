@@ -38,22 +38,26 @@ pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
     /// Which side of the interface it is.
     const OWN: Participant;
 
+    /// Writes the traces on the faces of those blocks that are `due`, before a step of length `dt`.
+    fn write_trace_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, put: impl FnMut(TraceRow, usize, f64));
+
     /// Writes the traces on all faces, before a long step of length `dt`.
-    fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64));
+    fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(dt, |_| true, put);
+    }
+
     /// Writes the traces on the faces of the levels that are about to step.
-    fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64));
+    fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
+    }
 }
 
 impl CoupledSolver for FluidSolver<BLOCK> {
     type Physics = Fluid;
     const OWN: Participant = Participant::Fluid;
 
-    fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
-        FluidSolver::write_trace(self, dt, put);
-    }
-
-    fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        FluidSolver::write_group_trace(self, step, put);
+    fn write_trace_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, put: impl FnMut(TraceRow, usize, f64)) {
+        FluidSolver::write_trace_of(self, dt, is_due, put);
     }
 }
 
@@ -61,12 +65,8 @@ impl CoupledSolver for SolidSolver<BLOCK> {
     type Physics = Solid;
     const OWN: Participant = Participant::Solid;
 
-    fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
-        SolidSolver::write_trace(self, dt, put);
-    }
-
-    fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        SolidSolver::write_group_trace(self, step, put);
+    fn write_trace_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, put: impl FnMut(TraceRow, usize, f64)) {
+        SolidSolver::write_trace_of(self, dt, is_due, put);
     }
 }
 

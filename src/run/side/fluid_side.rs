@@ -7,27 +7,24 @@
 mod cells;
 mod side;
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use coupler::{
-    CommonRefinement, FrameHeader, FrameKind, Link, Meeting, RegisterRow, StarSolver, StepLength, TraceRow,
-};
+use coupler::{CommonRefinement, FrameHeader, FrameKind, Link, RegisterRow, StepLength, TraceRow};
 use fluid::FluidSolver;
 use mesh::{BLOCK, GroupStep, Misfit};
 
 use crate::case::{Case, FluidCase, Medium};
 use crate::output::RunDirectory;
 use crate::run::RunError;
-use crate::run::checkpoints::Keeper;
 use crate::run::memory::MemoryWatch;
 use crate::run::process::stop::Stop;
 use crate::run::record::fluid_record::FluidRecord;
-use crate::run::record::timed::{Clock, Timed};
-use crate::run::schedule::{Plan, Schedule};
+use crate::run::record::timed::Timed;
+use crate::run::schedule::Plan;
 use crate::run::setup::fluid_solver;
 use crate::run::side::cell_exchange::CellExchange;
-use crate::run::side::coupled_solver::{self, StepRule};
-use crate::run::side::past::{Done, Past};
+use crate::run::side::coupled_solver;
+use crate::run::side::{InRun, RunSide};
 
 pub mod saved;
 
@@ -57,15 +54,9 @@ enum Pending {
 
 /// The fluid with its place in a run.
 pub struct FluidSide {
-    solver: FluidSolver<BLOCK>,
-    record: Option<FluidRecord>,
-    schedule: Schedule,
-    rule: StepRule,
-    meeting: Meeting,
+    own: InRun<FluidRecord>,
     /// What the paper's schemes need.
     cells: Option<CellExchange>,
-    star: StarSolver,
-    edges: Vec<f64>,
     /// The step that waits for the solid.
     pending: Option<Pending>,
     /// The solid's last word: how long a step it allows, how many cells it has, what it was asked to do.
@@ -73,16 +64,13 @@ pub struct FluidSide {
     /// The last word to the solid: what it answers has to be about that step.
     sent: FrameHeader,
     limited_by: &'static str,
-    last_dt: f64,
-    clock: Clock,
-    memory: MemoryWatch,
-    keeper: Option<Keeper>,
     /// Whether the frame that this turn ends with asks the solid for its part of a checkpoint.
     tells_of_checkpoint: bool,
     /// Whether the solid's first word is about going on.
     is_resumed: bool,
-    past: Past,
 }
+
+mesh::derefs!([] FluidSide => InRun<FluidRecord>, own);
 
 impl FluidSide {
     /// The fluid of a case; with a directory it writes what happens.
@@ -100,55 +88,14 @@ impl FluidSide {
         Self {
             cells: (case.coupling.scheme.exchanges_cells())
                 .then(|| CellExchange::new(&case.coupling, solver.interface().faces())),
-            edges: solver.interface_edges(),
-            solver,
-            record,
-            schedule: Schedule::new(&case.time.snapshots),
-            rule: StepRule::of(case),
-            meeting: Meeting::default(),
-            star: case.coupling.star,
             pending: None,
             answer: FrameHeader::new(FrameKind::Register),
             sent: FrameHeader::new(FrameKind::Trace),
             limited_by: "fluid",
-            memory: MemoryWatch::of(case.fluid_memory()),
-            last_dt: 0.0,
-            clock: Clock::default(),
-            keeper: None,
             tells_of_checkpoint: false,
             is_resumed: false,
-            past: Past::after(Done::default()),
+            own: InRun::new(case, solver, record, MemoryWatch::of(case.fluid_memory())),
         }
-    }
-
-    /// Keeps checkpoints from now on.
-    pub fn keep_with(&mut self, keeper: Keeper) {
-        self.keeper = Some(keeper);
-    }
-
-    /// The solver.
-    pub fn solver(&self) -> &FluidSolver<BLOCK> {
-        &self.solver
-    }
-
-    /// What is recorded.
-    pub fn record(&self) -> Option<&FluidRecord> {
-        self.record.as_ref()
-    }
-
-    /// Writes the rows of the histories that are still in memory.
-    pub fn flush(&mut self) -> Result<(), RunError> {
-        self.record.as_mut().map_or(Ok(()), |record| record.flush()).map_err(RunError::Output)
-    }
-
-    /// When the next steps have to land, besides the times of snapshots.
-    pub fn schedule_mut(&mut self) -> &mut Schedule {
-        &mut self.schedule
-    }
-
-    /// The length of the last step, s.
-    pub fn last_step(&self) -> f64 {
-        self.last_dt
     }
 
     /// Ends the step under way with what the solid says; before the first step, takes its first word.
@@ -166,9 +113,9 @@ impl FluidSide {
         self.answer = self.take_answer(link)?;
         match pending {
             Some(Pending::Long(plan, step)) => {
-                let timed = Timed::new(&mut self.clock);
-                let after = timed.recorded(&mut self.record, plan);
-                coupled_solver::end_long(&mut self.solver, step, &self.rule, after)?;
+                let timed = Timed::new(&mut self.own.clock);
+                let after = timed.recorded(&mut self.own.record, plan);
+                coupled_solver::end_long(&mut self.own.solver, step, &self.own.rule, after)?;
             }
             Some(Pending::Late(plan)) => self.step_beside(plan)?,
             Some(Pending::Trial(plan, step)) => {
@@ -183,7 +130,7 @@ impl FluidSide {
     /// Takes the solid's first word, which it says before it knows of any faces: how long a step it allows. If a run was taken
     /// up again, only where it is: its last answer is known.
     fn hear_first_word(&mut self, link: &mut impl Link) -> Result<(), RunError> {
-        let (time, is_resumed) = (self.solver.time(), std::mem::take(&mut self.is_resumed));
+        let (time, is_resumed) = (self.own.solver.time(), std::mem::take(&mut self.is_resumed));
         let word = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
             frame.require_empty()?;
@@ -199,7 +146,7 @@ impl FluidSide {
             Ok::<_, RunError>(*frame.header)
         })??;
         if is_resumed {
-            self.past.leave_out(link.counters());
+            self.own.past.leave_out(link.counters());
         } else {
             self.answer = word;
         }
@@ -210,25 +157,26 @@ impl FluidSide {
     pub fn begin(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         let stopped =
             self.answer.flags & (FrameHeader::STOP_INTERRUPT | FrameHeader::STOP_TERMINATE) | stop.flags();
-        let is_over = stopped != 0 || self.schedule.is_over();
-        let is_due = stopped != 0 || !is_over && self.keeper.as_ref().is_some_and(Keeper::is_due);
-        self.tells_of_checkpoint = is_due && self.solver.steps() > 0 && self.keep(link.counters())?;
+        let is_over = stopped != 0 || self.own.schedule.is_over();
+        let is_due = stopped != 0 || !is_over && self.own.checkpoint_is_due();
+        self.tells_of_checkpoint =
+            is_due && self.own.solver.steps() > 0 && self.keep(self.own.solver.steps(), link.counters())?;
         if is_over {
             let mut header = self.header(FrameKind::Trace, 0, 0.0);
             header.flags |= stopped | FrameHeader::LAST;
             link.send(header, |_| {})?;
             return Ok(Turn::Over(stopped));
         }
-        if self.solver.steps() > 0 {
+        if self.own.solver.steps() > 0 {
             self.adapt_if_due()?;
         }
-        let (own, others) = (self.rule.long(&self.solver).limit, self.answer.dt_max);
-        let is_long = own >= others || self.rule.ratio == 1 || self.answer.has(FrameHeader::FOLLOWS);
+        let (own, others) = (self.own.rule.long(&self.own.solver).limit, self.answer.dt_max);
+        let is_long = own >= others || self.own.rule.ratio == 1 || self.answer.has(FrameHeader::FOLLOWS);
         // No longer than the side with the longer steps allows, and than the other one can follow.
         let limit = if is_long {
-            self.rule.longest(others)
+            self.own.rule.longest(others)
         } else {
-            others.min(self.rule.longest(self.rule.counted(&self.solver)))
+            others.min(self.own.rule.longest(self.own.rule.counted(&self.own.solver)))
         };
         let Some(plan) = self.plan(if is_long { own } else { f64::INFINITY }, limit)? else {
             return Ok(Turn::Over(0));
@@ -247,7 +195,7 @@ impl FluidSide {
     /// Asks the solid, whose step is the longer one, for its trace.
     fn ask_for_trace(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
         let mut header = self.header(FrameKind::Yours, 0, plan.dt);
-        header.dt_max = self.solver.time_step_limit(self.rule.cfl);
+        header.dt_max = self.own.solver.time_step_limit(self.own.rule.cfl);
         if plan.snapshot {
             header.flags |= FrameHeader::SNAPSHOT;
         }
@@ -258,32 +206,25 @@ impl FluidSide {
 
     /// Shows the trace on the wall, and does meanwhile what does not depend on the solid.
     fn begin_long(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
-        let start = Instant::now();
-        let faces = self.solver.interface().faces();
+        let faces = self.own.solver.interface().faces();
         let mut header = self.header(FrameKind::Trace, faces, plan.dt);
         if plan.snapshot {
             header.flags |= FrameHeader::SNAPSHOT;
         }
         header.fields = TraceRow::COUNT as u64;
-        let (solver, edges) = (&self.solver, &self.edges);
-        let mut filled = Duration::ZERO;
-        link.send(header, |payload| {
-            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
-            solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
-            filled = start.elapsed();
-        })?;
+        let filled = self.own.show_trace(link, header, plan.dt)?;
         // What comes after the frame is filled is the exchange.
-        self.clock.computing += filled;
+        self.own.clock.computing += filled;
         let start = Instant::now();
-        let step = coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?;
-        self.clock.computing += start.elapsed();
+        let step = coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?;
+        self.own.clock.computing += start.elapsed();
         self.pending = Some(Pending::Long(plan, step));
         Ok(())
     }
 
     /// Makes short steps within the solid's, once its trace is there.
     fn step_shortly(&mut self, link: &mut impl Link, asked: Plan) -> Result<(), RunError> {
-        let (solver, meeting, begin) = (&self.solver, &mut self.meeting, self.sent.time);
+        let (solver, meeting, begin) = (&self.own.solver, &mut self.own.meeting, self.sent.time);
         let answer = link.receive(|frame| {
             frame.require(FrameKind::Trace)?;
             frame.require_step(begin, StepLength::AtMost(asked.dt))?;
@@ -294,30 +235,22 @@ impl FluidSide {
         })??;
         self.answer = answer;
         // The solid's grid may have become finer meanwhile: what it says of its step counts.
-        let plan = if answer.dt == asked.dt { asked } else { self.schedule.shorten(asked, answer.dt) };
-        self.last_dt = plan.dt;
+        let plan = if answer.dt == asked.dt { asked } else { self.own.schedule.shorten(asked, answer.dt) };
+        self.own.last_dt = plan.dt;
         let faces = answer.count as usize;
         let mut header = self.header(FrameKind::Register, faces, plan.dt);
         header.fields = RegisterRow::COUNT as u64;
-        let timed = Timed::new(&mut self.clock);
-        coupled_solver::short_steps(
-            &mut self.solver,
-            &mut self.meeting,
-            (plan.dt, self.star),
-            &self.rule,
-            |_, meeting| {
-                link.send(header, |payload| meeting.write_register(payload))?;
-                Ok(())
-            },
-            timed.recorded(&mut self.record, plan),
-        )
+        self.own.short_steps(plan, |_, meeting| {
+            link.send(header, |payload| meeting.write_register(payload))?;
+            Ok(())
+        })
     }
 
     /// Reads the solid's register frame in place.
     fn take_answer(&mut self, link: &mut impl Link) -> Result<FrameHeader, RunError> {
-        let faces = self.solver.interface().faces();
+        let faces = self.own.solver.interface().faces();
         let FrameHeader { time, dt, .. } = self.sent;
-        let (solver, cells) = (&mut self.solver, &mut self.cells);
+        let (solver, cells) = (&mut self.own.solver, &mut self.cells);
         let header = link.receive(|frame| {
             frame.require(FrameKind::Register)?;
             frame.require_step(time, StepLength::Is(dt))?;
@@ -337,62 +270,53 @@ impl FluidSide {
     /// Adapts the grid if it is time to, with all that is kept per face of the wall.
     fn adapt_if_due(&mut self) -> Result<(), RunError> {
         let start = Instant::now();
-        let steps = self.rule.steps_in(self.last_dt, &self.solver);
-        if self.solver.adapt_if_due(self.last_dt, steps) {
-            let edges = self.solver.interface_edges();
+        let steps = self.own.rule.steps_in(self.own.last_dt, &self.own.solver);
+        if self.own.solver.adapt_if_due(self.own.last_dt, steps) {
+            let edges = self.own.solver.interface_edges();
             if let Some(cells) = &mut self.cells {
-                let domain = self.solver.mesh().domain();
+                let domain = self.own.solver.mesh().domain();
                 let axisymmetric = domain.geometry == mesh::Geometry::Axisymmetric;
                 let mut map = CommonRefinement::default();
-                map.update(domain.r[0], &self.edges, &edges, axisymmetric);
+                map.update(domain.r[0], &self.own.edges, &edges, axisymmetric);
                 let received = &mut cells.received;
                 let old = std::mem::replace(received, vec![0.0; edges.len()]);
                 map.means(true, |k| old[map.sub_faces()[k].first], |face, mean| received[face] = mean);
             }
-            self.edges = edges;
+            self.own.edges = edges;
         }
         let elapsed = start.elapsed();
-        self.clock.computing += elapsed;
-        self.clock.adapting += elapsed;
-        self.memory.look(self.solver.mesh().cells(), self.solver.time(), "fluid")
+        self.own.clock.computing += elapsed;
+        self.own.clock.adapting += elapsed;
+        self.own.memory.look(self.own.solver.mesh().cells(), self.own.solver.time(), "fluid")
     }
 
     /// The next step: no longer than either side's limit.
     fn plan(&mut self, own: f64, others_limit: f64) -> Result<Option<Plan>, RunError> {
         self.limited_by = if own <= others_limit { "fluid" } else { "solid" };
         let limit = own.min(others_limit);
-        if !(limit > self.rule.smallest) {
+        if !(limit > self.own.rule.smallest) {
             return Err(RunError::TimeStepCollapsed {
                 dt: limit,
-                time: self.solver.time(),
-                step: self.solver.steps() + 1,
+                time: self.own.solver.time(),
+                step: self.own.solver.steps() + 1,
                 limited_by: self.limited_by,
             });
         }
-        let plan = self.schedule.plan(self.solver.time(), limit);
-        self.last_dt = plan.map_or(self.last_dt, |plan| plan.dt);
+        let plan = self.own.schedule.plan(self.own.solver.time(), limit);
+        self.own.last_dt = plan.map_or(self.own.last_dt, |plan| plan.dt);
         Ok(plan)
     }
 
     /// What a frame about the step of length `dt` that begins now says besides its payload.
     fn header(&mut self, kind: FrameKind, count: usize, dt: f64) -> FrameHeader {
         self.sent = FrameHeader {
-            step: self.solver.steps(),
-            time: self.solver.time(),
+            step: self.own.solver.steps(),
+            time: self.own.solver.time(),
             dt,
             count: count as u64,
             flags: if self.tells_of_checkpoint { FrameHeader::CHECKPOINT } else { 0 },
             ..FrameHeader::new(kind)
         };
         self.sent
-    }
-
-    fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
-        let start = Instant::now();
-        if let Some(record) = &mut self.record {
-            record.after_step(&self.solver, plan)?;
-        }
-        self.clock.recording += start.elapsed();
-        Ok(())
     }
 }

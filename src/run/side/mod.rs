@@ -17,21 +17,203 @@ pub mod past;
 pub mod solid_side;
 pub mod wall_faces;
 
-use coupler::{Link, LinkCounters};
+use std::ops::DerefMut;
+use std::time::{Duration, Instant};
+
+use coupler::{CouplerError, FrameHeader, Link, LinkCounters, Meeting, StarSolver, TraceRow};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use crate::output::{ProgressLine, RunDirectory, summary};
+use crate::case::Case;
+use crate::output::{OutputError, ProgressLine, RunDirectory, summary};
 use crate::run::RunError;
+use crate::run::checkpoints::Keeper;
+use crate::run::memory::MemoryWatch;
 use crate::run::process::stop::Stop;
-use crate::run::record::timed::Clock;
-use crate::run::side::coupled_solver::CoupledSolver;
+use crate::run::record::of_side::Record;
+use crate::run::record::timed::{Clock, Timed};
+use crate::run::schedule::{Plan, Progressed, Schedule};
+use crate::run::side::coupled_solver::{CoupledSolver, StepRule};
 use crate::run::side::fluid_side::Turn;
-use crate::run::side::past::Past;
+use crate::run::side::past::{Done, Past};
+
+/// A solver in a run, with what is recorded of it.
+pub struct InRun<R: Record> {
+    solver: R::Solver,
+    record: Option<R>,
+    schedule: Schedule,
+    rule: StepRule,
+    meeting: Meeting,
+    star: StarSolver,
+    /// Outer radii of the own faces on the interface.
+    edges: Vec<f64>,
+    last_dt: f64,
+    clock: Clock,
+    memory: MemoryWatch,
+    keeper: Option<Keeper>,
+    past: Past,
+}
+
+impl<R: Record<Solver: CoupledSolver>> InRun<R> {
+    /// A solver in its initial state at the beginning of a run.
+    fn new(case: &Case, solver: R::Solver, record: Option<R>, memory: MemoryWatch) -> Self {
+        Self {
+            edges: solver.interface_edges(),
+            solver,
+            record,
+            schedule: Schedule::new(&case.time.snapshots),
+            rule: StepRule::of(case),
+            meeting: Meeting::default(),
+            star: case.coupling.star,
+            last_dt: 0.0,
+            clock: Clock::default(),
+            memory,
+            keeper: None,
+            past: Past::after(Done::default()),
+        }
+    }
+
+    /// Keeps checkpoints from now on.
+    pub fn keep_with(&mut self, keeper: Keeper) {
+        self.keeper = Some(keeper);
+    }
+
+    /// The solver.
+    pub fn solver(&self) -> &R::Solver {
+        &self.solver
+    }
+
+    /// What is recorded.
+    pub fn record(&self) -> Option<&R> {
+        self.record.as_ref()
+    }
+
+    /// Writes the rows of the histories that are still in memory.
+    pub fn flush(&mut self) -> Result<(), RunError> {
+        self.record.as_mut().map_or(Ok(()), Record::flush).map_err(RunError::Output)
+    }
+
+    /// What is recorded of it in the summary.
+    fn summary(&self) -> Map<String, Value> {
+        self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver))
+    }
+
+    /// When the next steps have to land, besides the times of snapshots; in a coupled run the fluid's counts.
+    pub fn schedule_mut(&mut self) -> &mut Schedule {
+        &mut self.schedule
+    }
+
+    /// The length of the last step, s.
+    pub fn last_step(&self) -> f64 {
+        self.last_dt
+    }
+
+    /// Records a step that has been made.
+    fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
+        let start = Instant::now();
+        if let Some(record) = &mut self.record {
+            record.after_step(&self.solver, plan)?;
+        }
+        self.clock.recording += start.elapsed();
+        Ok(())
+    }
+
+    /// What of it changes in time beside solver and record; the link's counters are `counters`.
+    fn saved(&self, counters: LinkCounters) -> InRunState {
+        // Field by field, so that a new one cannot be forgotten here.
+        let Self {
+            solver: _,
+            record: _,
+            schedule,
+            rule: _,
+            meeting,
+            star: _,
+            edges: _,
+            last_dt,
+            clock,
+            memory: _,
+            keeper: _,
+            past,
+        } = self;
+        InRunState {
+            schedule: schedule.saved(),
+            floored: meeting.saved(),
+            last_dt: *last_dt,
+            clock: *clock,
+            done: past.saved(counters),
+        }
+    }
+
+    /// Goes on where it was when that was kept.
+    fn restore(&mut self, InRunState { schedule, floored, last_dt, clock, done }: InRunState) {
+        self.schedule.restore(schedule);
+        self.meeting = Meeting::restored(floored);
+        self.last_dt = last_dt;
+        self.clock = clock;
+        self.past = Past::after(done);
+    }
+
+    /// A progress line of it alone.
+    fn line(&self, limited_by: &str) -> ProgressLine {
+        ProgressLine {
+            time: self.solver.time(),
+            step: self.solver.steps(),
+            dt: self.last_dt,
+            limited_by: limited_by.to_owned(),
+            cells: self.solver.mesh().cells() as u64,
+            solid_cells: 0,
+            wall: 0.0,
+        }
+    }
+
+    /// Shows the other side its trace before a step of length `dt`; how long it took to fill the frame.
+    fn show_trace(
+        &self,
+        link: &mut impl Link,
+        header: FrameHeader,
+        dt: f64,
+    ) -> Result<Duration, CouplerError> {
+        let (start, mut filled) = (Instant::now(), Duration::ZERO);
+        let faces = self.edges.len();
+        link.send(header, |payload| {
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(&self.edges);
+            self.solver.write_trace(dt, |row, face, value| payload[row as usize * faces + face] = value);
+            filled = start.elapsed();
+        })?;
+        Ok(filled)
+    }
+
+    /// Makes short steps within the other side's, of which the trace has been read; see [`coupled_solver::short_steps`].
+    fn short_steps(
+        &mut self,
+        plan: Plan,
+        answer: impl FnMut(&R::Solver, &Meeting) -> Result<(), RunError>,
+    ) -> Result<(), RunError> {
+        let Self { solver, record, rule, meeting, star, clock, .. } = self;
+        let after = Timed::new(clock).recorded(record, plan);
+        coupled_solver::short_steps(solver, meeting, (plan.dt, *star), rule, answer, after)
+    }
+
+    /// Whether it is time to keep a checkpoint.
+    fn checkpoint_is_due(&self) -> bool {
+        self.keeper.as_ref().is_some_and(Keeper::is_due)
+    }
+}
+
+/// What [`InRun::saved`] keeps.
+#[derive(Serialize, Deserialize)]
+pub struct InRunState {
+    schedule: Progressed,
+    floored: u64,
+    last_dt: f64,
+    clock: Clock,
+    done: Done,
+}
 
 /// What the loops need of either side; [`fluid_side::FluidSide`] and [`solid_side::SolidSide`] are the two.
-pub trait RunSide {
-    /// Its solver.
-    type Solver: CoupledSolver;
+pub trait RunSide: DerefMut<Target = InRun<Self::Record>> {
+    /// What is recorded of it.
+    type Record: Record<Solver: CoupledSolver>;
     /// "fluid" or "solid".
     const NAME: &'static str;
     /// The file of its part of the summary.
@@ -41,30 +223,43 @@ pub trait RunSide {
     fn step_alone(&mut self) -> Result<bool, RunError>;
     /// Its part of a coupled step.
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError>;
-    /// Writes what is still in memory; after a numerical failure the last good state, too.
-    fn close(&mut self, failed: bool) -> Result<(), RunError>;
     /// Leaves what another run can begin with, once this one is complete.
     fn leave(&self, _directory: &RunDirectory) -> Result<(), RunError> {
         Ok(())
     }
     /// Its part of the summary.
     fn summary(&self) -> Map<String, Value>;
-    /// Its solver.
-    fn solver(&self) -> &Self::Solver;
-    /// Where the wall time went.
-    fn clock(&self) -> Clock;
-    /// Since when, and what was done before.
-    fn past(&self) -> &Past;
-    /// Keeps a checkpoint of a side that steps alone, if it is time to or the run is stopped.
-    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError>;
+    /// Writes a checkpoint.
+    fn keep_by(&self, keeper: &mut Keeper, step: u64, counters: LinkCounters) -> Result<(), OutputError>;
     /// What a progress line says of it; `cells` are its own and those of the other side that it knows of, `wall` is
     /// left at 0.
     fn line(&self) -> ProgressLine;
+
+    /// Keeps a checkpoint, named by the fluid's `step` in a coupled run, if this run keeps any; whether it did.
+    fn keep(&mut self, step: u64, counters: LinkCounters) -> Result<bool, RunError> {
+        let Some(mut keeper) = self.keeper.take() else { return Ok(false) };
+        let start = Instant::now();
+        if let Some(record) = &mut self.record {
+            record.settle()?;
+        }
+        let kept = self.keep_by(&mut keeper, step, counters);
+        self.keeper = Some(keeper);
+        self.clock.checkpointing += start.elapsed();
+        Ok(kept.map(|()| true)?)
+    }
+
+    /// The same of a side that steps alone, if it is time to or the run is stopped.
+    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError> {
+        if is_stopped || self.checkpoint_is_due() {
+            self.keep(self.solver.steps(), LinkCounters::default())?;
+        }
+        Ok(())
+    }
 }
 
 /// A side's progress.
 pub(super) fn line(side: &impl RunSide) -> ProgressLine {
-    ProgressLine { wall: side.past().wall().as_secs_f64(), ..side.line() }
+    ProgressLine { wall: side.past.wall().as_secs_f64(), ..side.line() }
 }
 
 /// Writes what is left to write of a side, and its part of the summary.
@@ -75,7 +270,10 @@ pub(super) fn end<S: RunSide>(
     counters: LinkCounters,
 ) -> Result<(), RunError> {
     let failed = matches!(&result, Err(error) if error.exit_code() == 3);
-    side.close(failed)?;
+    let InRun { solver, record, .. } = &mut **side;
+    if let Some(record) = record {
+        record.close(solver, failed)?;
+    }
     if let Some(directory) = directory {
         if matches!(result, Ok(Turn::Over(0))) {
             side.leave(directory)?;
@@ -110,8 +308,8 @@ fn progress_part<S: RunSide>(
     counters: LinkCounters,
 ) -> Map<String, Value> {
     let completed = matches!(result, Ok(Turn::Over(0)));
-    let (solver, clock) = (side.solver(), side.clock());
-    let counters = side.past().exchanged(counters);
+    let (solver, clock) = (side.solver(), side.clock);
+    let counters = side.past.exchanged(counters);
     let mut coupling = json!({
         "exchanges": counters.received,
         "bytes": counters.bytes,
@@ -138,7 +336,7 @@ fn progress_part<S: RunSide>(
     part.insert("completed".to_owned(), json!(completed));
     part.insert("t_end".to_owned(), json!(solver.time()));
     part.insert("steps".to_owned(), json!(solver.steps()));
-    part.insert("wall_seconds".to_owned(), json!(side.past().wall().as_secs_f64()));
+    part.insert("wall_seconds".to_owned(), json!(side.past.wall().as_secs_f64()));
     part.insert("coupling".to_owned(), coupling);
     if let Err(error) = result {
         part.insert("error".to_owned(), json!(error.to_string()));

@@ -4,11 +4,11 @@ mod agreed;
 mod cells;
 mod side;
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use coupler::{
     CouplerError, Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme,
-    StarSolver, StepLength, TraceRow,
+    StepLength, TraceRow,
 };
 use mesh::{BLOCK, GroupStep};
 use solid::{SolidSolver, WeakExchange};
@@ -16,36 +16,30 @@ use solid::{SolidSolver, WeakExchange};
 use crate::case::{Case, SolidCase};
 use crate::output::RunDirectory;
 use crate::run::RunError;
-use crate::run::checkpoints::Keeper;
 use crate::run::memory::MemoryWatch;
 use crate::run::process::stop::Stop;
+use crate::run::record::of_side::Record;
 use crate::run::record::solid_record::SolidRecord;
-use crate::run::record::timed::{Clock, Timed};
-use crate::run::schedule::{Plan, Schedule};
+use crate::run::record::timed::Timed;
+use crate::run::schedule::Plan;
 use crate::run::setup::solid_and_displacement;
-use crate::run::side::coupled_solver::{self, StepRule};
+use crate::run::side::InRun;
+use crate::run::side::coupled_solver;
 use crate::run::side::load::Load;
-use crate::run::side::past::{Done, Past};
 use crate::run::wall::WallLeaver;
 
 pub mod saved;
 
 /// The solid with its place in a run.
 pub struct SolidSide {
-    solver: SolidSolver<BLOCK>,
-    record: Option<SolidRecord>,
+    own: InRun<SolidRecord>,
     exchange: WeakExchange,
-    meeting: Meeting,
     /// What presses on the surface where there is no fluid.
     load: Option<Load>,
-    schedule: Schedule,
-    rule: StepRule,
     scheme: Scheme,
-    star: StarSolver,
     kappa: Kappa,
     factor: KappaFactor,
-    /// Outer radii of the own faces on the interface, and of the fluid's; none before the first trace.
-    edges: Vec<f64>,
+    /// Outer radii of the fluid's faces on the interface; none before the first trace.
     fluid_edges: Vec<f64>,
     /// The long step that waits for what the fluid made of it.
     pending: Option<(Plan, GroupStep)>,
@@ -57,14 +51,11 @@ pub struct SolidSide {
     promised: f64,
     /// When the run ends: nothing adapts for what does not come.
     end: f64,
-    last_dt: f64,
-    clock: Clock,
-    memory: MemoryWatch,
-    keeper: Option<Keeper>,
     /// Where something can stay in the wall.
     wall: Option<WallLeaver>,
-    past: Past,
 }
+
+mesh::derefs!([] SolidSide => InRun<SolidRecord>, own);
 
 impl SolidSide {
     /// The solid of a case; with a directory it writes what happens.
@@ -81,16 +72,9 @@ impl SolidSide {
             solver.watch(probe.position);
         }
         Self {
-            edges: solver.interface_edges(),
             load: case.coupling.load.as_ref().and_then(|load| Load::new(load, &solver)),
-            solver,
-            record,
             exchange: WeakExchange::default(),
-            meeting: Meeting::default(),
-            schedule: Schedule::new(&case.time.snapshots),
-            rule: StepRule::of(case),
             scheme: case.coupling.scheme,
-            star: case.coupling.star,
             kappa: case.coupling.kappa,
             factor: KappaFactor::default(),
             fluid_edges: Vec::new(),
@@ -99,53 +83,19 @@ impl SolidSide {
             fluids_step: f64::INFINITY,
             promised: 0.0,
             end: case.time.end * (1.0 - 1e-12),
-            last_dt: 0.0,
-            clock: Clock::default(),
-            memory: MemoryWatch::of(case.solid_memory()),
-            keeper: None,
             wall: WallLeaver::of(case),
-            past: Past::after(Done::default()),
+            own: InRun::new(case, solver, record, MemoryWatch::of(case.solid_memory())),
         }
-    }
-
-    /// Keeps checkpoints from now on.
-    pub fn keep_with(&mut self, keeper: Keeper) {
-        self.keeper = Some(keeper);
-    }
-
-    /// The solver.
-    pub fn solver(&self) -> &SolidSolver<BLOCK> {
-        &self.solver
-    }
-
-    /// What is recorded.
-    pub fn record(&self) -> Option<&SolidRecord> {
-        self.record.as_ref()
-    }
-
-    /// Writes the rows of the histories that are still in memory.
-    pub fn flush(&mut self) -> Result<(), RunError> {
-        self.record.as_mut().map_or(Ok(()), |record| record.flush()).map_err(RunError::Output)
-    }
-
-    /// When the next steps have to land, besides the times of snapshots; in a coupled run the fluid's counts.
-    pub fn schedule_mut(&mut self) -> &mut Schedule {
-        &mut self.schedule
-    }
-
-    /// The length of the last step, s.
-    pub fn last_step(&self) -> f64 {
-        self.last_dt
     }
 
     /// The first word: how long a step the solid allows. It is at rest; or it says at what time it goes on.
     pub fn open(&mut self, link: &mut impl Link, stop: &Stop) -> Result<(), RunError> {
         let promised = self.promised;
         link.send(self.header(FrameKind::Register, 0, stop), |_| {})?;
-        if self.solver.steps() > 0 {
+        if self.own.solver.steps() > 0 {
             // The fluid goes on from what it was told before.
             self.promised = promised;
-            self.past.leave_out(link.counters());
+            self.own.past.leave_out(link.counters());
         }
         Ok(())
     }
@@ -153,12 +103,12 @@ impl SolidSide {
     /// What a frame says besides its payload: the admissible step, and what this side was asked to do.
     fn header(&mut self, kind: FrameKind, fields: usize, stop: &Stop) -> FrameHeader {
         let header = FrameHeader {
-            step: self.solver.steps(),
-            time: self.solver.time(),
-            dt: self.last_dt,
-            dt_max: self.rule.counted(&self.solver),
+            step: self.own.solver.steps(),
+            time: self.own.solver.time(),
+            dt: self.own.last_dt,
+            dt_max: self.own.rule.counted(&self.own.solver),
             fields: fields as u64,
-            cells: self.solver.mesh().cells() as u64,
+            cells: self.own.solver.mesh().cells() as u64,
             flags: stop.flags(),
             ..FrameHeader::new(kind)
         };
@@ -169,7 +119,7 @@ impl SolidSide {
     /// Ends the long step under way with what the fluid made of it; does nothing if there is none.
     pub fn settle(&mut self, link: &mut impl Link) -> Result<(), RunError> {
         let Some((plan, step)) = self.pending.take() else { return Ok(()) };
-        let solver = &mut self.solver;
+        let solver = &mut self.own.solver;
         link.receive(|frame| {
             frame.require(FrameKind::Register)?;
             frame.require_step(solver.time(), StepLength::Is(plan.dt))?;
@@ -179,30 +129,30 @@ impl SolidSide {
             Ok::<_, CouplerError>(())
         })??;
         let adapts = self.adapts(plan.dt);
-        let timed = Timed::new(&mut self.clock);
-        coupled_solver::end_long(&mut self.solver, step, &self.rule, timed.recorded(&mut self.record, plan))?;
+        let timed = Timed::new(&mut self.own.clock);
+        coupled_solver::end_long(
+            &mut self.own.solver,
+            step,
+            &self.own.rule,
+            timed.recorded(&mut self.own.record, plan),
+        )?;
         self.adapt_if(adapts, plan.dt)
     }
 
     /// Begins a long step: shows the trace and does what does not depend on the fluid.
     fn begin_long(&mut self, link: &mut impl Link, asked: Plan, stop: &Stop) -> Result<(), RunError> {
-        let limit = self.rule.unless_collapsed(self.rule.long(&self.solver).limit, &self.solver)?;
+        let limit =
+            self.own.rule.unless_collapsed(self.own.rule.long(&self.own.solver).limit, &self.own.solver)?;
         let plan =
             if asked.dt <= limit * (1.0 + 1e-10) { asked } else { Plan { dt: limit, snapshot: false } };
-        self.last_dt = plan.dt;
-        let faces = self.solver.interface().faces();
+        self.own.last_dt = plan.dt;
+        let faces = self.own.solver.interface().faces();
         let header =
             FrameHeader { count: faces as u64, ..self.header(FrameKind::Trace, TraceRow::COUNT, stop) };
-        let (solver, edges, start) = (&self.solver, &self.edges, Instant::now());
-        let mut filled = Duration::ZERO;
-        link.send(header, |payload| {
-            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(edges);
-            solver.write_trace(plan.dt, |row, face, value| payload[row as usize * faces + face] = value);
-            filled = start.elapsed();
-        })?;
+        let filled = self.own.show_trace(link, header, plan.dt)?;
         let start = Instant::now();
-        let step = coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?;
-        self.clock.computing += filled + start.elapsed();
+        let step = coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?;
+        self.own.clock.computing += filled + start.elapsed();
         self.pending = Some((plan, step));
         Ok(())
     }
@@ -212,7 +162,7 @@ impl SolidSide {
         let adapts = self.adapts(plan.dt);
         // How long the next step may be is known only once the grid has adapted. Where steps have to be the same on both
         // sides, the answer waits for that; else both sides go on at the same time.
-        let early = !adapts || self.rule.ratio > 1;
+        let early = !adapts || self.own.rule.ratio > 1;
         let faces = self.fluid_edges.len();
         let header = FrameHeader {
             count: faces as u64,
@@ -223,21 +173,13 @@ impl SolidSide {
             link.send(header, |payload| meeting.write_register(payload))?;
             Ok(())
         };
-        let timed = Timed::new(&mut self.clock);
-        coupled_solver::short_steps(
-            &mut self.solver,
-            &mut self.meeting,
-            (plan.dt, self.star),
-            &self.rule,
-            |_, meeting| if early { send(meeting, header) } else { Ok(()) },
-            timed.recorded(&mut self.record, plan),
-        )?;
+        self.own.short_steps(plan, |_, meeting| if early { send(meeting, header) } else { Ok(()) })?;
         self.adapt_if(adapts, plan.dt)?;
         if !early {
-            let dt_max = self.rule.counted(&self.solver);
+            let dt_max = self.own.rule.counted(&self.own.solver);
             self.promised = dt_max;
-            let cells = self.solver.mesh().cells() as u64;
-            send(&self.meeting, FrameHeader { dt_max, cells, ..header })?;
+            let cells = self.own.solver.mesh().cells() as u64;
+            send(&self.own.meeting, FrameHeader { dt_max, cells, ..header })?;
         }
         Ok(())
     }
@@ -245,38 +187,38 @@ impl SolidSide {
     /// Takes over what a trace frame says.
     fn read_trace(&mut self, frame: &Frame<'_>) -> Result<(), CouplerError> {
         let start = Instant::now();
-        let (rows, faces) = frame.trace(self.solver.mesh().domain().r)?;
+        let (rows, faces) = frame.trace(self.own.solver.mesh().domain().r)?;
         if self.fluid_edges.as_slice() != TraceRow::Edge.of(rows, faces) {
             self.fluid_edges = TraceRow::Edge.of(rows, faces).to_vec();
         }
         if self.scheme.exchanges_cells() {
             let (kappa, dt) = (self.kappa, frame.header.dt);
-            let courant = self.rule.cfl * dt / self.solver.time_step_limit(self.rule.cfl);
+            let courant = self.own.rule.cfl * dt / self.own.solver.time_step_limit(self.own.rule.cfl);
             let factor = if kappa == Kappa::Off { 1.0 } else { self.factor.next(courant) };
             let pressure_of = |received: f64, own: f64| match kappa {
                 Kappa::Off => received,
                 Kappa::Printed => factor * received,
                 Kappa::Jump => own + factor * (received - own),
             };
-            self.solver.load_weakly(&mut self.exchange, rows, faces, dt, pressure_of);
+            self.own.solver.load_weakly(&mut self.exchange, rows, faces, dt, pressure_of);
         } else {
-            coupled_solver::begin_meeting(&self.solver, &mut self.meeting, (rows, faces));
+            coupled_solver::begin_meeting(&self.own.solver, &mut self.own.meeting, (rows, faces));
         }
-        self.clock.computing += start.elapsed();
+        self.own.clock.computing += start.elapsed();
         Ok(())
     }
 
     /// Whether the grid adapts after a step of length `dt`; to be asked once for each.
     fn adapts(&mut self, dt: f64) -> bool {
         let steps = self.steps_in(dt);
-        self.solver.time() + dt < self.end && self.solver.adaptation_follows(dt, steps)
+        self.own.solver.time() + dt < self.end && self.own.solver.adaptation_follows(dt, steps)
     }
 
     /// About how many steps, the own or the fluid's, a step of length `dt` holds. What comes through the interface comes in
     /// the fluid's: while the solid's cells are still too wide for it, adaptation must not wait for its long steps.
     fn steps_in(&self, dt: f64) -> u32 {
         let fluids = (dt / self.fluids_step).ceil() as u32;
-        self.rule.steps_in(dt, &self.solver).max(fluids)
+        self.own.rule.steps_in(dt, &self.own.solver).max(fluids)
     }
 
     fn adapt_if(&mut self, adapts: bool, dt: f64) -> Result<(), RunError> {
@@ -285,34 +227,25 @@ impl SolidSide {
         }
         let start = Instant::now();
         let steps = self.steps_in(dt);
-        if self.solver.adapt(dt, steps) {
-            self.edges = self.solver.interface_edges();
+        if self.own.solver.adapt(dt, steps) {
+            self.own.edges = self.own.solver.interface_edges();
         }
         let elapsed = start.elapsed();
-        self.clock.computing += elapsed;
-        self.clock.adapting += elapsed;
-        self.memory.look(self.solver.mesh().cells(), self.solver.time(), "solid")
+        self.own.clock.computing += elapsed;
+        self.own.clock.adapting += elapsed;
+        self.own.memory.look(self.own.solver.mesh().cells(), self.own.solver.time(), "solid")
     }
 
     /// Ends the run after a step alone if that is what the surface's rest is for.
     fn end_if_settled(&mut self, plan: Plan) -> Result<(), RunError> {
-        let Some(record) = &mut self.record else { return Ok(()) };
+        let Some(record) = &mut self.own.record else { return Ok(()) };
         let is_settled = record.surface().is_some_and(|surface| surface.is_settled());
-        if is_settled && !self.schedule.is_over() {
-            self.schedule.end();
+        if is_settled && !self.own.schedule.is_over() {
+            self.own.schedule.end();
             if !plan.snapshot {
-                record.snapshot(&self.solver)?;
+                record.snapshot(&self.own.solver)?;
             }
         }
-        Ok(())
-    }
-
-    fn recorded(&mut self, plan: Plan) -> Result<(), RunError> {
-        let start = Instant::now();
-        if let Some(record) = &mut self.record {
-            record.after_step(&self.solver, plan)?;
-        }
-        self.clock.recording += start.elapsed();
         Ok(())
     }
 }

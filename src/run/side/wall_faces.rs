@@ -14,6 +14,15 @@ impl WallFaces {
         Self { generation, begin, edges }
     }
 
+    /// Two faces of 1 m, with the sub-faces that they have with three others.
+    #[cfg(test)]
+    pub fn two_on_three() -> (Self, coupler::CommonRefinement) {
+        let faces = Self::new(0, 0.0, vec![1.0, 2.0]);
+        let mut map = coupler::CommonRefinement::default();
+        map.update(0.0, faces.edges(), &[0.5, 1.0, 2.0], false);
+        (faces, map)
+    }
+
     /// Asks for the radii again if the mesh is another one; says whether it was.
     pub fn update(&mut self, generation: u64, edges: impl FnOnce() -> Vec<f64>) -> bool {
         let changed = self.generation != generation;

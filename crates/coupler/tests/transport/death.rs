@@ -55,9 +55,7 @@ fn what_two_killed_participants_left_is_cleared_away_by_the_next_or_on_request()
 #[test]
 fn a_participant_killed_while_it_waits_for_its_peer_does_not_hinder_the_next() {
     let scene = Scene::new();
-    let first = scene.start("fluid", "");
-    std::thread::sleep(Duration::from_millis(150));
-    first.kill();
+    scene.waiting_fluid("").kill();
     scene.run_pair("--steps 10");
     scene.assert_clean();
 }
@@ -130,20 +128,14 @@ fn a_dead_peer_is_found_while_waiting_and_its_last_frame_is_still_read() {
 
 #[test]
 fn a_fault_ends_the_peer_at_once_with_its_reason() {
-    let scene = Scene::new();
-    let (fluid, solid) = (scene.start("fluid", "--fail-at 7"), scene.start("solid", ""));
-    fluid.end().assert_done();
-    solid.end().assert_refused(&["the fluid gave up at step 7", "failed numerically"]);
-    scene.assert_clean();
+    let words = ["the fluid gave up at step 7", "failed numerically"];
+    Scene::new().one_leaves(["fluid", "--fail-at 7"], ["solid", ""], &words);
 }
 
 #[test]
 fn a_peer_that_leaves_early_is_named() {
-    let scene = Scene::new();
-    let (fluid, solid) = (scene.start("fluid", "--steps 20"), scene.start("solid", "--steps 5"));
-    solid.end().assert_done();
-    fluid.end().assert_refused(&["the solid left the run after step"]);
-    scene.assert_clean();
+    let words = ["the solid left the run after step"];
+    Scene::new().one_leaves(["solid", "--steps 5"], ["fluid", "--steps 20"], &words);
 }
 
 #[test]

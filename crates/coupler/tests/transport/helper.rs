@@ -50,9 +50,31 @@ impl Scene {
         Actor { child, stdout }
     }
 
+    /// A fluid that waits for its solid.
+    pub fn waiting_fluid(&self, options: &str) -> Actor {
+        let fluid = self.start("fluid", options);
+        std::thread::sleep(Duration::from_millis(150));
+        fluid
+    }
+
     /// Both at once with the same options.
     pub fn start_pair(&self, options: &str) -> (Actor, Actor) {
         (self.start("fluid", options), self.start("solid", options))
+    }
+
+    /// Both end well, and leave nothing.
+    pub fn ends_well(&self, (fluid, solid): (Actor, Actor)) {
+        fluid.end().assert_done();
+        solid.end().assert_done();
+        self.assert_clean();
+    }
+
+    /// A run in which one leaves, each with its options; what the other says of it has all of `words`.
+    pub fn one_leaves(&self, leaver: [&str; 2], other: [&str; 2], words: &[&str]) {
+        let [leaver, other] = [leaver, other].map(|[name, options]| self.start(name, options));
+        leaver.end().assert_done();
+        other.end().assert_refused(words);
+        self.assert_clean();
     }
 
     /// Both, once they have met.

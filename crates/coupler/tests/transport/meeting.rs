@@ -40,21 +40,15 @@ fn a_second_fluid_is_refused_and_the_run_goes_on() {
     let (fluid, solid) = scene.connected_pair("--steps 100 --sleep-ms 5");
     let pid = fluid.pid();
     scene.start("fluid", "").end().assert_refused(&["already has a fluid", &format!("(process {pid})")]);
-    fluid.end().assert_done();
-    solid.end().assert_done();
-    scene.assert_clean();
+    scene.ends_well((fluid, solid));
 }
 
 #[test]
 fn a_second_fluid_that_comes_while_the_first_waits_is_refused_and_the_solid_still_meets_the_first() {
     let scene = Scene::new();
-    let first = scene.start("fluid", "--steps 10");
-    std::thread::sleep(Duration::from_millis(150));
+    let first = scene.waiting_fluid("--steps 10");
     scene.start("fluid", "").end().assert_refused(&[&format!("(process {})", first.pid())]);
-    let solid = scene.start("solid", "--steps 10");
-    first.end().assert_done();
-    solid.end().assert_done();
-    scene.assert_clean();
+    scene.ends_well((first, scene.start("solid", "--steps 10")));
 }
 
 #[test]

@@ -234,7 +234,6 @@ pub(crate) fn cells_beside(side: Side, cells: usize, along: isize) -> [(isize, i
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StiffenedGas;
 
     #[test]
     fn a_history_is_linear_between_points_and_constant_beyond() {
@@ -249,8 +248,7 @@ mod tests {
 
     #[test]
     fn a_wall_at_rest_passes_pressure_only_and_a_moving_one_the_physical_flux() {
-        let mixture =
-            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let mixture = Mixture::water_and_air();
         let trace = [1000.0, 0.0, 3.0, 5e7, 0.0];
         let rest = wall_face(trace, 0.0, FaceState::from([5e7, 0.0, 0.0]), &mixture);
         assert_eq!((rest.mass, rest.pressure, rest.energy, rest.shear), (0.0, 5e7, 0.0, 0.0));

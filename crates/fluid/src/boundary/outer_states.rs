@@ -157,12 +157,10 @@ fn meet_on_face<const N: usize>(side: Side, slopes: &TileRows<N>, half: &mut Til
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StiffenedGas;
 
     #[test]
     fn an_entering_wave_is_acoustic_when_weak() {
-        let mixture =
-            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let mixture = Mixture::water_and_air();
         let rest = Primitive { density: 1000.0, v_z: 0.0, v_r: 0.0, pressure: 1e5, phi: 0.0 };
         let state = entering(rest, Side::ZMax, 1e5 + 100.0, &mixture);
         let impedance = 1000.0 * (7.15_f64 * (1e5 + 3e8) / 1000.0).sqrt();

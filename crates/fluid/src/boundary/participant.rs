@@ -1,7 +1,7 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
 use coupler::{FluidTrace, TraceRow};
-use mesh::{GroupStep, Padded, TileRows};
+use mesh::{Padded, TileRows};
 
 use crate::boundary::wall_trace::Trace;
 use crate::physics::FluidStep;
@@ -30,12 +30,8 @@ impl<const N: usize> FluidSolver<N> {
         self.write_trace_of(dt, |_| true, put);
     }
 
-    /// [`FluidSolver::write_trace`] for the faces of the levels that are about to make a step.
-    pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
-    }
-
-    fn write_trace_of(
+    /// [`FluidSolver::write_trace`] for the faces of the blocks that are due, by their slots.
+    pub fn write_trace_of(
         &self,
         dt: f64,
         is_due: impl Fn(usize) -> bool,
@@ -84,7 +80,7 @@ impl<const N: usize> FluidSolver<N> {
                         rate[V_R] += gain_r;
                     }
                     let mut state: PrimitiveCell = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
-                    let dispersion = context.model.dispersion(context.mesh, dt, id.level, 0);
+                    let dispersion = context.model.dispersion(context.mesh.widths(id.level), dt, 0);
                     let more = |c: usize, component: usize| {
                         let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
                         let stride = Padded::<N>::STRIDE;

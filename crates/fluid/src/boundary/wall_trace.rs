@@ -58,15 +58,10 @@ impl Trace {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StiffenedGas;
-
-    fn mixture() -> Mixture {
-        Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
-    }
 
     /// ρ and p + π where and when the solid may ask for them: on both ends of the face and of the step.
     fn extremes(trace: &Trace, [half_dt, half_width]: [f64; 2]) -> Vec<[f64; 2]> {
-        let pi = mixture().at(trace.state[PHI]).pi;
+        let pi = Mixture::water_and_air().at(trace.state[PHI]).pi;
         let at = |c: usize, after: f64, offset: f64| {
             trace.state[c] + after * trace.rate[c] + offset * trace.slope[c]
         };
@@ -86,7 +81,7 @@ mod tests {
             slope: [100.0, 0.0, 0.0, -4e6, 0.0],
         };
         assert!(extremes(&trace, reach).iter().flatten().any(|value| *value < 0.0));
-        let scaled = trace.admissible(cell, reach, &mixture());
+        let scaled = trace.admissible(cell, reach, &Mixture::water_and_air());
         for [density, pressure] in extremes(&scaled, reach) {
             assert!(density > 0.9e-3 * 0.038 && pressure > 0.9e-3 * 995.0, "{density} {pressure}");
         }
@@ -106,6 +101,6 @@ mod tests {
             slope: [1e3, 4.0, 5.0, 6e9, 0.0],
         };
         let cell = [1001.0, -3.0, 2.0, 2e5, 0.0];
-        assert_eq!(trace.admissible(cell, [5e-9, 1e-4], &mixture()), trace);
+        assert_eq!(trace.admissible(cell, [5e-9, 1e-4], &Mixture::water_and_air()), trace);
     }
 }

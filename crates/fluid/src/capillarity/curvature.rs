@@ -13,7 +13,7 @@ const NEARLY_GAS: f64 = 0.95;
 /// Over 1/(2 · this) of (a − b)/(a + b) on both sides of 45° columns of both directions count. With 1 the steep ones spoil a ball at rest.
 const BLEND: f64 = 3.0;
 
-/// κ = −∇·n with n = ∇φ/|∇φ|, 1/m, positive for a bubble; and whether it is a height function's.
+/// κ = −∇·n with n = ∇φ/|∇φ|, 1/m, positive for a bubble, from height functions; `None` where no column goes from gas to liquid.
 ///
 /// The heights H of the gas in columns of cells across the interface (along z or r, whichever is nearer to the normal, and both where
 /// the normal is between them, see [`share_along_z`]) give
@@ -23,15 +23,14 @@ const BLEND: f64 = 3.0;
 ///
 /// Five columns give derivatives of fourth order, three of second where two of five do not go from gas to liquid. Heights are means over
 /// the width of a column. Across rings they are means over s = r²/2, of which a smooth surface is a smooth function at the axis, too; and
-/// a column of rings holds ∫φ r dr = R²/2. Where no column of either direction goes from gas to liquid the divergence of the normal is
-/// taken.
+/// a column of rings holds ∫φ r dr = R²/2.
 ///
 /// Cummins, Francois & Kothe (2005), with the monotonic sums of Hernández et al. (2008).
 ///
 /// - `phi`: a patch with [`REACH`] + 1 cells around cell `k`, rows `stride` apart.
 /// - valid for: radii of four cells and more; smaller ones give what the bound |κ| ≤ 1/h leaves, twice that in axial symmetry.
 /// - tested by: circles and spheres, with their order.
-pub(super) fn curvature(phi: &[f64], stride: usize, k: usize, place: &CellPlace) -> (f64, bool) {
+pub(super) fn of_heights(phi: &[f64], stride: usize, k: usize, place: &CellPlace) -> Option<f64> {
     let slope = gradient(phi, stride, k, place.widths);
     let columns = |is_along_z: bool| {
         if is_along_z {
@@ -49,10 +48,21 @@ pub(super) fn curvature(phi: &[f64], stride: usize, k: usize, place: &CellPlace)
     } else {
         columns(share > 0.0).or_else(|| columns(share == 0.0))
     };
-    let kappa = found.unwrap_or_else(|| curvature_of_normals(phi, stride, k, place));
+    found.map(|kappa| bounded(kappa, place))
+}
+
+/// κ where no column goes from gas to liquid, 1/m: the divergence of the normal.
+///
+/// - `phi`, `stride`, `k`: as for [`of_heights`].
+pub(super) fn without_heights(phi: &[f64], stride: usize, k: usize, place: &CellPlace) -> f64 {
+    bounded(curvature_of_normals(phi, stride, k, place), place)
+}
+
+/// |κ| is at most one over a cell's width, twice that in axial symmetry.
+fn bounded(kappa: f64, place: &CellPlace) -> f64 {
     let [h_z, h_r] = place.widths;
     let most = if place.radius.is_some() { 2.0 } else { 1.0 } / h_z.min(h_r);
-    (kappa.clamp(-most, most), found.is_some())
+    kappa.clamp(-most, most)
 }
 
 /// How much of the curvature is that of columns along z; the rest is that of columns along r.
@@ -231,12 +241,14 @@ mod tests {
                     continue;
                 }
                 let radius = (geometry == Geometry::Axisymmetric).then(|| place(j));
-                let (kappa, is_height) = curvature(&phi, nz, k, &CellPlace { widths: [h, h], radius });
+                let place = CellPlace { widths: [h, h], radius };
+                let found = of_heights(&phi, nz, k, &place);
+                let kappa = found.unwrap_or_else(|| without_heights(&phi, nz, k, &place));
                 let error = (kappa / exact - 1.0).abs();
                 worst = worst.max(error);
                 sum += error;
                 count += 1;
-                without += usize::from(!is_height);
+                without += usize::from(found.is_none());
             }
         }
         (worst, sum / f64::from(count), without)

@@ -1,28 +1,12 @@
 //! Laplace's jump within the cells that an interface cuts at t = 0.
 
-use mesh::{BlockId, Field, Geometry, Mesh};
+use mesh::{Field, Mesh};
 
-use super::curvature::curvature;
+use super::block::BlockCurvature;
 use super::jumps::share_of_jump;
 use super::patch::WidePatch;
-use super::place::CellPlace;
 use crate::state::conserved::{ENERGY, GAS, PHI, RHO};
 use crate::{Boundary, Mixture, TRACE_GAS};
-
-/// κ of a cell of a block, 1/m, and whether it is a height function's; `patch` holds the block's gas fractions.
-pub(super) fn curvature_at<const N: usize>(
-    mesh: &Mesh<N>,
-    id: BlockId,
-    patch: &WidePatch,
-    [i, j]: [isize; 2],
-) -> (f64, bool) {
-    let domain = mesh.domain();
-    let widths = mesh.widths(id.level);
-    // From the global index: blocks on both sides of a face have it to the last bit.
-    let row = (i64::from(id.j) * N as i64 + j as i64) as f64 + 0.5;
-    let radius = (domain.geometry == Geometry::Axisymmetric).then(|| domain.r[0] + row * widths[1]);
-    curvature(&patch.phi, patch.stride, patch.index(i, j), &CellPlace { widths, radius })
-}
 
 /// Gives mixed cells, filled at the gas's pressure p_g, the pressure p_g − (1 − ψ)σκ that their liquid asks for, see [`share_of_jump`]:
 /// with the gas's all through, the liquid beside a bubble at rest would be thrown off.
@@ -49,9 +33,10 @@ pub(crate) fn level_mixed_cells<const N: usize>(
             padded.component_mut(0)[to..][..N].copy_from_slice(&phi[j * N..][..N]);
         }
         patch.fill(mesh, &filled, slot, kinds, padded.component(0));
+        let curvature = BlockCurvature { mesh, id: *id, patch: &patch, has_images: has_phases };
         let block = field.block_mut(slot);
         for cell in (0..N * N).filter(|cell| is_cut(phi[*cell])) {
-            let (kappa, _) = curvature_at(mesh, *id, &patch, [(cell % N) as isize, (cell / N) as isize]);
+            let kappa = curvature.at([(cell % N) as isize, (cell / N) as isize]);
             let own = phi[cell];
             let rho = block[RHO * N * N + cell];
             let gas = if has_phases { block[GAS * N * N + cell] } else { 0.0 };

@@ -38,6 +38,11 @@ pub(crate) struct Tension {
 }
 
 impl Tension {
+    /// One J for both cells, Pa; `phi`: their gas fractions.
+    pub fn even(own: f64, phi: [f64; 2]) -> Self {
+        Self { of_cells: [own; 2], passes_at: 0.5 * (phi[0] + phi[1]) }
+    }
+
     /// What the pressure rises by from the cell below to the one above where the liquid's is the same, and the force of tension, σκ∇φ,
     /// is all there is:
     ///

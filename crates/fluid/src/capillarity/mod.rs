@@ -3,6 +3,7 @@
 //! Nothing of this is made where a case has no surface tension. What it adds to a step is in `rows.rs`, why it is made like that in
 //! `docs/theory/surface-tension.md`.
 
+mod block;
 mod contact;
 mod curvature;
 mod fallback;

@@ -2,7 +2,7 @@
 
 use mesh::{Field, GHOSTS, Mesh, Padded, Side};
 
-use super::initial::curvature_at;
+use super::block::BlockCurvature;
 use super::jumps::{FaceJumps, Tension, share_of_jump};
 use super::patch::WidePatch;
 use crate::reconstruction::Rows;
@@ -24,7 +24,7 @@ pub(crate) struct Interfaces<'a, const N: usize> {
     pub mixture: &'a Mixture,
     /// σ, N/m.
     pub tension: f64,
-    /// Whether only cells with face states of their own have interfaces, as in the five-equation model.
+    /// Whether traces of gas count as one phase, as in the five-equation model.
     pub has_phases: bool,
     /// Whether the gas fraction follows the closure of the phases' compression.
     pub has_closure: bool,
@@ -36,10 +36,20 @@ const LEAST_STEP: f64 = 1e-6;
 /// How much a cell's curvature counts on its faces besides φ(1 − φ).
 const LEAST_WEIGHT: f64 = 1e-3;
 
+/// What is known of a cell's curvature, 1/m: from heights, if it has any, and without them.
+#[derive(Clone, Copy, Debug, Default)]
+struct Known {
+    heights: Option<Option<f64>>,
+    normals: Option<f64>,
+}
+
 /// The jumps of a padded block; thread-local, and without any memory where no case asks for it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CapillaryRows {
     patch: WidePatch,
+    known: Vec<Known>,
+    /// Faces with a jump: the cell below, the step to that above.
+    found: Vec<(usize, usize, Tension)>,
     /// ψ of the cells.
     share: Vec<f64>,
     /// J beside the faces along z and r, and what the pressure rises by across them, Pa.
@@ -109,25 +119,12 @@ impl CapillaryRows {
 
     /// Finds the jumps of a block.
     ///
-    /// J = σκ passes from one cell's to the other's where their mean weighted by φ(1 − φ) is that of the face: what lies far from the
-    /// middle of the interface knows less of it. A cell without a height function has the other's.
-    ///
     /// - `cells`: the padded cells, primitive; `gas_shares`: the gas's part of their mass.
     pub fn find<const N: usize>(&mut self, block: &Interfaces<'_, N>, cells: Rows<'_>, gas_shares: &[f64]) {
         let [density, _, _, pressure, phi] = cells;
         self.clear();
-        let has_step = |k: usize, step: usize| {
-            let [a, b] = [k, k + step];
-            let height = (phi[b] - phi[a]).abs();
-            height > LEAST_STEP
-                && (!block.has_phases
-                    || height > 0.5
-                    || is_compliant(pressure[a], phi[a], block.mixture)
-                    || is_compliant(pressure[b], phi[b], block.mixture))
-        };
-        let faces = faces::<N>().filter(|(k, step)| has_step(*k, *step) && !is_open(block, *k, *step));
-        let mut faces = faces.peekable();
-        if faces.peek().is_none() {
+        self.find_faces(block, pressure, phi);
+        if self.found.is_empty() {
             return;
         }
         self.is_present = true;
@@ -146,20 +143,7 @@ impl CapillaryRows {
         let shares =
             (0..len).map(|k| share_of_jump(phi[k], density[k], density[k] * gas_shares[k], block.mixture));
         self.share.extend(shares);
-        self.patch.fill(block.mesh, block.field, block.slot, block.kinds, phi);
-        let id = block.mesh.tree().leaves()[block.slot];
-        let mut known = vec![None; len];
-        for (k, step) in faces {
-            let [below, above] = [k, k + step].map(|k| {
-                let own = known[k].get_or_insert_with(|| {
-                    let (i, j) = place_of::<N>(k);
-                    let (kappa, is_height) = curvature_at(block.mesh, id, &self.patch, [i, j]);
-                    let fraction = phi[k].clamp(0.0, 1.0);
-                    [kappa, if is_height { fraction * (1.0 - fraction) + LEAST_WEIGHT } else { 0.0 }]
-                });
-                *own
-            });
-            let tension = between([below, above], [phi[k], phi[k + step]], block.tension);
+        for &(k, step, tension) in &self.found {
             let axis = usize::from(step != 1);
             self.tension[axis][k] = tension;
             for (cell, own) in [k, k + step].into_iter().zip(tension.of_cells) {
@@ -179,6 +163,52 @@ impl CapillaryRows {
             let closure = Compression::at(pressure[k] + excess, phi[k], densities, block.mixture, true);
             self.stretched[k] = if is_mixed(phi[k]) { excess * closure.expansion(phi[k]) } else { 0.0 };
             self.excess[k] = excess;
+        }
+    }
+
+    /// Finds the faces with a jump.
+    ///
+    /// J = σκ passes from one cell's to the other's where their mean weighted by φ(1 − φ) is that of the face: what lies far from the
+    /// middle of the interface knows less of it. A cell without a height function has the other's.
+    ///
+    /// Where phases have densities of their own, traces of gas in liquid and of liquid in gas have a jump only if columns through them go
+    /// from gas to liquid: the outermost cells of an interface, not what it has left behind. Without the jumps of those outermost cells
+    /// no pressures balance beside them, and a ball at rest gets ever faster.
+    fn find_faces<const N: usize>(&mut self, block: &Interfaces<'_, N>, pressure: &[f64], phi: &[f64]) {
+        let Self { patch, known, found, .. } = self;
+        found.clear();
+        let is_step = |k: usize, step: usize| (phi[k + step] - phi[k]).abs() > LEAST_STEP;
+        let faces = faces::<N>().filter(|(k, step)| is_step(*k, *step) && !is_open(block, *k, *step));
+        let mut faces = faces.peekable();
+        if faces.peek().is_none() {
+            return;
+        }
+        patch.fill(block.mesh, block.field, block.slot, block.kinds, phi);
+        known.clear();
+        known.resize(Padded::<N>::LEN, Known::default());
+        let id = block.mesh.tree().leaves()[block.slot];
+        let curvature = BlockCurvature { mesh: block.mesh, id, patch, has_images: block.has_phases };
+        let is_compliant = |k: usize| is_compliant(pressure[k], phi[k], block.mixture);
+        for (k, step) in faces {
+            let cells = [k, k + step];
+            let heights = cells
+                .map(|k| *known[k].heights.get_or_insert_with(|| curvature.of_heights(place_of::<N>(k))));
+            let counts = !block.has_phases
+                || heights.iter().any(Option::is_some)
+                || (phi[k + step] - phi[k]).abs() > 0.5
+                || cells.into_iter().any(is_compliant);
+            if !counts {
+                continue;
+            }
+            let tension = if heights == [None; 2] {
+                let kappas = cells.map(|k| {
+                    *known[k].normals.get_or_insert_with(|| curvature.without_heights(place_of::<N>(k)))
+                });
+                Tension::even(block.tension * 0.5 * (kappas[0] + kappas[1]), cells.map(|k| phi[k]))
+            } else {
+                between(heights, cells.map(|k| phi[k]), block.tension)
+            };
+            found.push((k, step, tension));
         }
     }
 
@@ -233,15 +263,19 @@ impl CapillaryRows {
     }
 }
 
-/// The tension beside a face.
+/// The tension beside a face of which at least one cell has a height function.
 ///
-/// - `cells`: κ and its weight, below and above; `phi`: the gas fractions there; `sigma`: N/m.
-fn between([below, above]: [[f64; 2]; 2], phi: [f64; 2], sigma: f64) -> Tension {
-    let weight = below[1] + above[1];
-    let part = if weight > 0.0 { below[1] / weight } else { 0.5 };
-    let mean = part * below[0] + (1.0 - part) * above[0];
-    let both_have_heights = below[1] > 0.0 && above[1] > 0.0;
-    let curvatures = if both_have_heights { [below[0], above[0]] } else { [mean; 2] };
+/// - `heights`: κ below and above; `phi`: the gas fractions there; `sigma`: N/m.
+fn between(heights: [Option<f64>; 2], phi: [f64; 2], sigma: f64) -> Tension {
+    let [below, above] = [0, 1].map(|side| {
+        let fraction = phi[side].clamp(0.0, 1.0);
+        heights[side].map_or(0.0, |_| fraction * (1.0 - fraction) + LEAST_WEIGHT)
+    });
+    let part = below / (below + above);
+    let curvatures = match heights {
+        [Some(below), Some(above)] => [below, above],
+        [one, other] => [one.or(other).unwrap_or(0.0); 2],
+    };
     Tension {
         of_cells: curvatures.map(|kappa| sigma * kappa),
         passes_at: (1.0 - part) * phi[0] + part * phi[1],
@@ -258,9 +292,8 @@ fn faces<const N: usize>() -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// The cell (i, j) of padded place `k`.
-fn place_of<const N: usize>(k: usize) -> (isize, isize) {
-    let ghosts = GHOSTS as isize;
-    ((k % Padded::<N>::STRIDE) as isize - ghosts, (k / Padded::<N>::STRIDE) as isize - ghosts)
+fn place_of<const N: usize>(k: usize) -> [isize; 2] {
+    [k % Padded::<N>::STRIDE, k / Padded::<N>::STRIDE].map(|along| along as isize - GHOSTS as isize)
 }
 
 /// Whether a face has a cell beyond an open side of the domain: what is outside has no interface.
@@ -269,7 +302,7 @@ fn is_open<const N: usize>(block: &Interfaces<'_, N>, k: usize, step: usize) -> 
     let cells = [k, k + step].map(place_of::<N>);
     Side::ALL.into_iter().any(|side| {
         block.kinds[side as usize].is_open()
-            && cells.iter().any(|&(i, j)| match side {
+            && cells.iter().any(|&[i, j]| match side {
                 Side::ZMin => i < 0,
                 Side::ZMax => i >= n,
                 Side::RMin => j < 0,

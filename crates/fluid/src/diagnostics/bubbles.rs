@@ -141,8 +141,7 @@ fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) ->
 mod tests {
     use super::*;
     use crate::{
-        Boundary, FluidSetup, InitialCondition, InitialPressure, Model, Phase, PhaseState, Region, Scales,
-        Shape, Sharpening,
+        Boundary, FluidSetup, InitialCondition, InitialPressure, Model, Phase, PhaseState, Scales, Sharpening,
     };
     use mesh::Domain;
 
@@ -155,16 +154,8 @@ mod tests {
     }
 
     fn of_spheres(spheres: &[[f64; 2]], velocity: f64) -> InitialCondition {
-        let region = |&[z, radius]: &[f64; 2]| Region {
-            shape: Shape::Sphere { centre: [z, 0.0], radius },
-            state: state(Phase::Gas, velocity),
-        };
-        InitialCondition {
-            ambient: state(Phase::Liquid, velocity),
-            pressure: InitialPressure::Uniform,
-            regions: spheres.iter().map(region).collect(),
-            pulses: vec![],
-        }
+        let balls = spheres.iter().map(|sphere| (*sphere, state(Phase::Gas, velocity)));
+        InitialCondition::of_balls(state(Phase::Liquid, velocity), InitialPressure::Uniform, balls)
     }
 
     fn fluid(spheres: &[[f64; 2]], velocity: f64, model: Model) -> FluidSolver<8> {

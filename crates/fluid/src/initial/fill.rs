@@ -257,7 +257,7 @@ fn distance(pulse: &crate::Pulse, [z, r]: [f64; 2]) -> (f64, Option<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Boundary, InitialPressure, Region, Shape, StiffenedGas};
+    use crate::{Boundary, InitialPressure, Region, Shape};
     use mesh::Domain;
 
     fn bubble(centre: f64) -> InitialCondition {
@@ -276,8 +276,7 @@ mod tests {
     fn filled(initial: &InitialCondition) -> (Mesh<8>, Field, Mixture) {
         let domain = Domain { geometry: Geometry::Axisymmetric, z: [0.0, 1.0], r: [0.0, 1.0] };
         let mesh = Mesh::<8>::uniform(domain, [1, 1], 6, [false; 2]).unwrap();
-        let mixture =
-            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let mixture = Mixture::water_and_air();
         let mut state = Field::zeros(mesh.blocks(), 64, 5);
         let open = Boundary::NonReflecting;
         let sides = [Boundary::Wall, open, Boundary::Axis, open];

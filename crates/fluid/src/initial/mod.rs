@@ -6,18 +6,14 @@ pub(crate) mod mesh;
 pub(crate) mod rayleigh;
 pub(crate) mod shapes;
 
-/// Which of the two fluids.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// The liquid, φ = 0.
-    Liquid,
-    /// The gas, φ = 1.
-    Gas,
-}
-
-impl Phase {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 2] = [("liquid", Self::Liquid), ("gas", Self::Gas)];
+::mesh::named! {
+    /// Which of the two fluids.
+    pub enum Phase {
+        /// The liquid, φ = 0.
+        Liquid = "liquid",
+        /// The gas, φ = 1.
+        Gas = "gas",
+    }
 }
 
 /// A uniform state of one phase.
@@ -87,18 +83,14 @@ pub enum PulseShape {
     },
 }
 
-/// The pressure in the ambient liquid at t = 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InitialPressure {
-    /// That of the ambient state, up to the bubbles' walls.
-    Uniform,
-    /// The harmonic field that ends at the gas's pressure on the bubbles, see [`crate::RayleighField`].
-    Rayleigh,
-}
-
-impl InitialPressure {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 2] = [("uniform", Self::Uniform), ("rayleigh", Self::Rayleigh)];
+::mesh::named! {
+    /// The pressure in the ambient liquid at t = 0.
+    pub enum InitialPressure {
+        /// That of the ambient state, up to the bubbles' walls.
+        Uniform = "uniform",
+        /// The harmonic field that ends at the gas's pressure on the bubbles, see [`crate::RayleighField`].
+        Rayleigh = "rayleigh",
+    }
 }
 
 /// Everything that fills the domain at t = 0.
@@ -112,4 +104,20 @@ pub struct InitialCondition {
     pub regions: Vec<Region>,
     /// Added last.
     pub pulses: Vec<Pulse>,
+}
+
+#[cfg(test)]
+impl InitialCondition {
+    /// Balls of gas on the axis, each with the z of its centre and its radius, in a liquid.
+    pub(crate) fn of_balls(
+        ambient: PhaseState,
+        pressure: InitialPressure,
+        balls: impl IntoIterator<Item = ([f64; 2], PhaseState)>,
+    ) -> Self {
+        let region = |([z, radius], state): ([f64; 2], PhaseState)| Region {
+            shape: Shape::Sphere { centre: [z, 0.0], radius },
+            state,
+        };
+        Self { ambient, pressure, regions: balls.into_iter().map(region).collect(), pulses: vec![] }
+    }
 }

@@ -78,6 +78,11 @@ impl<'a> Reconstruction<'a> {
         }
     }
 
+    /// Whether cell `k` has states and fluxes of its own, as mixed cells of the five-equation model: its share is −0.
+    pub fn is_own(&self, k: usize) -> bool {
+        self.keep[k].to_bits() >> 63 == 1
+    }
+
     /// m_g/ρ on the faces of cell `k`.
     #[inline(always)]
     pub fn gas_share<const WITH_GAS: bool>(&self, k: usize) -> f64 {

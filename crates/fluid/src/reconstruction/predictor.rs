@@ -255,15 +255,13 @@ fn half_again(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StiffenedGas;
     use crate::state::PrimitiveCell;
 
     #[test]
     fn one_pass_equals_limiter_and_half_step_cell_by_cell() {
         let (stride, half_dt, inverse_h) = (12, 1e-8, [3e4, 5e4]);
         let len = stride * stride;
-        let mixture =
-            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let mixture = Mixture::water_and_air();
         let wave = |rate: f64, k: usize| ((k * k) as f64 * rate).sin();
         // Smooth liquid in the lower half, anything in the upper one.
         let row = |low: f64, high: f64, rate: f64| -> Vec<f64> {

@@ -178,16 +178,11 @@ fn larger(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StiffenedGas;
     use crate::state::primitive::{PRESSURE, RHO, V_N, V_T};
-
-    fn mixture() -> Mixture {
-        Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
-    }
 
     fn physical(w: PrimitiveCell) -> Face {
         let [rho, u, v, p, phi] = w;
-        let m = mixture();
+        let m = Mixture::water_and_air();
         let energy = m.beta1(phi) * p + m.beta2(phi) + 0.5 * rho * (u * u + v * v);
         Face {
             mass: rho * u,
@@ -204,7 +199,7 @@ mod tests {
     fn equal_states_give_the_physical_flux() {
         for u in [-2000.0, -3.0, 0.0, 200.0, 2000.0] {
             let w = [1000.0, u, 7.0, 5e6, 0.2];
-            let (got, want) = (flux_hllc(w, w, &mixture()), physical(w));
+            let (got, want) = (flux_hllc(w, w, &Mixture::water_and_air()), physical(w));
             assert_eq!((got.velocity, got.pressure, got.phi), (want.velocity, want.pressure, want.phi));
             approx::assert_relative_eq!(got.mass, want.mass, max_relative = 1e-15);
             approx::assert_relative_eq!(got.energy, want.energy, max_relative = 1e-14);
@@ -213,7 +208,8 @@ mod tests {
 
     #[test]
     fn a_contact_at_rest_stays_at_rest() {
-        let face = flux_hllc([1000.0, 0.0, 1.0, 1e5, 0.0], [1.2, 0.0, 4.0, 1e5, 1.0], &mixture());
+        let face =
+            flux_hllc([1000.0, 0.0, 1.0, 1e5, 0.0], [1.2, 0.0, 4.0, 1e5, 1.0], &Mixture::water_and_air());
         assert_eq!((face.mass, face.velocity, face.pressure, face.energy), (0.0, 0.0, 1e5, 0.0));
     }
 
@@ -221,7 +217,7 @@ mod tests {
     fn uniform_pressure_and_velocity_pass_a_contact_exactly() {
         for u in [200.0, -200.0] {
             let (l, r) = ([1000.0, u, 0.0, 1e5, 0.0], [1.2, u, 0.0, 1e5, 1.0]);
-            let face = flux_hllc(l, r, &mixture());
+            let face = flux_hllc(l, r, &Mixture::water_and_air());
             assert_eq!((face.velocity, face.pressure), (u, 1e5));
             let want = physical(if u > 0.0 { l } else { r });
             approx::assert_relative_eq!(face.energy, want.energy, max_relative = 1e-15);
@@ -232,10 +228,13 @@ mod tests {
     fn mirrored_states_give_the_mirrored_flux_bitwise() {
         let (l, r) = ([998.0, 13.0, 5.0, 3e6, 0.01], [700.0, -41.0, 2.0, 8e5, 0.4]);
         let mirror = |w: PrimitiveCell| [w[RHO], -w[V_N], w[V_T], w[PRESSURE], w[PHI]];
-        let (a, b) = (flux_hllc(l, r, &mixture()), flux_hllc(mirror(r), mirror(l), &mixture()));
+        let (a, b) = (
+            flux_hllc(l, r, &Mixture::water_and_air()),
+            flux_hllc(mirror(r), mirror(l), &Mixture::water_and_air()),
+        );
         assert_eq!((a.mass, a.velocity, a.energy, a.shear), (-b.mass, -b.velocity, -b.energy, -b.shear));
         assert_eq!((a.pressure, a.phi), (b.pressure, b.phi));
-        let wall = flux_hllc(l, mirror(l), &mixture());
+        let wall = flux_hllc(l, mirror(l), &Mixture::water_and_air());
         assert_eq!((wall.mass, wall.velocity, wall.energy), (0.0, 0.0, 0.0));
         assert!(wall.pressure > l[PRESSURE]);
     }
@@ -244,7 +243,8 @@ mod tests {
     fn a_side_without_a_sound_speed_is_told() {
         let (state, no_state) = ([1000.0, 1.0, 0.0, 1e5, 0.0], [1000.0, 1.0, 0.0, -3.1e8, 0.0]);
         for (left, right, is) in [(state, state, true), (no_state, state, false), (state, no_state, false)] {
-            let (face, has_roots) = flux_and_roots::<false, false>(left, right, [0.0; 2], &mixture());
+            let (face, has_roots) =
+                flux_and_roots::<false, false>(left, right, [0.0; 2], &Mixture::water_and_air());
             assert_eq!(has_roots, is);
             assert!(face.energy.is_finite(), "{face:?}");
         }
@@ -253,6 +253,6 @@ mod tests {
     #[test]
     fn supersonic_flow_is_upwind() {
         let (l, r) = ([1.2, 900.0, 1.0, 1e5, 1.0], [1.0, 950.0, 2.0, 0.9e5, 1.0]);
-        assert_eq!(flux_hllc(l, r, &mixture()), physical(l));
+        assert_eq!(flux_hllc(l, r, &Mixture::water_and_air()), physical(l));
     }
 }

@@ -36,31 +36,20 @@ pub(crate) fn hllc_faces(
     let (shear, energy, phi) = (&mut shear[first..][..n], &mut energy[first..][..n], &mut phi[first..][..n]);
     let m = &mixture;
     // Called by name: a pointer to one of them would not be inlined.
+    macro_rules! body {
+        ($gas:literal, $covolume:literal, $slow:literal) => {
+            hllc_body::<$gas, $covolume, $slow>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
+        };
+    }
     match (cells.with_gas, mixture.has_covolume(), is_low_mach) {
-        (true, true, true) => {
-            hllc_body::<true, true, true>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (true, true, false) => {
-            hllc_body::<true, true, false>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (true, false, true) => {
-            hllc_body::<true, false, true>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (true, false, false) => {
-            hllc_body::<true, false, false>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (false, true, true) => {
-            hllc_body::<false, true, true>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (false, true, false) => {
-            hllc_body::<false, true, false>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (false, false, true) => {
-            hllc_body::<false, false, true>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
-        (false, false, false) => {
-            hllc_body::<false, false, false>(n, low, high, m, mass, velocity, pressure, shear, energy, phi)
-        }
+        (true, true, true) => body!(true, true, true),
+        (true, true, false) => body!(true, true, false),
+        (true, false, true) => body!(true, false, true),
+        (true, false, false) => body!(true, false, false),
+        (false, true, true) => body!(false, true, true),
+        (false, true, false) => body!(false, true, false),
+        (false, false, true) => body!(false, false, true),
+        (false, false, false) => body!(false, false, false),
     }
 }
 

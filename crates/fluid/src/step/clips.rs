@@ -131,7 +131,7 @@ impl Multiresolution for CountedAnalysis<'_> {
 mod tests {
     use super::*;
     use crate::state::conserved::{ENERGY, PHI, RHO};
-    use crate::{Boundary, Mixture, Primitive, Scales, StiffenedGas};
+    use crate::{Boundary, Mixture, Primitive, Scales};
 
     #[test]
     fn names_and_counts_go_together() {
@@ -148,8 +148,7 @@ mod tests {
 
     #[test]
     fn predictions_that_are_limited_are_counted() {
-        let mixture =
-            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+        let mixture = Mixture::water_and_air();
         let scales = Scales { pressure: 1e7, density: 1000.0 };
         let analysis =
             Analysis { mixture, boundaries: [Boundary::Wall; 4], scales, has_phases: false, carried: 5..5 };

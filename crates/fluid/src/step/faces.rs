@@ -12,7 +12,7 @@ use crate::reconstruction::Reconstruction;
 use crate::reconstruction::dispersion::AlongFaces;
 use crate::riemann::exact_rows::exact_faces;
 use crate::riemann::godunov::flux_exact;
-use crate::riemann::hllc::{flux_hllc, flux_hllc_low_mach};
+use crate::riemann::hllc::flux_and_roots;
 use crate::riemann::hllc_rows::{has_roots, hllc_faces};
 use crate::state::COUNT;
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
@@ -54,7 +54,7 @@ impl<const N: usize> TileStep<'_, N> {
             sound,
             gas_shares,
             with_gas: self.gas.is_present(),
-            dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 0),
+            dispersion: ctx.model.dispersion(ctx.mesh.widths(self.id.level), ctx.dt, 0),
             along_faces: AlongFaces::new([V_Z, PRESSURE].map(|c| s_r.component(c)), stride),
         };
         let z_range = frame.index(-1, 0)..frame.index(last, last) + 1;
@@ -65,7 +65,8 @@ impl<const N: usize> TileStep<'_, N> {
             faces(ctx, &along_z, Faces { frame, step: 1, used: &used_faces[0] }, z_range, replaced, z_faces);
         if let Some(block) = self.gas.phases() {
             block.solve_faces(0, &along_z, inverse_r, capillary.along::<N>(0), gas, z_faces);
-        } else if let Some(jumps) = capillary.along::<N>(0) {
+        }
+        if let Some(jumps) = capillary.along::<N>(0) {
             faces_with_jumps(ctx, frame, &along_z, jumps, z_faces);
         }
         if let Some(wall) = wall {
@@ -76,7 +77,7 @@ impl<const N: usize> TileStep<'_, N> {
         let along_r = Reconstruction {
             half: [rho, v_r, v_z, p, phi],
             differences: [d_rho, d_v_r, d_v_z, d_p, d_phi],
-            dispersion: ctx.model.dispersion(ctx.mesh, ctx.dt, self.id.level, 1),
+            dispersion: ctx.model.dispersion(ctx.mesh.widths(self.id.level), ctx.dt, 1),
             along_faces: AlongFaces::new([V_R, PRESSURE].map(|c| s_z.component(c)), 1),
             ..along_z
         };
@@ -85,9 +86,12 @@ impl<const N: usize> TileStep<'_, N> {
             faces(ctx, &along_r, Faces { frame, step: stride, used: &used_faces[1] }, r_range, None, r_faces);
         if let Some(block) = self.gas.phases() {
             block.solve_faces(1, &along_r, inverse_r, capillary.along::<N>(1), gas, r_faces);
-            block.gas_fluxes(gas, gas_shares, [z_faces, r_faces]);
-        } else if let Some(jumps) = capillary.along::<N>(1) {
+        }
+        if let Some(jumps) = capillary.along::<N>(1) {
             faces_with_jumps(ctx, frame, &along_r, jumps, r_faces);
+        }
+        if let Some(block) = self.gas.phases() {
+            block.gas_fluxes(gas, gas_shares, [z_faces, r_faces]);
         }
     }
 }
@@ -121,12 +125,10 @@ fn faces<const N: usize>(
             if hllc_faces(cells, step, stride, range.clone(), mixture, is_low_mach, faces) {
                 return 0;
             }
-            // Mixed cells of the five-equation model have states and fluxes of their own: their share is −0.
-            let is_own = |k: usize| cells.keep[k].to_bits() >> 63 == 1;
             let counts = |k: &usize| {
                 used_face(frame, *k, step)
                     && replaced != Some(*k % stride)
-                    && !(is_own(*k) || is_own(*k + step))
+                    && !(cells.is_own(*k) || cells.is_own(*k + step))
             };
             range.filter(counts).filter(|k| !has_roots(cells, *k, step, mixture)).count() as u64
         }
@@ -137,8 +139,8 @@ fn faces<const N: usize>(
     }
 }
 
-/// Solves the faces again that a jump of pressure lies on, where the kernels serve mixed cells, too: in the paper's mixture, which has no
-/// covolumes.
+/// Solves the faces again that a jump of pressure lies on between cells that the kernels serve: in the paper's mixture all, in the
+/// five-equation model those between traces in the outermost cells of an interface.
 fn faces_with_jumps<const N: usize>(
     ctx: &FluidStep<'_, N>,
     frame: Frame,
@@ -147,16 +149,23 @@ fn faces_with_jumps<const N: usize>(
     faces: &mut FaceRows,
 ) {
     let mixture = &ctx.model.mixture;
-    let solve = |lower: FaceState, upper: FaceState| match ctx.model.scheme.riemann {
-        RiemannSolver::Hllc => flux_hllc(lower.w, upper.w, mixture),
-        RiemannSolver::HllcLowMach => flux_hllc_low_mach(lower.w, upper.w, mixture),
-        RiemannSolver::Exact => flux_exact(lower.w, upper.w, [0.0; 2], mixture),
+    let solve = |[lower, upper]: [FaceState; 2]| {
+        let shares = [lower.gas_share, upper.gas_share];
+        match ctx.model.scheme.riemann {
+            RiemannSolver::Hllc => flux_and_roots::<true, false>(lower.w, upper.w, shares, mixture).0,
+            RiemannSolver::HllcLowMach => flux_and_roots::<true, true>(lower.w, upper.w, shares, mixture).0,
+            RiemannSolver::Exact => flux_exact(lower.w, upper.w, shares, mixture),
+        }
     };
     let step = jumps.step;
-    for k in (0..frame.len() - step).filter(|k| jumps.has(*k) && used_face(frame, *k, step)) {
-        let states = [cells.face_state(k, 1.0), cells.face_state(k + step, -1.0)]
-            .map(|w| FaceState { w, gas_share: 0.0 });
-        let [lower, upper] = jumps.level(k, states, mixture);
-        faces.set(k, jumps.settle(k, &states, solve(lower, upper), mixture));
+    let is_own = |k: usize| cells.is_own(k) || cells.is_own(k + step);
+    for k in (0..frame.len() - step).filter(|k| jumps.has(*k) && used_face(frame, *k, step) && !is_own(*k)) {
+        let states = [(k, 1.0), (k + step, -1.0)].map(|(k, sign)| FaceState {
+            w: cells.face_state(k, sign),
+            // Without masses of their own phases have no covolumes, and it is without a say.
+            gas_share: if ctx.model.analysis.has_phases { cells.gas_shares[k] } else { 0.0 },
+        });
+        let solution = solve(jumps.level(k, states, mixture));
+        faces.set(k, jumps.settle(k, &states, solution, mixture));
     }
 }

@@ -16,7 +16,7 @@ mod tell;
 mod tile_tests;
 mod with_terms;
 
-use mesh::{BlockId, Frame, StageTimer, Tile};
+use mesh::{BlockId, BlockWork, Frame, Tile};
 
 pub use scratch::BlockScratch;
 pub(crate) use scratch::{split_block, take_wall};
@@ -85,13 +85,12 @@ pub(crate) fn is_one<const N: usize>(ctx: &FluidStep<'_, N>, tile: Tile) -> bool
     *has_tiles && is_plain && tile.slots().all(|slot| ctx.interface.first_face(slot).is_none())
 }
 
-/// Advances the blocks of a tile by one step from `ctx.old` into `new`; `fluxes` is their part of the flux register.
+/// Advances the blocks of a tile by one step from `ctx.old`.
 pub(crate) fn step_tile<const N: usize>(
     ctx: &FluidStep<'_, N>,
     tile: Tile,
-    (new, fluxes): (&mut [f64], &mut [f64]),
+    BlockWork { new, register, scratch, timer }: BlockWork<'_, BlockScratch<N>>,
     reports: &mut [BlockReport<N>],
-    (scratch, timer): (&mut BlockScratch<N>, &mut StageTimer),
 ) {
     let mut done = |stage: Stage| timer.end(stage as usize);
     let mut step = TileStep::assemble(ctx, tile, scratch);
@@ -110,7 +109,7 @@ pub(crate) fn step_tile<const N: usize>(
     done(Stage::Faces);
     step.add_terms(scratch);
     done(Stage::Terms);
-    step.register_fluxes(scratch, fluxes);
+    step.register_fluxes(scratch, register);
     done(Stage::Register);
     let len = new.len() / reports.len();
     for (number, (new, report)) in new.chunks_exact_mut(len).zip(reports).enumerate() {

@@ -97,12 +97,7 @@ impl Term for ConductionTerm {
     }
 
     /// The conductances are those of the beginning of the step, as the predictor has left them.
-    fn add_fluxes(
-        &self,
-        block: &TermBlock<'_>,
-        [z_faces, r_faces]: [&mut FaceRows; 2],
-        work: &mut Vec<f64>,
-    ) -> Clips {
+    fn add_fluxes(&self, block: &TermBlock<'_>, [z, r]: [&mut FaceRows; 2], work: &mut Vec<f64>) -> Clips {
         let mut work = Work::of(work, block);
         self.gather(&block.state, block, &mut work);
         for_cells_without_mid_step(block, |k| {
@@ -116,10 +111,9 @@ impl Term for ConductionTerm {
         work.note_wall(block);
         let (n, metric) = (block.cells, block.metric);
         let last = metric.origin + (n - 1) * metric.stride + n;
-        for (faces, flux, first) in [
-            (z_faces, &*work.fluxes[0], metric.origin - 1),
-            (r_faces, &*work.fluxes[1], metric.origin - metric.stride),
-        ] {
+        for (faces, flux, first) in
+            [(z, &*work.fluxes[0], metric.origin - 1), (r, &*work.fluxes[1], metric.origin - metric.stride)]
+        {
             for (energy, flux) in faces.energy[first..last].iter_mut().zip(&flux[first..last]) {
                 *energy += flux;
             }

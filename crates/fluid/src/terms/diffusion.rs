@@ -13,26 +13,19 @@ pub(super) const MOST_STAGES: usize = 255;
 /// with something to spare.
 pub(super) const BY_STAGES: f64 = 1e4;
 
-/// What gas does that is so thin that its momentum or its heat spreads over more than a cell in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ThinGas {
-    /// It is taken to be as viscous, and to conduct as much, as the step is stable with, which is counted. The liquid alone limits the
-    /// step.
-    #[default]
-    Bounded,
-    /// It limits the step.
-    Resolved,
-    /// It has all of its viscosity or conductivity, in stages within the step; neither it nor the liquid limits that.
-    SuperTimeStepping,
-}
-
-impl ThinGas {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("bounded", Self::Bounded),
-        ("resolved", Self::Resolved),
-        ("super-time-stepping", Self::SuperTimeStepping),
-    ];
+mesh::named! {
+    /// What gas does that is so thin that its momentum or its heat spreads over more than a cell in a step.
+    #[derive(Default)]
+    pub enum ThinGas {
+        /// It is taken to be as viscous, and to conduct as much, as the step is stable with, which is counted. The liquid alone limits the
+        /// step.
+        #[default]
+        Bounded = "bounded",
+        /// It limits the step.
+        Resolved = "resolved",
+        /// It has all of its viscosity or conductivity, in stages within the step; neither it nor the liquid limits that.
+        SuperTimeStepping = "super-time-stepping",
+    }
 }
 
 /// The largest diffusivity that a step is stable with, m²/s; see [`MOST_DIFFUSION`].

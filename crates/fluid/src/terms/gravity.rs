@@ -32,15 +32,9 @@ impl Term for Gravity {
         [self.acceleration, 0.0]
     }
 
-    fn add_sources(
-        &self,
-        block: &TermBlock<'_>,
-        [z_faces, r_faces]: [&FaceRows; 2],
-        _: &[f64],
-        block_rows: &mut [f64],
-    ) {
+    fn add_sources(&self, block: &TermBlock<'_>, [z, r]: [&FaceRows; 2], _: &[f64], block_rows: &mut [f64]) {
         let TermBlock { cells: n, metric, state, .. } = *block;
-        let (z_mass, r_mass, v_z) = (&z_faces.mass, &r_faces.mass, state[V_Z]);
+        let (z_mass, r_mass, v_z) = (&z.mass, &r.mass, state[V_Z]);
         for j in 0..n {
             let row = metric.row(j);
             for i in 0..n {

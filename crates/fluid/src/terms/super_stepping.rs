@@ -56,14 +56,9 @@ pub(crate) trait Spreading: Sync {
 
     /// Takes constants and variables of a block, whose states at mid-step are those that waves alone make.
     ///
-    /// - `work`: to work in. returns: no less than the largest rate at which anything decays in it, 1/s.
-    fn begin(
-        &self,
-        block: &TermBlock<'_>,
-        work: &mut Vec<f64>,
-        constants: &mut [f64],
-        values: &mut [f64],
-    ) -> f64;
+    /// - `work`: to work in; `kept`: gets the constants and the variables.
+    /// - returns: no less than the largest rate at which anything decays in it, 1/s.
+    fn begin(&self, block: &TermBlock<'_>, work: &mut Vec<f64>, kept: [&mut [f64]; 2]) -> f64;
 
     /// The fluxes of these variables; their ghosts beyond the domain it may set.
     fn conduct(&self, frame: &Frame, constants: &[f64], values: &mut [f64], fluxes: &mut [f64]);

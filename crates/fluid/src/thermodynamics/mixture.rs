@@ -20,6 +20,12 @@ pub struct Mixture {
 }
 
 impl Mixture {
+    /// Water and an ideal gas without covolumes, as tests have them.
+    #[cfg(test)]
+    pub(crate) fn water_and_air() -> Self {
+        Self::new(crate::StiffenedGas { gamma: 7.15, pi: 3e8 }, crate::StiffenedGas { gamma: 1.4, pi: 0.0 })
+    }
+
     /// The mixture of a liquid (φ = 0) and a gas (φ = 1).
     pub fn new(liquid: impl Into<NobleAbelStiffenedGas>, gas: impl Into<NobleAbelStiffenedGas>) -> Self {
         let (liquid, gas) = (liquid.into(), gas.into());

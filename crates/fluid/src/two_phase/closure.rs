@@ -125,16 +125,11 @@ impl Compression {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StiffenedGas;
-
-    fn mixture() -> Mixture {
-        Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
-    }
 
     #[test]
     fn the_modulus_is_woods() {
         let (p, phi) = (1e5, 0.3);
-        let c = Compression::at(p, phi, [0.0; 2], &mixture(), true);
+        let c = Compression::at(p, phi, [0.0; 2], &Mixture::water_and_air(), true);
         approx::assert_relative_eq!(
             1.0 / c.modulus,
             0.3 / 1.4e5 + 0.7 / (7.15 * (1e5 + 3e8)),
@@ -147,15 +142,15 @@ mod tests {
 
     #[test]
     fn off_it_is_the_frozen_mixture() {
-        let c = Compression::at(1e5, 0.3, [1.0, 1e3], &mixture(), false);
+        let c = Compression::at(1e5, 0.3, [1.0, 1e3], &Mixture::water_and_air(), false);
         assert_eq!((c.gas, c.liquid, c.expansion(0.3)), (1.0, 1.0, 0.0));
-        assert_eq!(c.modulus, mixture().bulk_modulus(1e3, 1e5, 0.3, 0.0));
+        assert_eq!(c.modulus, Mixture::water_and_air().bulk_modulus(1e3, 1e5, 0.3, 0.0));
         approx::assert_relative_eq!(c.star_fraction(0.3, 1.7), 0.3, max_relative = 1e-15);
     }
 
     #[test]
     fn traces_count_where_they_make_a_cell_softer() {
-        let m = mixture();
+        let m = Mixture::water_and_air();
         // K_l/K_g: the gas of 10⁻⁵ makes water at 10⁵ Pa a hundred and fifty times as soft as its share.
         for (p, phi, is) in [
             (1e5, 1e-5, true),
@@ -178,7 +173,7 @@ mod tests {
 
     #[test]
     fn the_star_fraction_follows_the_density_and_stays_below_one() {
-        let c = Compression::at(1e5, 0.5, [0.0; 2], &mixture(), true);
+        let c = Compression::at(1e5, 0.5, [0.0; 2], &Mixture::water_and_air(), true);
         approx::assert_relative_eq!(c.star_fraction(0.5, 1.0), 0.5, max_relative = 1e-15);
         assert!(c.star_fraction(0.5, 1.5) < 0.26);
         assert_eq!(c.star_fraction(0.5, 5.0), 0.0);

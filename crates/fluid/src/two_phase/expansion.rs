@@ -52,15 +52,11 @@ const MOST: f64 = 0.999;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Primitive, StiffenedGas};
-
-    fn mixture() -> Mixture {
-        Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
-    }
+    use crate::Primitive;
 
     #[test]
     fn gas_expands_until_the_tension_is_gone_and_nothing_is_added() {
-        let mixture = mixture();
+        let mixture = Mixture::water_and_air();
         for (phi, tension) in [(2e-3, 1e4), (2e-3, 5e6), (0.05, 5e6), (0.3, 1e5)] {
             let before = Primitive { density: 900.0, v_z: 30.0, v_r: -4.0, pressure: -tension, phi };
             let u = before.to_conserved(0.0, &mixture);
@@ -77,7 +73,7 @@ mod tests {
 
     #[test]
     fn a_cell_without_energy_is_left_to_the_floor() {
-        let mixture = mixture();
+        let mixture = Mixture::water_and_air();
         let thin = Primitive { density: 0.1, v_z: 0.0, v_r: 0.0, pressure: -1e3, phi: 0.9999 };
         let before = Gas { pressure: 2118.0, phi: 0.9999, mass: 0.1 };
         assert!(expanded(thin.to_conserved(0.1, &mixture), 0.1, before, &mixture).is_none());

@@ -199,11 +199,6 @@ const HIGHEST_RATIO: f64 = 46.0;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StiffenedGas;
-
-    fn mixture() -> Mixture {
-        Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
-    }
 
     fn relaxed_fraction(phi: f64, p: f64, volume: f64, gas: f64) -> f64 {
         let cell = Advected {
@@ -214,7 +209,7 @@ mod tests {
             gas: [gas],
             ..Advected::ZERO
         };
-        relaxed_fractions(&cell, &mixture())[0]
+        relaxed_fractions(&cell, &Mixture::water_and_air())[0]
     }
 
     #[test]
@@ -225,7 +220,7 @@ mod tests {
                 let (volume, gas) = (1e-4 * phi, 0.3e-4 * phi);
                 let linear = relaxed_fraction(phi, p, volume, gas);
                 let volumes = [phi - gas, 1.0 - phi - volume + gas];
-                let full = isentropic_fraction(volumes, [0.0; 2], p, &mixture());
+                let full = isentropic_fraction(volumes, [0.0; 2], p, &Mixture::water_and_air());
                 assert!(
                     (linear - full).abs() < 3e-6 * phi.max(1.0 - phi) + 2e-6,
                     "{phi} {p}: {linear} {full}"
@@ -266,7 +261,7 @@ mod tests {
             cells.liquid = std::array::from_fn(|_| within(PURE, 2.0));
             cells.p = std::array::from_fn(|_| within(LOWEST, 1e11));
             cells.fraction = [f64::NAN; 8];
-            cells.run(&mixture());
+            cells.run(&Mixture::water_and_air());
             let is_kept = |fraction: &f64| *fraction > 0.0 && *fraction < 1.0;
             assert!(cells.fraction.iter().all(is_kept), "{:?} {:?} {:?}", cells.gas, cells.liquid, cells.p);
         }
@@ -281,8 +276,10 @@ mod tests {
         let at = |c: usize| std::array::from_fn::<f64, 8, _>(|k| cells[k][c]);
         let [phi, p, volume, gas] = [at(0), at(1), at(2), at(3)];
         let fraction = std::array::from_fn(|k| phi[k] - gas[k] + phi[k] * volume[k]);
-        let together =
-            relaxed_fractions(&Advected { phi, p, fraction, volume, gas, ..Advected::ZERO }, &mixture());
+        let together = relaxed_fractions(
+            &Advected { phi, p, fraction, volume, gas, ..Advected::ZERO },
+            &Mixture::water_and_air(),
+        );
         for (k, [phi, p, volume, gas]) in cells.into_iter().enumerate() {
             assert_eq!(together[k], relaxed_fraction(phi, p, volume, gas));
         }

@@ -1,10 +1,10 @@
 //! What the tests share: media, grids, norms, orders of convergence, Bessel functions.
 
 use fluid::{
-    Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState,
-    Primitive, Region, Shape, Sharpening, StiffenedGas,
+    Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, NobleAbelStiffenedGas,
+    Phase, PhaseState, Primitive, Region, Shape, Sharpening, StiffenedGas, Totals,
 };
-use mesh::{Domain, Geometry};
+use mesh::{Adaptation, Domain, Geometry, LevelBound, Zone};
 
 pub const LIQUID: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 pub const GAS: StiffenedGas = StiffenedGas { gamma: 1.4, pi: 0.0 };
@@ -58,6 +58,19 @@ pub fn ball_of_gas(place: ([f64; 2], f64), pressure: f64, gas: [f64; 2], velocit
     }
 }
 
+/// A ball of gas in liquid, of these laws, each with a pressure (Pa) and a temperature (K), moving along z.
+pub fn ball_of_laws(
+    [liquid_law, gas_law]: [NobleAbelStiffenedGas; 2],
+    place: ([f64; 2], f64),
+    [liquid, gas]: [[f64; 2]; 2],
+    velocity: f64,
+) -> InitialCondition {
+    let density = |law: NobleAbelStiffenedGas, [p, t]: [f64; 2]| law.density_at(p, t).unwrap();
+    let mut initial = ball_of_gas(place, liquid[0], [density(gas_law, gas), gas[0]], velocity);
+    initial.ambient.density = density(liquid_law, liquid);
+    initial
+}
+
 /// Density and pressure of air, and of the gas in the bubble of the figures' case.
 pub const AIR: [f64; 2] = [1.2, 1e5];
 pub const THIN_GAS: [f64; 2] = [0.0266, 2118.0];
@@ -78,6 +91,53 @@ pub fn run_steps<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) {
     for _ in 0..steps {
         fluid.step_at(CFL).unwrap();
     }
+}
+
+/// A finer level within a ball of 0.2 m on the axis, a coarse one far from it, what waves ask for between.
+pub fn refined_ball() -> Adaptation {
+    let (centre, radius) = ([0.4, 0.0], 0.2);
+    let within = LevelBound { zone: Zone::Within { centre, radius }, at_least: 1, at_most: 1 };
+    let top = LevelBound { zone: Zone::Box { z: [0.76, 2.0], r: [-1.0, 2.0] }, at_least: 0, at_most: 0 };
+    Adaptation { epsilon: 1e-2, every: 4, bounds: vec![within, top], above: 0 }
+}
+
+/// So many steps, with levels that make their own; there is a jump of levels at the end.
+pub fn run_locally<const N: usize>(fluid: &mut FluidSolver<N>, steps: u64) {
+    while fluid.steps() < steps {
+        let (dt, made) = step_locally(fluid);
+        fluid.adapt_if_due(dt, made);
+    }
+    assert_jump_of_levels(fluid);
+}
+
+pub fn assert_jump_of_levels<const N: usize>(fluid: &FluidSolver<N>) {
+    let [coarsest, finest] = fluid.mesh().levels_present();
+    assert!(coarsest < finest, "there is a jump of levels");
+}
+
+/// Nothing is lost but round-off.
+pub fn assert_balanced<const N: usize>(what: &str, imbalance: &[f64], fluid: &FluidSolver<N>) {
+    eprintln!("{what}: {} {:?}", scientific(imbalance), fluid.fixups().clips);
+    assert!(imbalance.iter().all(|part| part.abs() < 1e-12), "{imbalance:?}");
+}
+
+/// No energy comes through walls that rest and keep their heat; r_min is an axis or a plane of symmetry.
+pub fn assert_no_energy_through_walls<const N: usize>(fluid: &FluidSolver<N>) {
+    let [z_min, z_max, _, r_max] = fluid.ledger().energy;
+    assert_eq!([z_min, z_max, r_max], [0.0; 3], "no energy passes walls at rest");
+}
+
+/// Imbalances of mass, axial momentum and energy since the totals were `start`, relative to them (the momentum to what a side brought
+/// in, or to 10 m/s of all mass).
+pub fn imbalance_since<const N: usize>(fluid: &FluidSolver<N>, start: &Totals) -> [f64; 3] {
+    let (end, ledger) = (fluid.totals(), fluid.ledger());
+    let sum = |sides: [f64; 4]| sides.iter().sum::<f64>();
+    let scale = ledger.momentum.iter().map(|m| m.abs()).fold(10.0 * start.mass, f64::max);
+    [
+        (end.mass - start.mass - sum(ledger.mass)) / start.mass,
+        (end.momentum_z - start.momentum_z - sum(ledger.momentum)) / scale,
+        (end.energy - start.energy - sum(ledger.energy) - fluid.fixups().floor_energy) / start.energy,
+    ]
 }
 
 /// Visits every cell: its place, its global indices, its state.
@@ -122,17 +182,13 @@ pub fn l1<const N: usize, const K: usize>(
     exact: impl Fn([f64; 2]) -> Primitive,
     pick: impl Fn(Primitive) -> [f64; K],
 ) -> f64 {
-    let (mut error, mut norm) = (0.0, 0.0);
-    each_cell(fluid, |place, _, got| {
-        for (got, want) in pick(got).into_iter().zip(pick(exact(place))) {
-            error += (got - want).abs();
-            norm += want.abs();
-        }
-    });
-    error / norm
+    relative_l1(|compare| each_cell(fluid, |place, _, got| compare(&pick(got), &pick(exact(place)))))
 }
 
 #[path = "../../../../tests/fixture/verification.rs"]
 mod shared;
 
-pub use shared::{CFL, J1_ZEROS, j0, j1, order, scientific, step_locally, step_together, strips};
+pub use shared::{
+    CFL, J1_ZEROS, assert_transposed, differences, j0, j1, order, relative_l1, scientific, step_locally,
+    step_together, strips,
+};

@@ -86,12 +86,12 @@ fn study_of_balls_at_rest() {
     for (name, kind) in [("sharp", SHARP), ("mixture", MIXTURE)] {
         for geometry in [AXIAL, PLANAR] {
             for inside in [Phase::Gas, Phase::Liquid] {
-                for cells in [12, 20, 32] {
+                for cells in [12, 16, 20, 32, 40] {
                     let mut fluid =
                         ball(kind, geometry, inside, (cells, 2.0), aside(geometry, cells), |_| ());
                     let mut line = format!("{name} {geometry:?} {inside:?} {cells}:");
                     let jump = TENSION * if geometry == AXIAL { 2.0 } else { 1.0 };
-                    for time in [0.05, 0.2, 0.5, 1.0] {
+                    for time in [0.2, 0.5, 1.0] {
                         run_to(&mut fluid, time);
                         let (fastest, gas, liquid) = at_rest(&fluid);
                         let off = 100.0 * ((gas - liquid).abs() / jump - 1.0);
@@ -104,6 +104,7 @@ fn study_of_balls_at_rest() {
     }
 }
 
+/// For a time R/U: where pressures do not balance beside the outermost cells of the interface, currents are eight times as fast by then.
 #[test]
 fn balls_at_rest_have_laplaces_jump() {
     for kind in KINDS {
@@ -111,14 +112,14 @@ fn balls_at_rest_have_laplaces_jump() {
             let mut currents = vec![];
             for cells in [12, 20] {
                 let mut fluid = ball(kind, AXIAL, inside, (cells, 2.0), aside(AXIAL, cells), |_| ());
-                run_to(&mut fluid, 0.2);
+                run_to(&mut fluid, 1.0);
                 let (fastest, gas, liquid) = at_rest(&fluid);
                 let jump = (gas - liquid).abs() / (2.0 * TENSION);
                 eprintln!("{inside:?} {cells}: {fastest:.2e} m/s, jump {jump:.6}");
                 assert!(cells < 20 || (jump - 1.0).abs() < 5e-3, "{jump}");
                 currents.push(fastest);
             }
-            assert!(currents[1] < 1e-3 && currents[1] < 0.5 * currents[0], "{currents:?}");
+            assert!(currents[1] < 2e-4 && currents[1] < 0.25 * currents[0], "{currents:?}");
         }
     }
 }

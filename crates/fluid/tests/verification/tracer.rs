@@ -1,22 +1,13 @@
 //! The passive tracer: carried by the mass, conserved, bounded.
 
-use fluid::{FluidSetup, FluidSolver, InitialCondition, Phase, PhaseState, Primitive, Region, Shape};
+use fluid::{FluidSetup, FluidSolver, Primitive, Shape};
 use mesh::{Adaptation, Limiter};
 
 use crate::helpers::*;
 
 /// A bubble that collapses in a closed cylinder on an adaptive grid, with a tracer beside and within it.
 fn collapse(kind: Kind, tracer: Shape) -> FluidSolver<8> {
-    let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
-    let initial = InitialCondition {
-        ambient: state(Phase::Liquid, 1000.0, 5e6),
-        pressure: fluid::InitialPressure::Uniform,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre: [0.5, 0.0], radius: 0.3 },
-            state: state(Phase::Gas, 1.2, 1e5),
-        }],
-        pulses: vec![],
-    };
+    let initial = ball_of_gas(([0.5, 0.0], 0.3), 5e6, AIR, 0.0);
     let setup = FluidSetup {
         tracer: Some(tracer),
         levels: 2,

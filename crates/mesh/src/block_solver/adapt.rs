@@ -1,6 +1,7 @@
 //! The step from one mesh to the next.
 
 use super::{BlockSolver, Model};
+use crate::Remap;
 
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Adapts the grid if it is time to; to be called after a step. Returns whether the mesh changed: slots, faces of the interface
@@ -34,11 +35,13 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let finest = self.mesh.tree().finest();
         let base = self.model.finest_for_details(&self.mesh, settings.base(finest));
         let settings = settings.ending_at(base, finest);
-        let demanded = self.model.demanded_levels(&self.mesh, &self.state, base, &travel);
+        let demanded = self.model.demanded_levels((&self.mesh, &self.state), base, &travel);
         let at_least = |slot: usize| demanded.get(slot).copied().unwrap_or(0);
         let adapted = self.mesh.adapted(&self.state, analysis, &settings, patches, travel, at_least);
         let Some(adapted) = adapted else { return false };
-        self.model.remap(&adapted, (&self.mesh, &self.state), &self.adapting.patches, &mut self.next);
+        let (mesh, field) = (&self.mesh, &self.state);
+        let remap = Remap { adapted: &adapted, mesh, field, patches: &self.adapting.patches };
+        self.model.remap(&remap, &mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
         let blocks = adapted.mesh.blocks();
         self.next.resize(blocks);

@@ -73,12 +73,12 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let tiles = mesh.tree().tiles();
         for_each_tile(tiles, target, register.values_mut(), pending, |tile, new, fluxes, reports| {
             if tile.slots().all(is_due) {
-                workers.with(|worker| worker.step_tile(&context, tile, new, fluxes, reports));
+                workers.with(|worker| model.step_tile(&context, tile, worker.begin(new, fluxes), reports));
                 return;
             }
             let parts = new.chunks_exact_mut(lens[0]).zip(fluxes.chunks_exact_mut(lens[1])).zip(reports);
             for (slot, ((new, fluxes), report)) in tile.slots().zip(parts).filter(|(slot, _)| is_due(*slot)) {
-                *report = workers.with(|worker| worker.step_block(&context, slot, new, fluxes));
+                *report = workers.with(|worker| model.step_block(&context, slot, worker.begin(new, fluxes)));
             }
         });
         // A cell that falls back changes what its neighbours get: first all parts must be there.

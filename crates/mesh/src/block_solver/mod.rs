@@ -13,12 +13,11 @@ mod saved;
 use serde::{Deserialize, Serialize};
 
 pub use interface::{FaceState, Interface};
-pub use model::{Marks, Model, Place, Scratches, Step};
+pub use model::{BlockWork, Marks, Model, Place, Scratches, Step};
 pub use saved::SavedBlocks;
 
 use crate::{
-    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side,
-    StageTimer, Tile,
+    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side, StageTimer,
 };
 
 /// Cells, time, and how they advance: everything of a solver but the physics, which is its [`Model`].
@@ -49,29 +48,10 @@ struct Worker<S> {
 }
 
 impl<S> Worker<S> {
-    /// Makes the step of a block.
-    fn step_block<M: Model<N, Scratch = S>, const N: usize>(
-        &mut self,
-        step: &Step<'_, M, N>,
-        slot: usize,
-        new: &mut [f64],
-        register: &mut [f64],
-    ) -> M::Report {
+    /// Begins the step of a block or a tile.
+    fn begin<'a>(&'a mut self, new: &'a mut [f64], register: &'a mut [f64]) -> BlockWork<'a, S> {
         self.timer.begin();
-        step.model.step_block(step, slot, new, register, &mut self.scratch, &mut self.timer)
-    }
-
-    /// Makes the step of a tile.
-    fn step_tile<M: Model<N, Scratch = S>, const N: usize>(
-        &mut self,
-        step: &Step<'_, M, N>,
-        tile: Tile,
-        new: &mut [f64],
-        register: &mut [f64],
-        reports: &mut [M::Report],
-    ) {
-        self.timer.begin();
-        step.model.step_tile(step, tile, new, register, reports, &mut self.scratch, &mut self.timer);
+        BlockWork { new, register, scratch: &mut self.scratch, timer: &mut self.timer }
     }
 }
 

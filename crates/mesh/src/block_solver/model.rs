@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Worker;
-use crate::{
-    Adapted, BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Patch, Reports,
-};
+use crate::{BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Remap, Reports};
 use crate::{ScratchPool, Side, StageTimer, Tile};
 
 /// Cells that a step makes at first order, block by block: their places j N + i.
@@ -64,34 +62,22 @@ pub trait Model<const N: usize>: Sized + Sync {
         false
     }
 
-    /// Advances a block by one step from `step.old` into `new`; `register` is its part of the flux register. Tells the timer the
-    /// end of each stage.
+    /// Advances a block by one step from `step.old`.
     fn step_block(
         &self,
         step: &Step<'_, Self, N>,
         slot: usize,
-        new: &mut [f64],
-        register: &mut [f64],
-        scratch: &mut Self::Scratch,
-        timer: &mut StageTimer,
+        work: BlockWork<'_, Self::Scratch>,
     ) -> Self::Report;
-    /// Advances the blocks of a tile as [`Model::step_block`] does each, to the last bit; block after block in `new` and `register`.
-    #[expect(clippy::too_many_arguments, reason = "those of a block's step, and its reports")]
+    /// Advances the blocks of a tile as [`Model::step_block`] does each, to the last bit.
     fn step_tile(
         &self,
         step: &Step<'_, Self, N>,
         tile: Tile,
-        new: &mut [f64],
-        register: &mut [f64],
+        mut work: BlockWork<'_, Self::Scratch>,
         reports: &mut [Self::Report],
-        scratch: &mut Self::Scratch,
-        timer: &mut StageTimer,
     ) {
-        let (len, registered) = (new.len() / tile.blocks(), register.len() / tile.blocks());
-        let blocks = new.chunks_exact_mut(len).zip(register.chunks_exact_mut(registered)).zip(reports);
-        for (slot, ((new, register), report)) in tile.slots().zip(blocks) {
-            *report = self.step_block(step, slot, new, register, scratch, timer);
-        }
+        work.each_of(tile, reports, |slot, work, report| *report = self.step_block(step, slot, work));
     }
     /// Corrects the cells of a block along its finer neighbours.
     fn correct(
@@ -137,8 +123,7 @@ pub trait Model<const N: usize>: Sized + Sync {
     /// - `travel`: how many of its cells a wave in the block of a slot crosses before the next adaptation.
     fn demanded_levels(
         &self,
-        _mesh: &Mesh<N>,
-        _field: &Field,
+        _state: (&Mesh<N>, &Field),
         _base: u8,
         _travel: &(dyn Fn(usize) -> f64 + Sync),
     ) -> Vec<u8> {
@@ -151,14 +136,8 @@ pub trait Model<const N: usize>: Sized + Sync {
         base
     }
     /// Carries a field over to another mesh.
-    fn remap(
-        &mut self,
-        adapted: &Adapted<N>,
-        (mesh, field): (&Mesh<N>, &Field),
-        patches: &ScratchPool<Patch<N>>,
-        new: &mut Field,
-    ) {
-        adapted.remap_into(mesh, field, self.analysis(), patches, new);
+    fn remap(&mut self, remap: &Remap<'_, N>, new: &mut Field) {
+        remap.by(self.analysis(), new);
     }
     /// Called when all levels have come to the end of a whole step.
     fn whole_step_ended(_solver: &mut BlockSolver<Self, N>) {}
@@ -171,6 +150,34 @@ pub trait Model<const N: usize>: Sized + Sync {
     ///
     /// - errors: it is not of such a model.
     fn restore(&mut self, memory: Self::Memory) -> Result<(), Misfit>;
+}
+
+/// What the step of a block, or of those of a tile, works on.
+pub struct BlockWork<'a, S> {
+    /// Its part of the new state, to be filled; block after block.
+    pub new: &'a mut [f64],
+    /// Its part of the flux register, likewise.
+    pub register: &'a mut [f64],
+    /// What a thread keeps.
+    pub scratch: &'a mut S,
+    /// To be told of the end of each stage.
+    pub timer: &'a mut StageTimer,
+}
+
+impl<S> BlockWork<'_, S> {
+    /// Goes through the blocks of a tile, whose work this is: slot, work and report of each.
+    pub fn each_of<R>(
+        &mut self,
+        tile: Tile,
+        reports: &mut [R],
+        mut step: impl FnMut(usize, BlockWork<'_, S>, &mut R),
+    ) {
+        let (len, registered) = (self.new.len() / tile.blocks(), self.register.len() / tile.blocks());
+        let parts = self.new.chunks_exact_mut(len).zip(self.register.chunks_exact_mut(registered));
+        for (slot, ((new, register), report)) in tile.slots().zip(parts.zip(reports)) {
+            step(slot, BlockWork { new, register, scratch: self.scratch, timer: self.timer }, report);
+        }
+    }
 }
 
 /// What all blocks of a step share.

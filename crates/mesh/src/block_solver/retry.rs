@@ -52,7 +52,7 @@ impl<M: Model<N>, const N: usize> Step<'_, M, N> {
         let around = blocks_around(self.mesh, marks);
         let is_around = |slot: usize| is_due(slot) && around.contains(&slot);
         for_each_block(next, register.values_mut(), reports, is_around, |slot, new, fluxes, report| {
-            *report = workers.with(|worker| worker.step_block(&context, slot, new, fluxes));
+            *report = workers.with(|worker| self.model.step_block(&context, slot, worker.begin(new, fluxes)));
         });
         for (slot, cells) in marks {
             let id = self.mesh.tree().leaves()[*slot];

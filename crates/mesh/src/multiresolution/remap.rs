@@ -112,28 +112,36 @@ impl<const N: usize> Adapted<N> {
         scratch: &ScratchPool<Patch<N>>,
     ) -> Field {
         let mut new = Field::zeros(self.mesh.blocks(), N * N, field.components());
-        self.remap_into(old_mesh, field, rule, scratch, &mut new);
+        Remap { adapted: self, mesh: old_mesh, field, patches: scratch }.by(rule, &mut new);
         new
     }
+}
 
+/// A field that is to be carried over from one mesh to another.
+pub struct Remap<'a, const N: usize> {
+    /// The other mesh, and where its blocks come from.
+    pub adapted: &'a Adapted<N>,
+    /// The mesh of the field.
+    pub mesh: &'a Mesh<N>,
+    /// The field.
+    pub field: &'a Field,
+    /// What threads predict with.
+    pub patches: &'a ScratchPool<Patch<N>>,
+}
+
+impl<const N: usize> Remap<'_, N> {
     /// [`Adapted::remap`] into a field of as many components that is no longer needed.
-    pub fn remap_into<R: Multiresolution>(
-        &self,
-        old_mesh: &Mesh<N>,
-        field: &Field,
-        rule: &R,
-        scratch: &ScratchPool<Patch<N>>,
-        new: &mut Field,
-    ) {
+    pub fn by<R: Multiresolution>(&self, rule: &R, new: &mut Field) {
+        let Self { adapted: Adapted { mesh, origins }, mesh: old_mesh, field, patches } = *self;
         let components = field.components();
-        new.resize(self.mesh.blocks());
+        new.resize(mesh.blocks());
         let padded = ScratchPool::new(|| Padded::<N>::zeros(components));
-        (new.as_mut_slice().par_chunks_mut(components * N * N)).zip(&self.origins).with_min_len(4).for_each(
+        (new.as_mut_slice().par_chunks_mut(components * N * N)).zip(origins).with_min_len(4).for_each(
             |(block, origin)| match *origin {
                 Origin::Same(slot) => block.copy_from_slice(field.block(slot)),
                 Origin::ParentOf(first) => project(old_mesh, field, first, block),
                 Origin::ChildOf(slot, child) => padded.with(|padded| {
-                    scratch.with(|patch| padded.assemble(old_mesh, field, slot, rule, patch));
+                    patches.with(|patch| padded.assemble(old_mesh, field, slot, rule, patch));
                     for component in 0..components {
                         let is_boundary = |side| old_mesh.touches(slot, side);
                         continue_beyond(padded.component_mut(component), N, component, rule, is_boundary);

@@ -1,19 +1,16 @@
 //! The rectangle of the (z, r) half-plane that a medium fills, and the metric on it.
 
-/// How the (z, r) plane is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Geometry {
-    /// Rotation about the axis r = 0: volumes and face areas carry the weight r (per radian).
-    Axisymmetric,
-    /// Plane strain: unit depth, r is a Cartesian coordinate.
-    Planar,
+crate::named! {
+    /// How the (z, r) plane is measured.
+    pub enum Geometry {
+        /// Rotation about the axis r = 0: volumes and face areas carry the weight r (per radian).
+        Axisymmetric = "axisymmetric",
+        /// Plane strain: unit depth, r is a Cartesian coordinate.
+        Planar = "planar",
+    }
 }
 
 impl Geometry {
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 2] =
-        [("axisymmetric", Self::Axisymmetric), ("planar", Self::Planar)];
-
     /// The whole of what is counted per radian: 2π, or 1 in planar geometry, where it is counted per metre of depth.
     pub fn turn(self) -> f64 {
         match self {
@@ -23,26 +20,23 @@ impl Geometry {
     }
 }
 
-/// A side of a rectangle, of a block or of the whole domain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Side {
-    /// The side of smallest z.
-    ZMin,
-    /// The side of largest z.
-    ZMax,
-    /// The side of smallest r; the axis of an axisymmetric domain that starts at r = 0.
-    RMin,
-    /// The side of largest r.
-    RMax,
+crate::named! {
+    /// A side of a rectangle, of a block or of the whole domain.
+    pub enum Side {
+        /// The side of smallest z.
+        ZMin = "z_min",
+        /// The side of largest z.
+        ZMax = "z_max",
+        /// The side of smallest r; the axis of an axisymmetric domain that starts at r = 0.
+        RMin = "r_min",
+        /// The side of largest r.
+        RMax = "r_max",
+    }
 }
 
 impl Side {
     /// All four, in the order in which arrays over sides are laid out.
     pub const ALL: [Self; 4] = [Self::ZMin, Self::ZMax, Self::RMin, Self::RMax];
-
-    /// Names as they stand in case files.
-    pub const NAMES: [(&'static str, Self); 4] =
-        [("z_min", Self::ZMin), ("z_max", Self::ZMax), ("r_min", Self::RMin), ("r_max", Self::RMax)];
 
     /// The axis that crosses it: 0 z, 1 r.
     pub fn axis_across(self) -> usize {

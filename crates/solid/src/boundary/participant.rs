@@ -51,12 +51,8 @@ impl<const N: usize> SolidSolver<N> {
         self.write_trace_of(dt, |_| true, put);
     }
 
-    /// [`SolidSolver::write_trace`] for the faces of the levels that are about to make a step.
-    pub fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
-    }
-
-    fn write_trace_of(
+    /// [`SolidSolver::write_trace`] for the faces of the blocks that are due, by their slots.
+    pub fn write_trace_of(
         &self,
         dt: f64,
         is_due: impl Fn(usize) -> bool,
@@ -68,7 +64,7 @@ impl<const N: usize> SolidSolver<N> {
             let id = self.mesh().tree().leaves()[slot];
             let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
             self.with_scratch(|scratch| {
-                let [share, _] = context.model.dispersion(context.mesh, dt, id.level, 0);
+                let [share, _] = context.model.dispersion(context.mesh.widths(id.level), dt, 0);
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
                 Boundaries::complete_shear_differences(self.setup().limiter, cells, s_z);

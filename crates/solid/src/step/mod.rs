@@ -9,7 +9,7 @@ pub(crate) mod update;
 mod scratch;
 mod stages;
 
-use mesh::{BlockId, StageTimer};
+use mesh::{BlockId, BlockWork};
 
 pub use scratch::BlockScratch;
 pub(crate) use stages::reconstruct;
@@ -44,14 +44,11 @@ struct BlockStep<'a, const N: usize> {
     inverse_h: [f64; 2],
 }
 
-/// Advances one block by one step from `ctx.old` into `new`; `stars` is its part of the flux register.
+/// Advances one block by one step from `ctx.old`; what it registers are star states.
 pub(crate) fn step_block<const N: usize>(
     ctx: &SolidStep<'_, N>,
     slot: usize,
-    new: &mut [f64],
-    stars: &mut [f64],
-    scratch: &mut BlockScratch<N>,
-    timer: &mut StageTimer,
+    BlockWork { new, register, scratch, timer }: BlockWork<'_, BlockScratch<N>>,
 ) -> BlockReport {
     let mut done = |stage: Stage| timer.end(stage as usize);
     let mut report = BlockReport::default();
@@ -66,7 +63,7 @@ pub(crate) fn step_block<const N: usize>(
     block.solve_faces(scratch, new);
     done(Stage::Faces);
     ctx.mesh.look_ahead(ctx.old, slot, new, 2, 3);
-    block.register_stars(scratch, stars);
+    block.register_stars(scratch, register);
     done(Stage::Register);
     block.update(scratch, new, &mut report);
     done(Stage::Update);

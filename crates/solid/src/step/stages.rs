@@ -1,6 +1,6 @@
 //! The stages of a block's step.
 
-use mesh::{Mesh, Padded, Tile, dispersion_share, limited_differences};
+use mesh::{Padded, Tile, dispersion_share, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
@@ -15,15 +15,9 @@ use crate::step::rows::{self, Elasticity, Reconstruction};
 use crate::step::update::{Metric, update};
 
 impl Solid {
-    /// For the faces normal to an axis (0: z, 1: r) of a block of a level, in a step of length `dt`.
-    pub(crate) fn dispersion<const N: usize>(
-        &self,
-        mesh: &Mesh<N>,
-        dt: f64,
-        level: u8,
-        axis: usize,
-    ) -> [f64; 2] {
-        let per_speed = dt / mesh.widths(level)[axis];
+    /// For the faces normal to an axis (0: z, 1: r) of cells of these widths, in a step of length `dt`.
+    pub(crate) fn dispersion(&self, widths: [f64; 2], dt: f64, axis: usize) -> [f64; 2] {
+        let per_speed = dt / widths[axis];
         let Elasticity { inverse_density, z1, z2, .. } = self.elasticity;
         [z1, z2].map(|impedance| dispersion_share(per_speed * inverse_density * impedance))
     }
@@ -111,7 +105,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         let stride = Padded::<N>::STRIDE;
         let [v_z, v_r, zz, zr, rr, _] = scratch.half.split::<COUNT>();
         let differences = scratch.s_z.split::<COUNT>();
-        let dispersion = ctx.model.dispersion(ctx.mesh, ctx.dt, id.level, 0);
+        let dispersion = ctx.model.dispersion(ctx.mesh.widths(id.level), ctx.dt, 0);
         let along_z = Reconstruction {
             half: [v_z, v_r, zz, zr],
             differences: ALONG_Z.map(|c| differences[c]),
@@ -126,7 +120,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         ctx.mesh.look_ahead(ctx.old, slot, new, 1, 3);
         let differences = scratch.s_r.split::<COUNT>();
         let [d_vz, d_vr, d_zr, d_rr] = ALONG_R.map(|c| differences[c]);
-        let dispersion = ctx.model.dispersion(ctx.mesh, ctx.dt, id.level, 1);
+        let dispersion = ctx.model.dispersion(ctx.mesh.widths(id.level), ctx.dt, 1);
         let along_r =
             Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr], dispersion };
         let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;

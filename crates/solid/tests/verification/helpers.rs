@@ -37,6 +37,31 @@ pub fn run_to<const N: usize>(solid: &mut SolidSolver<N>, end: f64) {
     }
 }
 
+/// Steps of the coarsest level, after which the grid adapts where that is due. `run` makes some of what is left of a step that has
+/// begun; `after` is called after that, and after an adaptation.
+pub fn whole_steps<const N: usize>(
+    solid: &mut SolidSolver<N>,
+    steps: usize,
+    mut run: impl FnMut(&mut SolidSolver<N>),
+    mut after: impl FnMut(&SolidSolver<N>),
+) {
+    for _ in 0..steps {
+        let base = solid.mesh().coarsest_base();
+        let dt = solid.local_step_limit(CFL, base);
+        let substeps = 1 << (solid.mesh().levels_present()[1] - base);
+        let follows = solid.adaptation_follows(dt, substeps);
+        solid.begin_step(dt, base);
+        while !solid.clock().is_over() {
+            run(solid);
+            after(solid);
+        }
+        if follows {
+            solid.adapt(dt, substeps);
+            after(solid);
+        }
+    }
+}
+
 /// Visits every cell: its place and its state.
 pub fn each_cell<const N: usize>(solid: &SolidSolver<N>, mut visit: impl FnMut([f64; 2], ElasticState)) {
     for (slot, id) in solid.mesh().tree().leaves().iter().enumerate() {
@@ -76,17 +101,13 @@ pub fn l1<const N: usize>(
     exact: impl Fn([f64; 2]) -> ElasticState,
     pick: fn(ElasticState) -> [f64; 4],
 ) -> f64 {
-    let (mut error, mut norm) = (0.0, 0.0);
-    each_cell(solid, |place, got| {
-        for (got, want) in pick(got).into_iter().zip(pick(exact(place))) {
-            error += (got - want).abs();
-            norm += want.abs();
-        }
-    });
-    error / norm
+    relative_l1(|compare| each_cell(solid, |place, got| compare(&pick(got), &pick(exact(place)))))
 }
 
 #[path = "../../../../tests/fixture/verification.rs"]
 mod shared;
 
-pub use shared::{CFL, J1_ZEROS, j0, j1, j1_over, order, step_locally, step_together, strips};
+pub use shared::{
+    CFL, J1_ZEROS, assert_transposed, differences, j0, j1, j1_over, order, relative_l1, step_locally,
+    step_together, strips,
+};

@@ -23,46 +23,35 @@ fn dented(hardening: Option<Hardening>, adapts: bool) -> SolidSolver<8> {
 }
 
 /// Whole steps with subcycling under A exp(−r²/b²) f(t); `after` is called at the end of each step of the finest level.
-fn press(solid: &mut SolidSolver<8>, amplitude: f64, steps: usize, mut after: impl FnMut(&SolidSolver<8>)) {
+fn press(solid: &mut SolidSolver<8>, amplitude: f64, steps: usize, after: impl FnMut(&SolidSolver<8>)) {
     let mut traces = vec![];
-    for _ in 0..steps {
-        let base = solid.mesh().coarsest_base();
-        let dt = solid.local_step_limit(CFL, base);
-        let substeps = 1 << (solid.mesh().levels_present()[1] - base);
-        let follows = solid.adaptation_follows(dt, substeps);
-        solid.begin_step(dt, base);
-        while !solid.clock().is_over() {
-            while solid.clock().due().is_some() {
-                let limit = solid.due_limit(CFL);
-                let step = solid.start(limit);
-                solid.group_traces_at_mid_step(step, &mut traces);
-                let edges = solid.interface_edges();
-                let middle = step.begin + 0.5 * step.dt;
-                // On and off again within 60 µs.
-                let factor = (std::f64::consts::PI * middle / 6e-5).sin().max(0.0);
-                for (face, trace) in traces.iter().enumerate() {
-                    if solid.group_of_face(face) == step.group {
-                        let load = amplitude * factor * (-(edges[face] / 0.15).powi(2)).exp();
-                        let velocity = trace.velocity + (trace.pressure - load) / trace.impedance;
-                        let state = FaceState {
-                            pressure: load,
-                            velocity,
-                            power: load * velocity,
-                            ..FaceState::default()
-                        };
-                        solid.interface_mut().set(face, state);
-                    }
+    let run = |solid: &mut SolidSolver<8>| {
+        while solid.clock().due().is_some() {
+            let limit = solid.due_limit(CFL);
+            let step = solid.start(limit);
+            solid.group_traces_at_mid_step(step, &mut traces);
+            let edges = solid.interface_edges();
+            let middle = step.begin + 0.5 * step.dt;
+            // On and off again within 60 µs.
+            let factor = (std::f64::consts::PI * middle / 6e-5).sin().max(0.0);
+            for (face, trace) in traces.iter().enumerate() {
+                if solid.group_of_face(face) == step.group {
+                    let load = amplitude * factor * (-(edges[face] / 0.15).powi(2)).exp();
+                    let velocity = trace.velocity + (trace.pressure - load) / trace.impedance;
+                    let state = FaceState {
+                        pressure: load,
+                        velocity,
+                        power: load * velocity,
+                        ..FaceState::default()
+                    };
+                    solid.interface_mut().set(face, state);
                 }
-                solid.run(step, Part::All).unwrap();
             }
-            solid.finish().unwrap();
-            after(solid);
+            solid.run(step, Part::All).unwrap();
         }
-        if follows {
-            solid.adapt(dt, substeps);
-            after(solid);
-        }
-    }
+        solid.finish().unwrap();
+    };
+    whole_steps(solid, steps, run, after);
 }
 
 /// The largest q/Y of a cell, at no rate.

@@ -219,19 +219,7 @@ fn adaptive() -> SolidSolver<8> {
 }
 
 fn go_on(solid: &mut SolidSolver<8>, steps: usize) {
-    for _ in 0..steps {
-        let base = solid.mesh().coarsest_base();
-        let dt = solid.local_step_limit(CFL, base);
-        let substeps = 1 << (solid.mesh().levels_present()[1] - base);
-        let follows = solid.adaptation_follows(dt, substeps);
-        solid.begin_step(dt, base);
-        while !solid.clock().is_over() {
-            solid.sub_step(CFL).unwrap();
-        }
-        if follows {
-            solid.adapt(dt, substeps);
-        }
-    }
+    whole_steps(solid, steps, |solid| solid.sub_step(CFL).unwrap(), |_| {});
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The columns of the fluid's histories.
 
 use crate::output::Column;
-use crate::run::record::column;
+use crate::run::record::{PROBE_VELOCITY, TIME_AFTER_STEP, column};
 
 /// Name, unit and description of what is recorded of each of several bubbles.
 pub(super) const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
@@ -12,8 +12,8 @@ pub(super) const BUBBLE_COLUMNS: [(&str, &str, &str); 4] = [
 ];
 
 /// Every step.
-pub(super) const STEP_COLUMNS: [Column<'static>; 20] = [
-    column("time", "s", "time after the step"),
+pub(super) const STEP_COLUMNS: [Column<'static>; 12] = [
+    TIME_AFTER_STEP,
     column("time_step", "s", "length of the step"),
     column("bubble/volume", "m3", "volume integral of the gas fraction where it exceeds 1e-6"),
     column("bubble/equivalent_radius", "m", "radius of the ball of that volume"),
@@ -29,26 +29,14 @@ pub(super) const STEP_COLUMNS: [Column<'static>; 20] = [
     column("bubble/gas_mass", "kg", "mass of the gas (planar: kg/m); NaN where phases have no masses"),
     column("wall/pressure_axis", "Pa", "cell mean at z_min on the axis"),
     column("wall/pressure_max", "Pa", "largest cell mean along z_min"),
-    column("fixups/first_order", "1", "cell-steps at first order so far"),
-    column("fixups/redone", "1", "cell-steps done again at first order so far"),
-    column("fixups/redone_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
-    column("fixups/floored", "1", "cell-steps lifted to the pressure floor so far"),
-    column("fixups/floored_volume", "m3/rad", "volume of those cells, summed over the steps (planar: m2)"),
-    column("fixups/floor_energy", "J/rad", "energy that the floor added so far (planar: J/m)"),
-    column(
-        "fixups/gas_mass_added",
-        "kg/rad",
-        "mass that the gas got from the liquid where it had less than none",
-    ),
-    column("fixups/liquid_mass_added", "kg/rad", "mass that the liquid got from the gas, likewise"),
 ];
 
 /// At a probe.
 pub(super) const PROBE_COLUMNS: [Column<'static>; 6] = [
-    column("time", "s", "time after the step"),
+    TIME_AFTER_STEP,
     column("pressure", "Pa", "pressure; on the interface that of the star state"),
     column("density", "kg/m3", "density"),
-    column("velocity_z", "m/s", "axial velocity; on the interface that of the star state"),
-    column("velocity_r", "m/s", "radial velocity"),
+    PROBE_VELOCITY[0],
+    PROBE_VELOCITY[1],
     column("gas_fraction", "1", "gas fraction"),
 ];

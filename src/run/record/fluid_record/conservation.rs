@@ -4,7 +4,20 @@ use fluid::FluidSolver;
 use mesh::BLOCK;
 
 use crate::output::Column;
-use crate::run::record::column;
+use crate::run::record::{MOMENTUM, TIME, column, through_sides};
+
+/// Its columns.
+pub fn columns() -> Vec<Column<'static>> {
+    let mut columns = TOTALS.to_vec();
+    for side in 0..4 {
+        columns.extend(THROUGH_SIDES.map(|quantity| quantity[side]));
+    }
+    columns.extend(FLOOR_AND_INTERFACE);
+    columns.push(GAS);
+    columns.extend(GAS_THROUGH_SIDES);
+    columns.extend(OTHERS);
+    columns
+}
 
 /// A row of it.
 pub fn row(solver: &FluidSolver<BLOCK>) -> Vec<f64> {
@@ -23,27 +36,41 @@ pub fn row(solver: &FluidSolver<BLOCK>) -> Vec<f64> {
     row
 }
 
-pub const COLUMNS: [Column<'static>; 30] = [
-    column("time", "s", "time"),
+const TOTALS: [Column<'static>; 4] = [
+    TIME,
     column("mass", "kg/rad", "mass in the domain (planar: kg/m)"),
-    column("momentum_z", "N s/rad", "axial momentum in the domain"),
+    MOMENTUM,
     column("energy", "J/rad", "energy in the domain"),
-    column(
-        "mass_in_z_min",
+];
+
+/// Mass, momentum and energy that came in, on each side.
+const THROUGH_SIDES: [[Column<'static>; 4]; 3] = [
+    through_sides!(
+        "mass",
         "kg/rad",
-        "mass that came in through z_min; under a solid the wall's motion carries it",
+        [
+            "mass that came in through z_min; under a solid the wall's motion carries it",
+            "the same through z_max",
+            "the same through "
+        ]
     ),
-    column("momentum_in_z_min", "N s/rad", "axial momentum and impulse of the pressure through z_min"),
-    column("energy_in_z_min", "J/rad", "energy and work of the pressure through z_min"),
-    column("mass_in_z_max", "kg/rad", "the same through z_max"),
-    column("momentum_in_z_max", "N s/rad", "the same through z_max"),
-    column("energy_in_z_max", "J/rad", "the same through z_max"),
-    column("mass_in_r_min", "kg/rad", "the same through r_min"),
-    column("momentum_in_r_min", "N s/rad", "the same through r_min"),
-    column("energy_in_r_min", "J/rad", "the same through r_min"),
-    column("mass_in_r_max", "kg/rad", "the same through r_max"),
-    column("momentum_in_r_max", "N s/rad", "the same through r_max"),
-    column("energy_in_r_max", "J/rad", "the same through r_max"),
+    through_sides!(
+        "momentum",
+        "N s/rad",
+        [
+            "axial momentum and impulse of the pressure through z_min",
+            "the same through z_max",
+            "the same through "
+        ]
+    ),
+    through_sides!(
+        "energy",
+        "J/rad",
+        ["energy and work of the pressure through z_min", "the same through z_max", "the same through "]
+    ),
+];
+
+const FLOOR_AND_INTERFACE: [Column<'static>; 3] = [
     column("energy_from_floor", "J/rad", "energy that the pressure floor added"),
     column(
         "interface_impulse",
@@ -51,19 +78,25 @@ pub const COLUMNS: [Column<'static>; 30] = [
         "impulse of p* on the interface: minus the solid's momentum_in_z_max",
     ),
     column("interface_work", "J/rad", "work of p* on the fluid: minus the solid's energy_in_z_max"),
-    column(
-        "gas_mass",
-        "kg/rad",
-        "mass of the gas in the domain (planar: kg/m); NaN where phases have no masses",
-    ),
-    column(
-        "gas_mass_in_z_min",
-        "kg/rad",
+];
+
+const GAS: Column<'static> = column(
+    "gas_mass",
+    "kg/rad",
+    "mass of the gas in the domain (planar: kg/m); NaN where phases have no masses",
+);
+
+const GAS_THROUGH_SIDES: [Column<'static>; 4] = through_sides!(
+    "gas_mass",
+    "kg/rad",
+    [
         "mass of the gas that came in through z_min; under a solid the wall's motion carries it",
-    ),
-    column("gas_mass_in_z_max", "kg/rad", "the same through z_max"),
-    column("gas_mass_in_r_min", "kg/rad", "the same through r_min"),
-    column("gas_mass_in_r_max", "kg/rad", "the same through r_max"),
+        "the same through z_max",
+        "the same through "
+    ]
+);
+
+const OTHERS: [Column<'static>; 6] = [
     column(
         "gas_mass_from_fixups",
         "kg/rad",

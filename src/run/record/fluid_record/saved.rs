@@ -1,19 +1,17 @@
 //! What a checkpoint holds of the fluid's record.
 
-use fluid::{Bubble, BubbleCuts, FluidSolver};
+use fluid::FluidSolver;
 use mesh::{BLOCK, Misfit};
 use serde::{Deserialize, Serialize};
 
 use super::files::names;
-use super::{FluidRecord, Peaks};
+use super::{FluidRecord, Seen};
 use crate::case::Case;
 use crate::output::RunDirectory;
 use crate::run::RunError;
-use crate::run::record::collapse::CollapseFinder;
-use crate::run::record::film::ThinnestFilm;
 use crate::run::record::interface_history::{InterfaceHistory, InterfaceState};
 use crate::run::record::side_files::{FilesState, SideFiles};
-use crate::run::record::{CellCount, StepEnds, Ticker, restore_probes, saved_probes};
+use crate::run::record::{StepEnds, Ticker, restore_probes, saved_probes};
 
 /// What of a record changes in time, and what hangs on the state at t = 0.
 #[derive(Serialize, Deserialize)]
@@ -23,14 +21,7 @@ pub struct FluidRecordState {
     ticker: Ticker,
     probes: Vec<StepEnds>,
     wall_pressures: Vec<f64>,
-    cells: CellCount,
-    collapse: CollapseFinder,
-    peaks: Peaks,
-    last_bubble: Bubble,
-    largest_thin_volume: f64,
-    collapse_energy: f64,
-    cuts: BubbleCuts,
-    film: ThinnestFilm,
+    seen: Seen,
 }
 
 impl FluidRecord {
@@ -43,21 +34,7 @@ impl FluidRecord {
     ) -> Result<Self, RunError> {
         let files = SideFiles::resume(case, directory, names(solver), &saved.files)?;
         let mut record = Self::on(case, files, solver)?;
-        let FluidRecordState {
-            files,
-            interface,
-            ticker,
-            probes,
-            wall_pressures,
-            cells,
-            collapse,
-            peaks,
-            last_bubble,
-            largest_thin_volume,
-            collapse_energy,
-            cuts,
-            film,
-        } = saved;
+        let FluidRecordState { files, interface, ticker, probes, wall_pressures, seen } = saved;
         match (&mut record.interface, interface) {
             (Some(own), Some(saved)) => own.restore(saved, &record.faces, &mut record.files.history)?,
             (None, None) => {}
@@ -66,14 +43,7 @@ impl FluidRecord {
         record.ticker = ticker;
         restore_probes(&mut record.probes, probes)?;
         record.wall_pressures = wall_pressures;
-        record.cells = cells;
-        record.collapse = collapse;
-        record.peaks = peaks;
-        record.last_bubble = last_bubble;
-        record.largest_thin_volume = largest_thin_volume;
-        record.collapse_energy = collapse_energy;
-        record.cuts = cuts;
-        record.film.thinnest = film;
+        record.seen = seen;
         record.files.forget_rows(&files)?;
         Ok(record)
     }
@@ -84,7 +54,7 @@ impl FluidRecord {
         let Self {
             files,
             steps: _,
-            clips: _,
+            fixups: _,
             bubbles: _,
             interface,
             conservation: _,
@@ -96,14 +66,8 @@ impl FluidRecord {
             // Made anew after each step.
             wall_shears: _,
             wall_heat: _,
-            cells,
-            collapse,
-            peaks,
-            last_bubble,
-            largest_thin_volume,
-            collapse_energy,
-            cuts,
-            film,
+            film: _,
+            seen,
             cells_per_radius: _,
         } = self;
         FluidRecordState {
@@ -112,14 +76,7 @@ impl FluidRecord {
             ticker: *ticker,
             probes: saved_probes(probes),
             wall_pressures: wall_pressures.clone(),
-            cells: *cells,
-            collapse: collapse.clone(),
-            peaks: *peaks,
-            last_bubble: *last_bubble,
-            largest_thin_volume: *largest_thin_volume,
-            collapse_energy: *collapse_energy,
-            cuts: cuts.clone(),
-            film: film.thinnest,
+            seen: seen.clone(),
         }
     }
 }

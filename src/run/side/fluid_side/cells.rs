@@ -14,33 +14,33 @@ impl FluidSide {
     /// Begins a step of one of the paper's schemes.
     pub(super) fn begin_exchange(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
         // The Courant number of this step: the limit belongs to `cfl`.
-        let courant = self.rule.cfl * plan.dt / self.solver.time_step_limit(self.rule.cfl);
+        let courant = self.own.rule.cfl * plan.dt / self.own.solver.time_step_limit(self.own.rule.cfl);
         let Some(cells) = &mut self.cells else { return Ok(()) };
         let start = Instant::now();
-        cells.begin(&self.solver, plan.dt, courant);
+        cells.begin(&self.own.solver, plan.dt, courant);
         let (scheme, first) = (cells.scheme(), cells.first());
-        self.clock.computing += start.elapsed();
+        self.own.clock.computing += start.elapsed();
         match (scheme, first) {
             (Scheme::Strong, _) => {
                 let start = Instant::now();
-                let step = coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?;
-                self.clock.computing += start.elapsed();
+                let step = coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?;
+                self.own.clock.computing += start.elapsed();
                 self.try_step(link, plan, step)?;
             }
             (Scheme::Weak, Participant::Fluid) => {
                 // The step's number and time are those of its beginning.
-                let header = self.header(FrameKind::Trace, self.edges.len(), plan.dt);
+                let header = self.header(FrameKind::Trace, self.own.edges.len(), plan.dt);
                 self.step_beside(plan)?;
                 self.send_cells(link, header, plan)?;
                 self.pending = Some(Pending::Made);
             }
             (Scheme::Weak, Participant::Solid) => {
-                let header = self.header(FrameKind::Trace, self.edges.len(), plan.dt);
+                let header = self.header(FrameKind::Trace, self.own.edges.len(), plan.dt);
                 self.send_cells(link, header, plan)?;
                 self.pending = Some(Pending::Late(plan));
             }
             _ => {
-                let header = self.header(FrameKind::Trace, self.edges.len(), plan.dt);
+                let header = self.header(FrameKind::Trace, self.own.edges.len(), plan.dt);
                 self.send_cells(link, header, plan)?;
                 self.step_beside(plan)?;
                 self.pending = Some(Pending::Made);
@@ -53,26 +53,26 @@ impl FluidSide {
     pub(super) fn step_beside(&mut self, plan: Plan) -> Result<(), RunError> {
         let start = Instant::now();
         if let Some(cells) = &self.cells {
-            cells.set_wall(&mut self.solver);
+            cells.set_wall(&mut self.own.solver);
         }
-        self.solver.step(plan.dt)?;
-        self.clock.computing += start.elapsed();
+        self.own.solver.step(plan.dt)?;
+        self.own.clock.computing += start.elapsed();
         self.recorded(plan)
     }
 
     /// Sends the pressures of the cells at the wall: of the solver's state, or in a trial those to be tried.
     fn send_cells(&self, link: &mut impl Link, header: FrameHeader, plan: Plan) -> Result<(), RunError> {
-        let faces = self.edges.len();
+        let faces = self.own.edges.len();
         let mut header = FrameHeader { fields: TraceRow::COUNT as u64, ..header };
         if plan.snapshot {
             header.flags |= FrameHeader::SNAPSHOT;
         }
         link.send(header, |payload| {
-            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(&self.edges);
+            payload[TraceRow::Edge as usize * faces..][..faces].copy_from_slice(&self.own.edges);
             let pressures = &mut payload[TraceRow::Pressure as usize * faces..][..faces];
             match self.cells.as_ref().filter(|_| header.has(FrameHeader::TRIAL)) {
-                Some(cells) => cells.trial_pressures(&self.solver, |face, p| pressures[face] = p),
-                None => self.solver.wall_cells(false, |face, p, _| pressures[face] = p),
+                Some(cells) => cells.trial_pressures(&self.own.solver, |face, p| pressures[face] = p),
+                None => self.own.solver.wall_cells(false, |face, p, _| pressures[face] = p),
             }
         })?;
         Ok(())
@@ -83,7 +83,7 @@ impl FluidSide {
         if self.cells.as_ref().is_some_and(|cells| cells.first() == Participant::Fluid) {
             self.run_at_wall(step)?;
         }
-        let mut header = self.header(FrameKind::Trace, self.edges.len(), plan.dt);
+        let mut header = self.header(FrameKind::Trace, self.own.edges.len(), plan.dt);
         header.flags |= FrameHeader::TRIAL;
         self.send_cells(link, header, plan)?;
         self.pending = Some(Pending::Trial(plan, step));
@@ -94,10 +94,10 @@ impl FluidSide {
     fn run_at_wall(&mut self, step: GroupStep) -> Result<(), RunError> {
         let start = Instant::now();
         if let Some(cells) = &self.cells {
-            cells.set_wall(&mut self.solver);
+            cells.set_wall(&mut self.own.solver);
         }
-        self.solver.run(step, Part::AtInterface)?;
-        self.clock.computing += start.elapsed();
+        self.own.solver.run(step, Part::AtInterface)?;
+        self.own.clock.computing += start.elapsed();
         Ok(())
     }
 
@@ -111,7 +111,7 @@ impl FluidSide {
         if self.cells.as_ref().is_some_and(|cells| cells.first() == Participant::Solid) {
             self.run_at_wall(step)?;
         }
-        if !self.cells.as_mut().is_some_and(|cells| cells.compare(&self.solver)) {
+        if !self.cells.as_mut().is_some_and(|cells| cells.compare(&self.own.solver)) {
             return self.try_step(link, plan, step);
         }
         let mut header = self.header(FrameKind::Trace, 0, plan.dt);
@@ -119,8 +119,8 @@ impl FluidSide {
         link.send(header, |_| {})?;
         self.pending = Some(Pending::Made);
         let start = Instant::now();
-        self.solver.finish()?;
-        self.clock.computing += start.elapsed();
+        self.own.solver.finish()?;
+        self.own.clock.computing += start.elapsed();
         self.recorded(plan)
     }
 }

@@ -1,33 +1,31 @@
 //! What the step loops need of the fluid's side.
 
-use coupler::{Link, LinkCounters};
-use fluid::FluidSolver;
-use mesh::BLOCK;
+use crate::run::record::fluid_record::FluidRecord;
+use coupler::{Link, LinkCounters, Participant};
 use serde_json::{Map, Value};
 
 use super::{FluidSide, Turn};
-use crate::output::ProgressLine;
 use crate::output::run_directory::FLUID_SUMMARY;
+use crate::output::{OutputError, ProgressLine};
 use crate::run::RunError;
 use crate::run::checkpoints::Keeper;
 use crate::run::process::stop::Stop;
-use crate::run::record::timed::{Clock, Timed};
+use crate::run::record::timed::Timed;
 use crate::run::side::RunSide;
 use crate::run::side::cell_exchange::CellExchange;
 use crate::run::side::coupled_solver;
-use crate::run::side::past::Past;
 
 impl RunSide for FluidSide {
-    type Solver = FluidSolver<BLOCK>;
+    type Record = FluidRecord;
     const NAME: &'static str = "fluid";
     const SUMMARY: &'static str = FLUID_SUMMARY;
 
     fn step_alone(&mut self) -> Result<bool, RunError> {
-        let own = self.rule.alone(&self.solver).limit;
+        let own = self.own.rule.alone(&self.own.solver).limit;
         let Some(plan) = self.plan(own, f64::INFINITY)? else { return Ok(false) };
-        let timed = Timed::new(&mut self.clock);
-        let after = timed.recorded(&mut self.record, plan);
-        coupled_solver::step_alone(&mut self.solver, plan.dt, &self.rule, |_, _| (), after)?;
+        let timed = Timed::new(&mut self.own.clock);
+        let after = timed.recorded(&mut self.own.record, plan);
+        coupled_solver::step_alone(&mut self.own.solver, plan.dt, &self.own.rule, |_, _| (), after)?;
         self.adapt_if_due()?;
         Ok(true)
     }
@@ -36,49 +34,20 @@ impl RunSide for FluidSide {
         if self.complete(link)? { self.begin(link, stop) } else { Ok(Turn::Continues) }
     }
 
-    fn close(&mut self, failed: bool) -> Result<(), RunError> {
-        if let Some(record) = &mut self.record {
-            record.close(&self.solver, failed)?;
-        }
-        Ok(())
-    }
-
     fn summary(&self) -> Map<String, Value> {
-        let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
+        let mut part = self.own.summary();
         if let Some(iterations) = self.cells.as_ref().and_then(CellExchange::summary) {
             part.insert("coupling_iterations".to_owned(), iterations);
         }
         part
     }
 
-    fn solver(&self) -> &Self::Solver {
-        &self.solver
-    }
-
-    fn clock(&self) -> Clock {
-        self.clock
-    }
-
-    fn past(&self) -> &Past {
-        &self.past
-    }
-
-    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError> {
-        if is_stopped || self.keeper.as_ref().is_some_and(Keeper::is_due) {
-            self.keep(LinkCounters::default())?;
-        }
-        Ok(())
+    fn keep_by(&self, keeper: &mut Keeper, step: u64, counters: LinkCounters) -> Result<(), OutputError> {
+        keeper.write(Participant::Fluid, step, &self.saved(counters))
     }
 
     fn line(&self) -> ProgressLine {
-        ProgressLine {
-            time: self.solver.time(),
-            step: self.solver.steps(),
-            dt: self.last_dt,
-            limited_by: self.limited_by.to_owned(),
-            cells: (self.solver.mesh().cells() as u64).saturating_add(self.answer.cells),
-            solid_cells: self.answer.cells,
-            wall: 0.0,
-        }
+        let (own, solid_cells) = (self.own.line(self.limited_by), self.answer.cells);
+        ProgressLine { cells: own.cells.saturating_add(solid_cells), solid_cells, ..own }
     }
 }

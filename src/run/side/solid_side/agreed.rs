@@ -16,7 +16,7 @@ impl SolidSide {
         if !is_yours {
             frame.require(FrameKind::Trace)?;
         }
-        frame.require_time(self.solver.time())?;
+        frame.require_time(self.own.solver.time())?;
         if header.has(FrameHeader::LAST) {
             return Ok(());
         }
@@ -30,13 +30,13 @@ impl SolidSide {
             None if tries && self.scheme != Scheme::Strong => refuse("is a trial in a scheme without"),
             None if settles => refuse("settles a step that was not tried"),
             Some(_) if is_yours || tries == settles => refuse("leaves a step that was tried"),
-            Some(_) => frame.require_step(self.solver.time(), StepLength::Is(self.last_dt)),
+            Some(_) => frame.require_step(self.own.solver.time(), StepLength::Is(self.own.last_dt)),
             None => {
                 let most = self.longest_step();
                 // Its own steps within are as many as agreed, too.
-                let own = if is_yours { self.rule.most_steps() * frame.require_limit()? } else { most };
+                let own = if is_yours { self.own.rule.most_steps() * frame.require_limit()? } else { most };
                 let room = 1.0 + OVER_LIMIT;
-                frame.require_step(self.solver.time(), StepLength::AtMost(room * most.min(own)))
+                frame.require_step(self.own.solver.time(), StepLength::AtMost(room * most.min(own)))
             }
         }
     }
@@ -44,7 +44,7 @@ impl SolidSide {
     /// The longest step that the fluid may plan from here, s: none goes beyond the end of the run, and none of our own fluid's is
     /// longer than this side has said that it can follow.
     fn longest_step(&self) -> f64 {
-        let left = self.end * (1.0 + OVER_LIMIT) - self.solver.time();
-        if self.scheme == Scheme::External { left } else { left.min(self.rule.longest(self.promised)) }
+        let left = self.end * (1.0 + OVER_LIMIT) - self.own.solver.time();
+        if self.scheme == Scheme::External { left } else { left.min(self.own.rule.longest(self.promised)) }
     }
 }

@@ -20,14 +20,14 @@ impl SolidSide {
         plan: Plan,
         stop: &Stop,
     ) -> Result<(), RunError> {
-        let (step, time) = (self.solver.steps(), self.solver.time());
+        let (step, time) = (self.own.solver.steps(), self.own.solver.time());
         let adapts = self.adapts(plan.dt);
         let start = Instant::now();
         match self.trial.take() {
-            Some(_) => self.solver.finish()?,
-            None => self.solver.step(plan.dt)?,
+            Some(_) => self.own.solver.finish()?,
+            None => self.own.solver.step(plan.dt)?,
         }
-        self.clock.computing += start.elapsed();
+        self.own.clock.computing += start.elapsed();
         self.recorded(plan)?;
         self.adapt_if(adapts, plan.dt)?;
         self.answer_with_cells(link, (step, time), stop)
@@ -38,12 +38,12 @@ impl SolidSide {
         let start = Instant::now();
         let step = match self.trial {
             Some(step) => step,
-            None => coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?,
+            None => coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?,
         };
         self.trial = Some(step);
-        self.solver.run(step, Part::AtInterface)?;
-        self.clock.computing += start.elapsed();
-        self.answer_with_cells(link, (self.solver.steps(), self.solver.time()), stop)
+        self.own.solver.run(step, Part::AtInterface)?;
+        self.own.clock.computing += start.elapsed();
+        self.answer_with_cells(link, (self.own.solver.steps(), self.own.solver.time()), stop)
     }
 
     /// Sends the velocities of the cells under the surface: of the new state that is tried, or of the state.
@@ -63,7 +63,7 @@ impl SolidSide {
             ..self.header(FrameKind::Register, RegisterRow::COUNT, stop)
         };
         let is_trial = self.trial.is_some();
-        let (solver, interface, edges) = (&self.solver, &mut self.exchange, &self.fluid_edges);
+        let (solver, interface, edges) = (&self.own.solver, &mut self.exchange, &self.fluid_edges);
         link.send(header, |payload| {
             solver.write_cell_velocities(interface, edges, is_trial, |row, face, value| {
                 payload[row as usize * faces + face] = value;

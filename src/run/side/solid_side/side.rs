@@ -1,52 +1,52 @@
 //! What the step loop asks of the solid's side.
 
-use coupler::{FrameHeader, FrameKind, Link, LinkCounters};
+use coupler::{FrameHeader, FrameKind, Link, LinkCounters, Participant};
 use mesh::BLOCK;
 use serde_json::{Map, Value, json};
 use solid::SolidSolver;
 
 use super::SolidSide;
 use crate::output::run_directory::SOLID_SUMMARY;
-use crate::output::{ProgressLine, RunDirectory};
+use crate::output::{OutputError, ProgressLine, RunDirectory};
 use crate::run::RunError;
 use crate::run::checkpoints::Keeper;
 use crate::run::process::stop::Stop;
 use crate::run::record::solid_record::SolidRecord;
-use crate::run::record::timed::{Clock, Timed};
+use crate::run::record::timed::Timed;
 use crate::run::schedule::Plan;
 use crate::run::side::RunSide;
 use crate::run::side::coupled_solver;
 use crate::run::side::fluid_side::Turn;
-use crate::run::side::past::Past;
 
 impl RunSide for SolidSide {
-    type Solver = SolidSolver<BLOCK>;
+    type Record = SolidRecord;
     const NAME: &'static str = "solid";
     const SUMMARY: &'static str = SOLID_SUMMARY;
 
     fn step_alone(&mut self) -> Result<bool, RunError> {
-        let limit = self.rule.unless_collapsed(self.rule.alone(&self.solver).limit, &self.solver)?;
-        let Some(plan) = self.schedule.plan(self.solver.time(), limit) else { return Ok(false) };
-        self.last_dt = plan.dt;
+        let limit =
+            self.own.rule.unless_collapsed(self.own.rule.alone(&self.own.solver).limit, &self.own.solver)?;
+        let Some(plan) = self.own.schedule.plan(self.own.solver.time(), limit) else { return Ok(false) };
+        self.own.last_dt = plan.dt;
         let adapts = self.adapts(plan.dt);
-        let timed = Timed::new(&mut self.clock);
+        let timed = Timed::new(&mut self.own.clock);
         let load = &mut self.load;
         let press = |solver: &mut SolidSolver<BLOCK>, step| {
             if let Some(load) = load {
                 load.press(solver, step);
             }
         };
-        let after = timed.recorded(&mut self.record, plan);
-        coupled_solver::step_alone(&mut self.solver, plan.dt, &self.rule, press, after)?;
+        let after = timed.recorded(&mut self.own.record, plan);
+        coupled_solver::step_alone(&mut self.own.solver, plan.dt, &self.own.rule, press, after)?;
         self.end_if_settled(plan)?;
-        self.adapt_if(adapts && !self.schedule.is_over(), plan.dt)?;
+        self.adapt_if(adapts && !self.own.schedule.is_over(), plan.dt)?;
         Ok(true)
     }
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         self.settle(link)?;
         // As they stand before this frame, which comes again if the run is taken up here.
-        let counters = self.keeper.is_some().then(|| link.counters());
+        let counters = self.own.keeper.is_some().then(|| link.counters());
         let header = link.receive(|frame| {
             self.require_turn(frame)?;
             if frame.header.has(FrameHeader::CHECKPOINT)
@@ -72,7 +72,7 @@ impl RunSide for SolidSide {
             self.begin_long(link, plan, stop)?;
             return Ok(Turn::Continues);
         }
-        self.last_dt = plan.dt;
+        self.own.last_dt = plan.dt;
         self.fluids_step = f64::INFINITY;
         if header.has(FrameHeader::TRIAL) {
             self.try_step(link, plan, stop)?;
@@ -84,54 +84,25 @@ impl RunSide for SolidSide {
         Ok(Turn::Continues)
     }
 
-    fn close(&mut self, failed: bool) -> Result<(), RunError> {
-        if let Some(record) = &mut self.record {
-            record.close(&self.solver, failed)?;
-        }
-        Ok(())
-    }
-
     fn leave(&self, directory: &RunDirectory) -> Result<(), RunError> {
         let Some(wall) = &self.wall else { return Ok(()) };
-        let surface = self.record.as_ref().and_then(SolidRecord::surface);
+        let surface = self.own.record.as_ref().and_then(SolidRecord::surface);
         let displacement = surface.map_or_else(Vec::new, |surface| surface.displacement().profile());
-        Ok(wall.leave(&self.solver, displacement, directory)?)
+        Ok(wall.leave(&self.own.solver, displacement, directory)?)
     }
 
     fn summary(&self) -> Map<String, Value> {
-        let mut part = self.record.as_ref().map_or_else(Map::new, |record| record.summary(&self.solver));
-        part.insert("fixups".to_owned(), json!({ "floored_stars": self.meeting.floored() }));
+        let mut part = self.own.summary();
+        part.insert("fixups".to_owned(), json!({ "floored_stars": self.own.meeting.floored() }));
         part
     }
 
-    fn solver(&self) -> &Self::Solver {
-        &self.solver
-    }
-
-    fn clock(&self) -> Clock {
-        self.clock
-    }
-
-    fn past(&self) -> &Past {
-        &self.past
-    }
-
-    fn keep_alone(&mut self, is_stopped: bool) -> Result<(), RunError> {
-        if is_stopped || self.keeper.as_ref().is_some_and(Keeper::is_due) {
-            self.keep(self.solver.steps(), LinkCounters::default())?;
-        }
-        Ok(())
+    fn keep_by(&self, keeper: &mut Keeper, step: u64, counters: LinkCounters) -> Result<(), OutputError> {
+        keeper.write(Participant::Solid, step, &self.saved(counters))
     }
 
     fn line(&self) -> ProgressLine {
-        ProgressLine {
-            time: self.solver.time(),
-            step: self.solver.steps(),
-            dt: self.last_dt,
-            limited_by: "solid".to_owned(),
-            cells: self.solver.mesh().cells() as u64,
-            solid_cells: self.solver.mesh().cells() as u64,
-            wall: 0.0,
-        }
+        let own = self.own.line("solid");
+        ProgressLine { solid_cells: own.cells, ..own }
     }
 }

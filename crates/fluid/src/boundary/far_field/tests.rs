@@ -63,12 +63,7 @@ const FACES: [(Side, [f64; 2]); 6] = [
 ];
 
 fn normal_component(side: Side, [z, r]: [f64; 2]) -> f64 {
-    match side {
-        Side::ZMin => -z,
-        Side::ZMax => z,
-        Side::RMin => -r,
-        Side::RMax => r,
-    }
+    [-z, z, -r, r][side as usize]
 }
 
 /// Whatever the source does, and also when nothing is known of it.

@@ -15,16 +15,8 @@ fn state(phase: Phase, pressure: f64) -> PhaseState {
 
 /// Bubbles (centre, radius, pressure) in liquid at [`FAR`].
 fn bubbles(spheres: &[[f64; 3]]) -> InitialCondition {
-    let region = |&[centre, radius, pressure]: &[f64; 3]| Region {
-        shape: Shape::Sphere { centre: [centre, 0.0], radius },
-        state: state(Phase::Gas, pressure),
-    };
-    InitialCondition {
-        ambient: state(Phase::Liquid, FAR),
-        pressure: InitialPressure::Rayleigh,
-        regions: spheres.iter().map(region).collect(),
-        pulses: vec![],
-    }
+    let balls = spheres.iter().map(|&[z, radius, pressure]| ([z, radius], state(Phase::Gas, pressure)));
+    InitialCondition::of_balls(state(Phase::Liquid, FAR), InitialPressure::Rayleigh, balls)
 }
 
 fn field(spheres: &[[f64; 3]], wall: Option<f64>) -> RayleighField {

@@ -1,7 +1,6 @@
 //! Tests of the rows against the scalar solver.
 
 use super::*;
-use crate::StiffenedGas;
 use crate::reconstruction::dispersion::{AlongFaces, Dispersion};
 use crate::riemann::exact_riemann::tests::{Random, extreme, reference};
 use crate::riemann::exact_riemann::{Side, sample, star_state};
@@ -96,7 +95,7 @@ fn random_states_are_the_scalar_solver_s() {
 }
 
 fn water_and_gas() -> Mixture {
-    Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 })
+    Mixture::water_and_air()
 }
 
 /// Padded rows of mixed states with jumps up to a thousandfold, and something that is no state.

@@ -4,7 +4,6 @@ use crate::state::COUNT;
 use mesh::{Limiter, Padded};
 
 use super::*;
-use crate::StiffenedGas;
 use crate::reconstruction::Reconstruction;
 use crate::reconstruction::dispersion::{AlongFaces, Dispersion};
 use crate::reconstruction::predictor::{Predicted, Predictor, predict};
@@ -33,7 +32,7 @@ fn waves() -> Padded<N> {
 
 /// What a block of liquid goes through in a step, row by row; the gas fraction's rows hold zeros before it.
 fn stepped(limiter: Limiter, with_gas: bool) -> Vec<Vec<f64>> {
-    let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+    let mixture = Mixture::water_and_air();
     let mut cells = waves();
     let own = |c: usize| -> Vec<f64> {
         (0..N as isize).flat_map(|j| cells.component(c)[Padded::<N>::index(0, j)..][..N].to_vec()).collect()

@@ -42,13 +42,8 @@ impl Spreading for ConductionTerm {
     }
 
     /// The largest rate of decay is no more than twice the largest Σ G_f A_f/(C V) of a cell (Gershgorin).
-    fn begin(
-        &self,
-        block: &TermBlock<'_>,
-        work: &mut Vec<f64>,
-        constants: &mut [f64],
-        values: &mut [f64],
-    ) -> f64 {
+    fn begin(&self, block: &TermBlock<'_>, work: &mut Vec<f64>, kept: [&mut [f64]; 2]) -> f64 {
+        let [constants, values] = kept;
         let mut work = Work::of(work, block);
         self.gather(&block.state, block, &mut work);
         for_cells_without_mid_step(block, |k| {

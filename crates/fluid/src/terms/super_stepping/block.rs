@@ -42,7 +42,7 @@ impl SpreadBlock {
             wall: wall.map(<[_]>::to_vec),
         };
         let mut begun = Self::new(slot, frame, of);
-        let fastest = of.begin(block, work, &mut begun.constants, &mut begun.start);
+        let fastest = of.begin(block, work, [&mut begun.constants, &mut begun.start]);
         (begun, fastest)
     }
 

@@ -50,13 +50,8 @@ impl Spreading for Viscosity {
         density.iter().zip(phi).map(of).fold(0.0, f64::max)
     }
 
-    fn begin(
-        &self,
-        block: &TermBlock<'_>,
-        _work: &mut Vec<f64>,
-        constants: &mut [f64],
-        values: &mut [f64],
-    ) -> f64 {
+    fn begin(&self, block: &TermBlock<'_>, _work: &mut Vec<f64>, kept: [&mut [f64]; 2]) -> f64 {
+        let [constants, values] = kept;
         let len = block.state[RHO].len();
         let (v_z, v_r) = values.split_at_mut(len);
         Velocities { v_z, v_r }.gather(block);

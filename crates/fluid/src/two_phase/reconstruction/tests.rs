@@ -1,7 +1,6 @@
 //! Face states of mixed cells against bounds and limits.
 
 use super::*;
-use crate::StiffenedGas;
 use crate::two_phase::FaceState;
 
 /// Five cells and what windows look at beyond them.
@@ -12,12 +11,13 @@ fn rows(cell: impl Fn(f64, f64) -> [f64; 6]) -> [Vec<f64>; 6] {
     std::array::from_fn(|c| (0..5 * STRIDE).map(|k| at(k)[c]).collect())
 }
 
-fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState; 4] {
-    let mixture = Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
+/// The states on the faces of the cell in the middle.
+fn middle_of(rows: &[Vec<f64>; 6], limiter: Limiter, options: TwoPhaseOptions, dt: f64) -> FaceStates {
+    let mixture = Mixture::water_and_air();
     let inverse_r = [0.0; 5 * STRIDE];
     let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
     let rule = CellRule {
-        limiter: Limiter::Mc,
+        limiter,
         inverse_h: [1e4, 1e4],
         inverse_r: &inverse_r,
         dt,
@@ -30,6 +30,11 @@ fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState
     };
     let mut states = FaceStates::default();
     face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &rule, &mut states);
+    states
+}
+
+fn states(rows: &[Vec<f64>; 6], options: TwoPhaseOptions, dt: f64) -> [FaceState; 4] {
+    let states = middle_of(rows, Limiter::Mc, options, dt);
     [0, 1, 2, 3].map(|face| states.of(0, face))
 }
 
@@ -63,25 +68,7 @@ fn at_uniform_pressure_and_velocity_only_the_gas_fraction_differs() {
 fn what_is_bounded_is_told() {
     let options = TwoPhaseOptions { has_closure: true, is_sharp: false };
     let bounded = |cell: &dyn Fn(f64) -> [f64; 6]| {
-        let rows = rows(|z, _| cell(z));
-        let mixture =
-            Mixture::new(StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 });
-        let cells = Cells { rows: rows.each_ref().map(|row| &row[..]), stride: STRIDE };
-        let rule = CellRule {
-            limiter: Limiter::None,
-            inverse_h: [1e4, 1e4],
-            inverse_r: &[0.0; 5 * STRIDE],
-            dt: 1e-12,
-            mixture: &mixture,
-            options,
-            is_low_mach: false,
-            velocity_gain: None,
-            jumps: None,
-            excess: None,
-        };
-        let mut states = FaceStates::default();
-        let window = Window { first: 2 * STRIDE + 2, step: 1, listed: 1 };
-        face_states(&cells, &[window], &rule, &mut states);
+        let states = middle_of(&rows(|z, _| cell(z)), Limiter::None, options, 1e-12);
         states.bounded()[0].map(|lanes| lanes & 1)
     };
     let of =

@@ -197,33 +197,33 @@ fn sticky() -> String {
     text.concat()
 }
 
-/// Water and its vapour, which change into each other, and water that opens.
-fn changing() -> String {
+/// A bubble of a gas of the library in water of the library, beside a rigid wall, with some terms.
+fn with_terms(gas: &str, state: [f64; 2], terms: &str) -> String {
     let text = [
         "[time]\nend = 1e-6\n[fluid]\n",
         &grid([0.0, 0.02], 0.02, [16, 16]),
-        "[fluid.liquid]\nfluid = \"water-nasg\"\n[fluid.gas]\nfluid = \"water-vapour\"\n",
+        &format!("[fluid.liquid]\nfluid = \"water-nasg\"\n[fluid.gas]\nfluid = \"{gas}\"\n"),
         "[fluid.ambient]\ndensity = 1050.0\npressure = 1e6\n",
-        &bubble([0.01, 0.0], 0.004, [0.6, 1e5]),
-        "[fluid.terms.phase_change]\nlaw = \"hertz-knudsen\"\naccommodation = 0.5\nvapour_fraction = 0.9\n",
-        "[fluid.terms.cavitation]\nthreshold = -1e5\n[coupling]\nscheme = \"rigid\"\n",
+        &bubble([0.01, 0.0], 0.004, state),
+        terms,
+        "[coupling]\nscheme = \"rigid\"\n",
     ];
     text.concat()
 }
 
+/// Water and its vapour, which change into each other, and water that opens.
+fn changing() -> String {
+    let terms = "[fluid.terms.phase_change]\nlaw = \"hertz-knudsen\"\naccommodation = 0.5\nvapour_fraction = 0.9\n\
+                 [fluid.terms.cavitation]\nthreshold = -1e5\n";
+    with_terms("water-vapour", [0.6, 1e5], terms)
+}
+
 /// With conduction, and a wall that conducts.
 fn conducting() -> String {
-    let text = [
-        "[time]\nend = 1e-6\n[fluid]\n",
-        &grid([0.0, 0.02], 0.02, [16, 16]),
-        "[fluid.liquid]\nfluid = \"water-nasg\"\n[fluid.gas]\nfluid = \"air\"\n",
-        "[fluid.ambient]\ndensity = 1050.0\npressure = 1e6\n",
-        &bubble([0.01, 0.0], 0.004, AIR),
-        "[fluid.terms.conduction]\nliquid = 0.6\ngas = 0.026\nthin_gas = \"super-time-stepping\"\nwall = \"conducting\"\n\
-         wall_temperature = 293.15\nwall_effusivity = 8000.0\n[fluid.terms.viscosity]\nliquid = 1e-3\ngas = 1.8e-5\n\
-         thin_gas = \"super-time-stepping\"\n[coupling]\nscheme = \"rigid\"\n",
-    ];
-    text.concat()
+    let terms = "[fluid.terms.conduction]\nliquid = 0.6\ngas = 0.026\nthin_gas = \"super-time-stepping\"\nwall = \"conducting\"\n\
+                 wall_temperature = 293.15\nwall_effusivity = 8000.0\n[fluid.terms.viscosity]\nliquid = 1e-3\ngas = 1.8e-5\n\
+                 thin_gas = \"super-time-stepping\"\n";
+    with_terms("air", AIR, terms)
 }
 
 /// The numbers of its `[coupling]` are tried in two processes.

@@ -1,12 +1,11 @@
-//! What is done with Python, in a virtual environment that is made once: the package is built, installed and tested there by its
-//! own tests; the book of `docs` is built, and what it tells people to type is run.
+//! A virtual environment with the Python package, which is built and installed once for all tests that need it.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::{Mutex, OnceLock};
+use std::sync::OnceLock;
 
 /// Runs a command and fails with what it printed if it fails.
-fn run(what: &str, command: &mut Command) {
+pub fn run(what: &str, command: &mut Command) {
     let output = command.stdin(Stdio::null()).output();
     let output = output.unwrap_or_else(|error| panic!("{what}: cannot start {command:?}: {error}"));
     let text = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
@@ -14,7 +13,7 @@ fn run(what: &str, command: &mut Command) {
 }
 
 /// A command without what `cargo test` tells the tests of this package, which would mislead the build of another one.
-fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
+pub fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
     let mut command = Command::new(program);
     for (name, _) in std::env::vars_os() {
         let text = name.to_string_lossy();
@@ -29,7 +28,7 @@ fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
 }
 
 /// The directory that cargo builds in, and the profile that it builds this with.
-fn target() -> (PathBuf, String) {
+pub fn target() -> (PathBuf, String) {
     let directory = Path::new(env!("CARGO_BIN_EXE_cav")).parent().expect("target/debug/cav");
     let name = directory.file_name().expect("debug").to_string_lossy();
     // The one profile whose directory has another name.
@@ -46,16 +45,13 @@ fn needed(project: &Path) -> Vec<String> {
     entries.map(|entry| entry.as_str().expect("a requirement").to_owned()).collect()
 }
 
-/// Both tests keep all cores busy: they take turns.
-static TURN: Mutex<()> = Mutex::new(());
-
 /// The Python of a virtual environment with the package, its tests' packages and the book's. It is made by the test that comes first.
-fn python() -> &'static Path {
+pub fn python() -> &'static Path {
     static PYTHON: OnceLock<PathBuf> = OnceLock::new();
     PYTHON.get_or_init(|| environment(&root().join("crates/pycav"), &root().join("docs/requirements.txt")))
 }
 
-fn root() -> &'static Path {
+pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
@@ -70,8 +66,9 @@ fn environment(package: &Path, books: &Path) -> PathBuf {
         let mut pip = command(&python);
         pip.args(["-m", "pip", "--quiet", "--disable-pip-version-check"]).args(arguments);
         pip.current_dir(package).env("CARGO_TARGET_DIR", &target);
-        // By itself it would be the release profile, for which every dependency would be compiled once more.
-        pip.env("MATURIN_PEP517_ARGS", format!("--profile {profile}"));
+        // By itself it would be the release profile with HDF5 from source, for which all dependencies and the library would be
+        // compiled once more. (`.ci/run` tests the package as it is given out.)
+        pip.env("MATURIN_PEP517_ARGS", format!("--profile {profile} --features system-hdf5"));
         run("pip", &mut pip);
     };
     let wheels = tempfile::tempdir().expect("a directory for the wheel");
@@ -91,40 +88,10 @@ fn environment(package: &Path, books: &Path) -> PathBuf {
 }
 
 /// The Python tests of a directory. Type checkers, browsers and runs side by side: most of them keep one core busy.
-fn pytest(directory: &Path) {
+pub fn pytest(directory: &Path) {
     let mut tests = command(python());
     tests.args(["-m", "pytest", "-q", "--color=no", "-p", "no:cacheprovider"]).current_dir(directory);
     tests.args(["-n", "2", "--dist", "worksteal"]);
     tests.env("CAV_BINARY", env!("CARGO_BIN_EXE_cav"));
     run("pytest", &mut tests);
-}
-
-#[test]
-fn the_package_installs_from_source_and_passes_its_tests() {
-    let _turn = TURN.lock();
-    pytest(&root().join("crates/pycav"));
-}
-
-#[test]
-fn the_book_builds_its_notebooks_run_and_so_does_what_its_pages_say() {
-    let _turn = TURN.lock();
-    pytest(&root().join("docs/check"));
-    let mut book = command(python());
-    // All pages anew, two at a time, notebooks run whatever was kept of them; a warning is an error.
-    book.args([
-        "-m",
-        "sphinx",
-        "-W",
-        "--keep-going",
-        "-q",
-        "-a",
-        "-E",
-        "-j",
-        "2",
-        "-D",
-        "nb_execution_mode=force",
-        "docs",
-    ]);
-    book.arg(target().0.join("book")).current_dir(root());
-    run("building the book", &mut book);
 }

@@ -1,13 +1,10 @@
 //! Hostile input for some seconds: the corpus, and random changes of it. For hours: `fuzz/`, see docs/verification/faults.md.
 
-// How many inputs were tried is told.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-#[path = "../fuzz/targets.rs"]
+#[path = "../../fuzz/targets.rs"]
 mod targets;
 
 /// Time for each target.
