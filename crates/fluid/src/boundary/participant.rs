@@ -141,6 +141,7 @@ impl<const N: usize> FluidSolver<N> {
             wall: Some(around),
             capillary,
             gas: GasMass::Absent,
+            closure: None,
             heat_beyond: HeatBeyond::Nothing,
             spread: None,
         };

@@ -57,6 +57,8 @@ pub(crate) struct CapillaryRows {
     jump: [Vec<f64>; 2],
     /// J of the cells, Pa: the largest beside their faces.
     own: Vec<f64>,
+    /// (1 − ψ)J: by how much the pressure of the cells' gas exceeds that of the cells, Pa.
+    excess: Vec<f64>,
     /// What tension takes from a cell's energy per unit of its dilatation, Pa, see [`CapillaryRows::for_gains`].
     stretched: Vec<f64>,
     /// Cells of the block and of the first layer around it that have a face with a jump.
@@ -88,6 +90,11 @@ impl CapillaryRows {
     /// What the pressure rises by on the faces along z and r, Pa; `None` where there is none.
     pub fn jumps(&self) -> Option<[&[f64]; 2]> {
         self.is_present.then(|| [&self.jump[0][..], &self.jump[1][..]])
+    }
+
+    /// By how much the pressure of the padded cells' gas exceeds that of the cells, Pa; `None` where it does nowhere.
+    pub fn excess(&self) -> Option<&[f64]> {
+        self.is_present.then_some(&self.excess)
     }
 
     /// The padded cells that have a face with a jump.
@@ -128,7 +135,7 @@ impl CapillaryRows {
             jump.clear();
             jump.resize(len, 0.0);
         }
-        for row in [&mut self.own, &mut self.stretched] {
+        for row in [&mut self.own, &mut self.excess, &mut self.stretched] {
             row.clear();
             row.resize(len, 0.0);
         }
@@ -151,10 +158,11 @@ impl CapillaryRows {
             return;
         }
         for &k in &self.cells {
-            let of_gas = (1.0 - self.share[k]) * self.own[k];
+            let excess = (1.0 - self.share[k]) * self.own[k];
             let densities = phase_densities(density[k], gas_shares[k], phi[k], block.mixture);
-            let closure = Compression::at(pressure[k] + of_gas, phi[k], densities, block.mixture, true);
-            self.stretched[k] = if is_mixed(phi[k]) { of_gas * closure.expansion(phi[k]) } else { 0.0 };
+            let closure = Compression::at(pressure[k] + excess, phi[k], densities, block.mixture, true);
+            self.stretched[k] = if is_mixed(phi[k]) { excess * closure.expansion(phi[k]) } else { 0.0 };
+            self.excess[k] = excess;
         }
     }
 

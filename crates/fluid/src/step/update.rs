@@ -240,6 +240,12 @@ impl RowMetric {
     pub fn radial(&self, high: f64, low: f64) -> f64 {
         self.dt_r * (self.upper * high - self.lower * low)
     }
+
+    /// Δt/r times a value; nothing in planar geometry.
+    #[inline(always)]
+    pub fn around(&self, value: f64) -> f64 {
+        self.dt_r * (self.upper - self.lower) * value
+    }
 }
 
 /// What one face passes on, see [`crate::Face`].

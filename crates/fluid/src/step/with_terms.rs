@@ -42,6 +42,8 @@ impl<const N: usize> TileStep<'_, N> {
             wall: (!wall.is_empty()).then_some(wall),
             capillary,
             gas: self.gas.mass(gas_shares),
+            closure: (self.gas.phases().is_some() && self.ctx.model.scheme.phases.has_closure())
+                .then_some(&self.ctx.model.mixture),
             heat_beyond,
             spread: View::of(self.ctx.prepared, self.ctx.mesh, self.slot),
         }
@@ -98,13 +100,15 @@ impl<const N: usize> TileStep<'_, N> {
 
     /// What terms do to the cells of both phases at the end of the step.
     pub(super) fn finish_terms(&self, scratch: &mut BlockScratch<N>, new: &mut [f64]) {
-        let BlockScratch { cells, face_weight, inverse_weight, speeds, works, .. } = scratch;
+        let BlockScratch { cells, face_weight, inverse_weight, speeds, works, capillary, .. } = scratch;
         let mut cells = FinishedCells {
             cells: N,
             metric: &self.metric(face_weight, inverse_weight),
             phi: cells.component(PHI),
             new,
             speeds: speeds.split_mut::<3>().map(|row| &mut row[..N * N]),
+            excess: capillary.excess(),
+            mixture: &self.ctx.model.mixture,
         };
         self.ctx.model.terms.finish(&mut cells, works);
     }

@@ -7,6 +7,7 @@
 pub(crate) mod conduction;
 pub(crate) mod diffusion;
 pub(crate) mod gravity;
+pub(crate) mod heating;
 pub(crate) mod super_stepping;
 pub(crate) mod surface_tension;
 pub(crate) mod viscosity;
@@ -16,6 +17,9 @@ use mesh::{FaceState, Side};
 use crate::boundary::cells_beside;
 use crate::capillarity::CapillaryRows;
 use crate::reconstruction::Rows;
+use crate::state::ConservedCell;
+use crate::state::conserved::{self, ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, RHO};
+use crate::state::finished::FinishedCell;
 use crate::state::primitive::PHI;
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
@@ -58,6 +62,8 @@ pub(crate) struct TermBlock<'a> {
     pub capillary: &'a CapillaryRows,
     /// How much of the mass is gas at the beginning of the step.
     pub gas: GasMass<'a>,
+    /// The laws of phases that give way each by its own, as in the five-equation model.
+    pub closure: Option<&'a Mixture>,
     /// What walls do with heat.
     pub heat_beyond: HeatBeyond<'a>,
     /// What blocks have found together in stages, if any.
@@ -133,6 +139,28 @@ pub(crate) struct FinishedCells<'a> {
     pub new: &'a mut [f64],
     /// |v_z| + c and |v_r| + c of those cells, and the energy that the floor added.
     pub speeds: [&'a mut [f64]; 3],
+    /// By how much the pressure of the padded cells' gas exceeds that of the cells by surface tension, Pa, at the beginning of the step.
+    pub excess: Option<&'a [f64]>,
+    pub mixture: &'a Mixture,
+}
+
+impl FinishedCells<'_> {
+    /// What is conserved in a cell and its φ, and its m_g.
+    pub fn get(&self, cell: usize) -> (ConservedCell, f64) {
+        let of = |component: usize| self.new[component * self.cells * self.cells + cell];
+        ([RHO, MOMENTUM_Z, MOMENTUM_R, ENERGY, conserved::PHI].map(of), of(GAS))
+    }
+
+    /// Puts another state in the place of a cell's.
+    pub fn set(&mut self, cell: usize, finished: FinishedCell) {
+        let cells = self.cells * self.cells;
+        for (component, value) in finished.conserved.into_iter().enumerate() {
+            self.new[component * cells + cell] = value;
+        }
+        for (row, value) in self.speeds.iter_mut().zip([finished.speed_z, finished.speed_r]) {
+            row[cell] = value;
+        }
+    }
 }
 
 /// A cell on the wall to another medium, as terms see it.

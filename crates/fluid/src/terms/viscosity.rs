@@ -1,17 +1,21 @@
 //! Viscosity of both phases.
 
+mod friction;
+mod layered;
 mod spread;
 mod stress;
 mod velocities;
 
 use super::diffusion::{BY_STAGES, ThinGas, most_diffusivity, step_limit};
 use super::super_stepping::{Spreading, View};
-use super::{Term, TermBlock, WallCell, for_cells_without_mid_step};
+use super::{FinishedCells, GasMass, Term, TermBlock, WallCell, for_cells_without_mid_step};
 use crate::state::conserved::MOMENTUM_R;
-use crate::state::primitive::{PHI, RHO};
+use crate::state::primitive::{PHI, PRESSURE, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
-use stress::{FaceStress, Motion, stresses};
+use crate::two_phase::{Compression, is_mixed, phase_densities};
+use layered::{Layers, SHEET, take_for_layers};
+use stress::{FaceStress, Motion, Parts, stresses};
 use velocities::Velocities;
 
 /// Viscosity of a phase, Pa s.
@@ -28,7 +32,8 @@ pub struct PhaseViscosity {
 /// Momentum and energy pass through faces, −τ and −τ·v; what the hoop stress leaves is a source of radial momentum. Gradients are
 /// central differences of the states at mid-step, which have gained half a step of the stresses' divergence: second order in space and
 /// time. Cells mixed of both phases have μ = φμ_g + (1 − φ)μ_l: what flow about a bubble prescribes is how fast it is deformed, and then
-/// the work of mixed liquid is its share of the volume.
+/// the work of mixed liquid is its share of the volume. What friction takes from the motion warms the cells and the phases that rub, each
+/// by its share of the viscosity.
 ///
 /// - valid for: μ, κ ≥ 0. errors: none.
 /// - tested by: `tests/verification/viscosity.rs`.
@@ -51,6 +56,12 @@ impl Viscosity {
         [mean(self.liquid.shear, self.gas.shear), mean(self.liquid.bulk, self.gas.bulk)]
     }
 
+    /// 4μ/3 + κ of a mixture, and what layers of liquid in it resist besides, Pa s.
+    fn stiffest(&self, phi: f64) -> f64 {
+        let of_layers = if is_mixed(phi) { SHEET * (1.0 - phi) * self.liquid.shear } else { 0.0 };
+        longitudinal(self.at(phi)) + of_layers
+    }
+
     /// The stresses on all faces of a block and of its first ghosts.
     ///
     /// - `work`: gets velocities, viscosities and stresses, in rows of padded cells.
@@ -59,13 +70,14 @@ impl Viscosity {
         work.resize(ROWS * len, 0.0);
         let mut rows = work.chunks_exact_mut(len);
         let mut next = || rows.next().expect("resized to that many");
-        let [v_z, v_r, shear, bulk] = std::array::from_fn(|_| next());
+        let [v_z, v_r, shear, bulk, spared] = std::array::from_fn(|_| next());
         Velocities { v_z: &mut *v_z, v_r: &mut *v_r }.gather(block);
         for (k, phi) in block.state[PHI].iter().enumerate() {
             [shear[k], bulk[k]] = self.at(*phi);
         }
         // What kernels left of mixed cells differs from block to block.
         for_cells_without_mid_step(block, |k| [shear[k], bulk[k]] = self.at(block.before[PHI][k]));
+        let is_layered = spared_dilatation(block, spared);
         let [z, r] = std::array::from_fn(|_| FaceStress { normal: next(), shear: next(), hoop: next() });
         let metric = block.metric;
         let motion = Motion {
@@ -81,9 +93,14 @@ impl Viscosity {
         // From the outer ghosts' inner faces on, so that the first ghosts have all of theirs.
         let end = metric.origin + block.cells * metric.stride + block.cells;
         let (z_first, r_first) = (metric.origin - metric.stride - 2, metric.origin - 2 * metric.stride - 1);
-        let mut stresses_of = Stresses { velocity: [v_z, v_r], z, r };
+        let mut stresses_of = Stresses { velocity: [v_z, v_r], parts: Parts { shear, bulk }, z, r };
         stresses(&motion, 0, z_first..end + 1, &mut stresses_of.z);
         stresses(&motion, 1, r_first..end + 1, &mut stresses_of.r);
+        if is_layered {
+            let layers = self.layers(block.before[PHI], spared);
+            take_for_layers(&motion, &layers, 0, z_first..end + 1, &mut stresses_of.z);
+            take_for_layers(&motion, &layers, 1, r_first..end + 1, &mut stresses_of.r);
+        }
         if let Some(view) = &block.spread {
             let Stresses { z, r, .. } = &mut stresses_of;
             let rows = [&mut *z.normal, &mut *z.shear, &mut *r.normal, &mut *r.shear, &mut *r.hoop];
@@ -93,12 +110,40 @@ impl Viscosity {
     }
 }
 
-/// Rows that the stresses of a block take: two velocities, two viscosities, three numbers on the faces of either direction.
-const ROWS: usize = 10;
+impl Viscosity {
+    fn layers<'a>(&self, phi: &'a [f64], spared: &'a [f64]) -> Layers<'a> {
+        Layers { liquid: [self.liquid.shear, self.liquid.bulk], phi, spared }
+    }
+}
+
+/// Finds (1 − φ)(1 − K/K_l) of the padded cells at the beginning of the step, see [`Layers::spared`], and whether any has some.
+fn spared_dilatation(block: &TermBlock<'_>, spared: &mut [f64]) -> bool {
+    spared.fill(0.0);
+    let (Some(mixture), GasMass::Shares(shares)) = (block.closure, block.gas) else { return false };
+    let mut is_any = false;
+    for (k, phi) in block.before[PHI].iter().enumerate().filter(|(_, phi)| is_mixed(**phi)) {
+        // What surface tension adds to the gas's pressure is not known of all ghosts, and K of the gas is small beside K_l anyway.
+        let pressure = block.before[PRESSURE][k];
+        let densities = phase_densities(block.before[RHO][k], shares[k], *phi, mixture);
+        spared[k] = Compression::at(pressure, *phi, densities, mixture, true).expansion(*phi);
+        is_any = true;
+    }
+    is_any
+}
+
+/// Rows that the stresses of a block take: two velocities, two viscosities, what the liquid is spared, three numbers on the faces of either
+/// direction.
+const ROWS: usize = 11;
+
+/// The rows as [`Viscosity::stresses`] has left them.
+fn rows_of(work: &[f64], len: usize) -> [&[f64]; ROWS] {
+    std::array::from_fn(|row| &work[row * len..(row + 1) * len])
+}
 
 /// The stresses on the faces of a block.
 struct Stresses<'a> {
     velocity: [&'a [f64]; 2],
+    parts: Parts<'a>,
     z: FaceStress<'a>,
     r: FaceStress<'a>,
 }
@@ -112,7 +157,7 @@ fn longitudinal([shear, bulk]: [f64; 2]) -> f64 {
 impl Term for Viscosity {
     /// Half a step of ∇·τ/ρ, in the cells of the block and the first ghosts.
     fn predict(&self, block: &TermBlock<'_>, half: [&mut [f64]; 2], work: &mut Vec<f64>) {
-        let Stresses { z, r, .. } = self.stresses(block, work);
+        let Stresses { parts, z, r, .. } = self.stresses(block, work);
         let metric = block.metric;
         let ([inverse_z, inverse_h], stride) = (metric.inverse_h, metric.stride);
         let [half_z, half_r] = half;
@@ -127,7 +172,7 @@ impl Term for Viscosity {
                     + inverse_h * (high * r.shear[k] - low * r.shear[below]);
                 let force_r = inverse_z * (z.shear[k] - z.shear[k - 1])
                     + inverse_h * (r.normal[k] - r.normal[below])
-                    + 0.5 * inverse_r * (r.hoop[k] + r.hoop[below]);
+                    + 0.5 * inverse_r * parts.hoop(k, stride, r.normal, r.hoop);
                 let gain = 0.5 * metric.dt / block.state[RHO][k];
                 half_z[k] += gain * force_z;
                 half_r[k] += gain * force_r;
@@ -149,7 +194,7 @@ impl Term for Viscosity {
                 (stresses.z.normal[k], stresses.z.shear[k]) = (0.0, 0.0);
             }
         }
-        let Stresses { velocity: [v_z, v_r], z, r } = &stresses;
+        let Stresses { velocity: [v_z, v_r], parts, z, r } = &stresses;
         let last = metric.origin + (n - 1) * metric.stride + n;
         let along_z = metric.origin - 1..last;
         let along_r = metric.origin - metric.stride..last;
@@ -158,7 +203,7 @@ impl Term for Viscosity {
         {
             let [_, _, pressure, shear, energy, _] = faces.fluxes_mut();
             for k in range {
-                let [u, w] = [u, w].map(|v| 0.5 * (v[k] + v[k + step]));
+                let [u, w] = [u, w].map(|v| parts.velocity(k, step, v));
                 pressure[k] -= stress.normal[k];
                 shear[k] -= stress.shear[k];
                 energy[k] -= stress.normal[k] * u + stress.shear[k] * w;
@@ -174,15 +219,20 @@ impl Term for Viscosity {
     /// (τ_rr − τ_φφ)/r. The flux of τ_rr has no weight, as the pressure's: see `update.rs`.
     fn add_sources(&self, block: &TermBlock<'_>, _: [&FaceRows; 2], work: &[f64], block_rows: &mut [f64]) {
         let TermBlock { cells: n, metric, inverse_r, .. } = *block;
-        let len = block.state[RHO].len();
-        let hoop = &work[(ROWS - 1) * len..];
+        let [_, _, shear, bulk, _, _, _, _, normal, _, hoop] = rows_of(work, block.state[RHO].len());
+        let parts = Parts { shear, bulk };
         for j in 0..n {
             for i in 0..n {
                 let k = metric.origin + j * metric.stride + i;
-                let force = 0.5 * inverse_r[k] * (hoop[k] + hoop[k - metric.stride]);
+                let force = 0.5 * inverse_r[k] * parts.hoop(k, metric.stride, normal, hoop);
                 block_rows[MOMENTUM_R * n * n + j * n + i] += metric.dt * force;
             }
         }
+    }
+
+    /// Gives each phase of mixed cells its share of what friction makes of the motion.
+    fn finish(&self, cells: &mut FinishedCells<'_>, work: &[f64]) {
+        self.finish_phases(cells, work);
     }
 
     /// The largest (4μ/3 + κ)/ρ that limits the step; of thin gas that does not, the liquid's part in a cell.
@@ -193,7 +243,7 @@ impl Term for Viscosity {
             ThinGas::SuperTimeStepping => return Spreading::diffusivity(self, density, phi) / BY_STAGES,
         };
         let counted = Self { gas, ..*self };
-        let of = |(density, phi): (&f64, &f64)| longitudinal(counted.at(*phi)) / density;
+        let of = |(density, phi): (&f64, &f64)| counted.stiffest(*phi) / density;
         density.iter().zip(phi).map(of).fold(0.0, f64::max)
     }
 
@@ -220,8 +270,7 @@ impl Viscosity {
     fn count_bounded(&self, block: &TermBlock<'_>) -> u64 {
         let TermBlock { cells: n, metric, .. } = *block;
         let most = most_diffusivity(metric.dt, metric.inverse_h);
-        let is_bounded =
-            |k: &usize| longitudinal(self.at(block.state[PHI][*k])) > most * block.state[RHO][*k];
+        let is_bounded = |k: &usize| self.stiffest(block.state[PHI][*k]) > most * block.state[RHO][*k];
         (0..n)
             .flat_map(|j| (0..n).map(move |i| metric.origin + j * metric.stride + i))
             .filter(is_bounded)

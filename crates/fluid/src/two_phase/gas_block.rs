@@ -134,7 +134,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         gas.mixed.collect::<N>(
             self.tile,
             &Cells { rows, stride: cells.frame().stride() },
-            &CellRule { jumps: capillary.jumps(), ..self.rule(inverse_r) },
+            &CellRule { jumps: capillary.jumps(), excess: capillary.excess(), ..self.rule(inverse_r) },
             Side::ALL.map(|side| self.outer(side)),
             (!self.ctx.marks.is_empty()).then_some(&gas.is_marked),
         );
@@ -222,13 +222,14 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         speeds: [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
-        let Before { number, old, pressure, inverse_r, metric, .. } = before;
+        let Before { number, old, pressure, inverse_r, metric, capillary } = before;
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
         let mut cells = NewCells { conserved: split_block::<N>(first), speeds };
         let old = OldCells { conserved: old_rows, pressure, gas: [old_gas, new_gas] };
-        let (windows, rule) = (gas.mixed.mixed(number), &self.rule(inverse_r));
+        let (windows, rule) =
+            (gas.mixed.mixed(number), &CellRule { excess: capillary.excess(), ..self.rule(inverse_r) });
         let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
         gas.marked.iter().for_each(|cell| report.marked.insert(*cell));
         if self.options.has_closure {
@@ -251,7 +252,6 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     }
 
     /// Lets the gas of mixed cells expand that the floor would have to lift; these, too, are done again at first order first.
-    ///
     /// Cells whose gas is not in tension, but whose liquid is, by surface tension, stay as they are.
     ///
     /// - `before`: φ and m_g before the step; `gas`: m_g after it.

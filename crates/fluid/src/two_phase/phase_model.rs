@@ -148,6 +148,7 @@ impl Fluid {
             is_low_mach: self.scheme.riemann == RiemannSolver::HllcLowMach,
             velocity_gain: self.terms.velocity_gain(0.5 * dt),
             jumps: None,
+            excess: None,
         }
     }
 }

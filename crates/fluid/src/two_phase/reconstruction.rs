@@ -38,6 +38,23 @@ pub(crate) struct CellRule<'a> {
     pub velocity_gain: Option<[f64; 2]>,
     /// How much higher the pressure is above the faces along z and r than below by surface tension, Pa.
     pub jumps: Option<[&'a [f64]; 2]>,
+    /// By how much the pressure of the cells' gas exceeds that of the cells by surface tension, Pa.
+    pub excess: Option<&'a [f64]>,
+}
+
+impl CellRule<'_> {
+    /// What the pressure of the gas in some cells is, by which it gives way, Pa.
+    ///
+    /// The liquid is so stiff that it does not matter which of the two pressures it has.
+    #[inline(always)]
+    pub fn of_gas(&self, at: Window, pressure: &Lane) -> Lane {
+        let mut of_gas = *pressure;
+        if let Some(excess) = self.excess {
+            let excess = at.load(excess, 0);
+            of_gas.iter_mut().zip(excess).for_each(|(p, excess)| *p += excess);
+        }
+        of_gas
+    }
 }
 
 /// States on the four faces of mixed cells, in the order of [`mesh::Side::ALL`]: z−, z+, r−, r+.
@@ -113,7 +130,8 @@ fn window_states(
             differences[PHI][k] = limit_fraction(w[PHI][k] - below[PHI][k], above[PHI][k] - w[PHI][k]);
         }
     }
-    let mut half = half_step(&w, &differences, &at.load(rule.inverse_r, 0), rule);
+    let of_gas = rule.of_gas(at, &w[PRESSURE]);
+    let mut half = half_step(&w, &of_gas, &differences, &at.load(rule.inverse_r, 0), rule);
     let mut shares = [1.0; LANES];
     if !rule.options.has_closure {
         for (lane, k) in lanes(at.listed).zip(at.cells()) {
@@ -146,7 +164,7 @@ fn window_states(
     }
     let mut is_bounded = [[0; LANES]; 3];
     for (phases, face) in ends.as_flattened().iter().zip(faces) {
-        admissible(phases, &w, face, &mut is_bounded);
+        admissible(phases, &w, &of_gas, face, &mut is_bounded);
     }
     let [densities, pressures, fractions] = is_bounded.map(|lanes| bits(lanes.map(|lane| lane != 0)));
     let [halved, dropped] = [0.5, 0.0].map(|kept| bits(shares.map(|share| share == kept)));
@@ -188,8 +206,15 @@ fn phases(cells: &Cells<'_>, at: Window, by: isize, else_densities: [&Lane; 2]) 
     phases
 }
 
+/// - `of_gas`: the gas's pressure, Pa.
 #[inline(always)]
-fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, rule: &CellRule<'_>) -> Phases {
+fn half_step(
+    w: &Phases,
+    of_gas: &Lane,
+    [s_z, s_r]: &[Phases; 2],
+    inverse_r: &Lane,
+    rule: &CellRule<'_>,
+) -> Phases {
     let [inverse_hz, inverse_hr] = rule.inverse_h;
     let half_dt = 0.5 * rule.dt;
     let mut half = ZERO;
@@ -203,7 +228,7 @@ fn half_step(w: &Phases, [s_z, s_r]: &[Phases; 2], inverse_r: &Lane, rule: &Cell
         let (d_z, d_r) = (per_width(of(s_z), inverse_hz), per_width(of(s_r), inverse_hr));
         let phi = cell[PHI];
         let densities = [cell[RHO_G], cell[RHO_L]];
-        let c = Compression::at(cell[PRESSURE], phi, densities, rule.mixture, rule.options.has_closure);
+        let c = Compression::at(of_gas[k], phi, densities, rule.mixture, rule.options.has_closure);
         let per_rho = 1.0 / (phi * cell[RHO_G] + (1.0 - phi) * cell[RHO_L]);
         let divergence = d_z[V_Z] + d_r[V_R] + cell[V_R] * inverse_r[k];
         let source = [
@@ -286,17 +311,25 @@ const LEAST_PRESSURE: f64 = 0.1;
 
 /// From phases to ρ, v_z, v_r, p, φ and the gas's part of the mass, within the bounds.
 ///
-/// - `is_bounded`: becomes 1 in lanes where the bounds of densities, pressure or gas fraction act; of the last by more than what
+/// - `of_gas`: the gas's pressure in the cells, Pa; `is_bounded`: becomes 1 in lanes where the bounds of densities, pressure or gas fraction act; of the last by more than what
 ///   counts as pure.
 #[inline(always)]
-fn admissible(phases: &Phases, w: &Phases, face: &mut [Lane; 6], is_bounded: &mut [[u64; LANES]; 3]) {
+fn admissible(
+    phases: &Phases,
+    w: &Phases,
+    of_gas: &Lane,
+    face: &mut [Lane; 6],
+    is_bounded: &mut [[u64; LANES]; 3],
+) {
     let lower = |a: f64, b: f64| if a < b { a } else { b };
     let upper = |a: f64, b: f64| if a > b { a } else { b };
     for k in 0..LANES {
         let within = |rho: f64, own: f64| lower(upper(rho, DENSITIES[0] * own), DENSITIES[1] * own);
         let phi = lower(upper(phases[PHI][k], 0.0), 1.0);
-        let (unbounded, own) = (phases[PRESSURE][k], w[PRESSURE][k]);
-        let p = if own > 0.0 { upper(unbounded, LEAST_PRESSURE * own) } else { unbounded };
+        let (unbounded, own) = (phases[PRESSURE][k], of_gas[k]);
+        // What the cell's pressure is below its gas's is so on the face.
+        let lowest = LEAST_PRESSURE * own - (own - w[PRESSURE][k]);
+        let p = if own > 0.0 { upper(unbounded, lowest) } else { unbounded };
         let (rho_g, rho_l) = (phases[RHO_G][k], phases[RHO_L][k]);
         let (within_g, within_l) = (within(rho_g, w[RHO_G][k]), within(rho_l, w[RHO_L][k]));
         is_bounded[0][k] |= u64::from((within_g != rho_g) | (within_l != rho_l));

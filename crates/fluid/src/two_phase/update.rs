@@ -209,7 +209,8 @@ pub(crate) fn update_mixed<const N: usize>(
             cells.gas[k] =
                 widths.axial(carried(east), carried(west)) + widths.radial(carried(north), carried(south));
         }
-        (cells.phi, cells.p, cells.fraction) = (*before[PHI], *row::<LANES>(old.pressure, k), u[PHI]);
+        let pressure = rule.of_gas(*window, row::<LANES>(old.pressure, k));
+        (cells.phi, cells.p, cells.fraction) = (*before[PHI], pressure, u[PHI]);
         if mixture.has_covolume() {
             take_covolumes(mixture, [before[RHO], gas_before], [&u[RHO], gas_after], &mut cells);
         }

@@ -20,6 +20,7 @@ mod gravity;
 mod helpers;
 mod ledgers;
 mod low_mach;
+mod micro_bubble;
 mod near_wall;
 mod orders;
 mod oscillations;

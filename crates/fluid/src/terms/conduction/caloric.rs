@@ -2,14 +2,13 @@
 
 use crate::Mixture;
 use crate::phase_change::holds_both;
+use crate::terms::heating::PhaseEnergies;
 
 /// Constants of a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PhaseHeat {
     /// 1/(γ − 1).
     beta: f64,
-    /// γ.
-    gamma: f64,
     /// π, Pa.
     pi: f64,
     /// b, m³/kg.
@@ -43,12 +42,7 @@ pub(super) struct PhaseHeats {
     pub capacities: [f64; 2],
     /// C_k T_k, J/m³.
     pub heats: [f64; 2],
-    /// ψ_k β_k, with the free volumes ψ_k = α_k − b_k m_k.
-    free: [f64; 2],
-    /// β_k γ_k (p + π_k), J/m³: the enthalpy per free volume.
-    enthalpies: [f64; 2],
-    /// β_k.
-    betas: [f64; 2],
+    pub energies: PhaseEnergies,
 }
 
 /// 1 for gas and for liquid where a cell has enough of it to count, else 0.
@@ -65,7 +59,6 @@ impl Caloric {
         let of = |law: crate::NobleAbelStiffenedGas| {
             Some(PhaseHeat {
                 beta: 1.0 / (law.gamma - 1.0),
-                gamma: law.gamma,
                 pi: law.pi,
                 covolume: law.covolume,
                 capacity: law.heat?.capacity,
@@ -121,45 +114,18 @@ impl Caloric {
 
     /// Both phases of a cell.
     ///
-    /// - `gas`: m_g, kg/m³; `rho`, `p`, `phi`: kg/m³, Pa, 1.
-    pub fn phases(&self, [rho, p, phi]: [f64; 3], gas: f64) -> PhaseHeats {
-        let Self { gas: g, liquid: l } = *self;
-        let free = |law: PhaseHeat, volume: f64, mass: f64| (volume - law.covolume * mass) * law.beta;
-        let free = [free(g, phi, gas), free(l, 1.0 - phi, rho - gas)];
+    /// - `gas`: m_g, kg/m³; `state`: ρ, p, φ.
+    pub fn phases(&self, state: [f64; 3], gas: f64, mixture: &Mixture) -> PhaseHeats {
+        let energies = PhaseEnergies::of(mixture, state, gas);
         PhaseHeats {
-            capacities: [gas * g.capacity, (rho - gas) * l.capacity],
-            heats: [free[0] * (p + g.pi), free[1] * (p + l.pi)],
-            free,
-            enthalpies: [g, l].map(|law| law.beta * law.gamma * (p + law.pi)),
-            betas: [g.beta, l.beta],
+            capacities: [gas * self.gas.capacity, (state[0] - gas) * self.liquid.capacity],
+            heats: energies.heats(),
+            energies,
         }
     }
 }
 
 impl PhaseHeats {
-    /// By how much the gas's volume grows when both phases get heat and come to one pressure in the volume of the cell, p̂.
-    ///
-    /// Each phase does work at p̂ on the other: with x the volume that the gas gains and q = p̂ − p,
-    ///
-    /// q (ψ_g β_g + (1 + β_g) x) + H_g x = δ_g,   q (ψ_l β_l − (1 + β_l) x) − H_l x = δ_l,   H_k = β_k γ_k (p + π_k),
-    ///
-    /// which is a quadratic equation for x. Both add up to the cell's energy: p̂ is the pressure that it has then. Without heat nothing
-    /// changes to the last bit.
-    ///
-    /// - `heat`: δ_g, δ_l per volume of the cell, J/m³.
-    /// - returns: x; `None` where a phase has not that much heat.
-    /// - tested by: energies of both phases, heat at constant volume, nothing from nothing.
-    pub fn growth(&self, [gas, liquid]: [f64; 2]) -> Option<f64> {
-        let Self { free: [free_g, free_l], enthalpies: [h_g, h_l], betas: [beta_g, beta_l], .. } = *self;
-        let quadratic = h_g * (1.0 + beta_l) - h_l * (1.0 + beta_g);
-        let linear = h_g * free_l + h_l * free_g + gas * (1.0 + beta_l) + liquid * (1.0 + beta_g);
-        let constant = gas * free_l - liquid * free_g;
-        let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
-        let growth = 2.0 * constant / (linear + root);
-        let is_left = free_g / beta_g + growth > 0.0 && free_l / beta_l - growth > 0.0;
-        (linear > 0.0 && is_left).then_some(growth)
-    }
-
     /// What the phases of a layered cell get of the heat that came into it in a step: each what came through its own side, and in
     /// between it passes from one to the other.
     ///

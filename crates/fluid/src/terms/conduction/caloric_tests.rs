@@ -5,9 +5,13 @@ fn laws() -> [NobleAbelStiffenedGas; 2] {
     ["water-nasg", "air"].map(|name| NamedFluid::of(name).expect("it is in the library").law)
 }
 
-fn caloric() -> Caloric {
+fn mixture() -> Mixture {
     let [liquid, gas] = laws();
-    Caloric::of(&Mixture::new(liquid, gas)).expect("both have heat capacities")
+    Mixture::new(liquid, gas)
+}
+
+fn caloric() -> Caloric {
+    Caloric::of(&mixture()).expect("both have heat capacities")
 }
 
 /// ρ, p, φ and m_g of a cell with these temperatures of gas and liquid.
@@ -42,7 +46,7 @@ fn cells_of_one_temperature_have_it() {
 /// The energies of the phases after heat and work are those of their laws, and nothing comes from nothing.
 #[test]
 fn phases_come_to_one_pressure_with_the_heat_that_they_got() {
-    let mixture = Mixture::new(laws()[0], laws()[1]);
+    let mixture = mixture();
     for (phi, temperatures, heat) in [
         (0.5, [300.0, 300.0], [2e4, -1e4]),
         (0.9, [2000.0, 300.0], [-2.1e5, 1e5]),
@@ -50,9 +54,9 @@ fn phases_come_to_one_pressure_with_the_heat_that_they_got() {
         (0.999, [300.0, 400.0], [1e5, 1e6]),
     ] {
         let ([rho, p, phi], gas) = cell(1e5, phi, temperatures);
-        let phases = caloric().phases([rho, p, phi], gas);
-        assert_eq!(phases.growth([0.0; 2]), Some(0.0));
-        let growth = phases.growth(heat).expect("there is heat enough");
+        let phases = caloric().phases([rho, p, phi], gas, &mixture);
+        assert_eq!(phases.energies.growth([0.0; 2]), Some(0.0));
+        let growth = phases.energies.growth(heat).expect("there is heat enough");
         let energy = |law: NobleAbelStiffenedGas, volume: f64, mass: f64, p: f64| {
             volume * law.internal_energy(mass / volume, p)
         };
@@ -73,13 +77,13 @@ fn phases_come_to_one_pressure_with_the_heat_that_they_got() {
 #[test]
 fn gas_beside_stiff_liquid_is_heated_at_constant_volume() {
     let (state, gas) = cell(1e5, 0.3, [300.0; 2]);
-    let phases = caloric().phases(state, gas);
+    let phases = caloric().phases(state, gas, &mixture());
     let heat = 0.01 * phases.heats[0];
-    let growth = phases.growth([heat, 0.0]).expect("there is heat enough");
+    let growth = phases.energies.growth([heat, 0.0]).expect("there is heat enough");
     // The pressure rises by a hundredth: the liquid gives way by that over its stiffness.
     assert!(growth > 0.0 && growth < 1e-6, "{growth}");
     // And liquid that is heated expands, and compresses the gas.
-    assert!(phases.growth([0.0, 1e6]).expect("likewise") < -1e-5);
+    assert!(phases.energies.growth([0.0, 1e6]).expect("likewise") < -1e-5);
 }
 
 #[test]
@@ -88,7 +92,7 @@ fn the_phases_of_a_cell_come_to_what_many_small_steps_bring_them_to() {
         [(0.3, [3e3, -5e3], 200.0), (0.9, [-1e4, 2e4], 1e3), (0.5, [10.0, 0.0], 0.0)]
     {
         let (state, gas) = cell(1e5, phi, [900.0, 300.0]);
-        let whole = caloric().phases(state, gas);
+        let whole = caloric().phases(state, gas, &mixture());
         let [c_g, c_l] = whole.capacities;
         let [mut h_g, mut h_l] = whole.heats;
         let steps = 200_000;
@@ -109,7 +113,7 @@ fn the_phases_of_a_cell_come_to_what_many_small_steps_bring_them_to() {
 #[test]
 fn thin_phases_follow() {
     let (state, gas) = cell(1e5, 1e-6, [3000.0, 300.0]);
-    let phases = caloric().phases(state, gas);
+    let phases = caloric().phases(state, gas, &mixture());
     let [gas_heat, _] = phases.shares([0.0; 2], 1e9);
     approx::assert_relative_eq!(gas_heat, -0.9 * phases.heats[0], max_relative = 1e-6);
 }

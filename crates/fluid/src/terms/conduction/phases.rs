@@ -1,12 +1,12 @@
 //! What conduction makes of the phases of mixed cells.
 
 use super::ConductionTerm;
-use super::caloric::PhaseHeats;
 use crate::phase_change::{area_density, holds_both};
 use crate::state::ConservedCell;
-use crate::state::conserved::{ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
-use crate::state::finished::{FinishedCell, finish_corrected};
+use crate::state::conserved::{PHI, RHO};
+use crate::state::finished::FinishedCell;
 use crate::terms::FinishedCells;
+use crate::terms::heating::{heated, pressure_without};
 
 impl ConductionTerm {
     /// Gives both phases of mixed cells their parts of the heat that came in, and lets it pass between them.
@@ -18,20 +18,13 @@ impl ConductionTerm {
     pub(super) fn finish_phases(&self, cells: &mut FinishedCells<'_>, fluxes: [&[f64]; 2]) {
         let n = cells.cells;
         for cell in 0..n * n {
-            let at = |component: usize| component * n * n + cell;
-            let (phi, gas) = (cells.new[at(PHI)], cells.new[at(GAS)]);
-            let u = [RHO, MOMENTUM_Z, MOMENTUM_R, ENERGY, PHI].map(|component| cells.new[at(component)]);
-            if !(holds_both(phi) && gas > 0.0 && u[RHO] > gas) {
+            let (u, gas) = cells.get(cell);
+            if !(holds_both(u[PHI]) && gas > 0.0 && u[RHO] > gas) {
                 continue;
             }
             let k = cells.metric.origin + cell / n * cells.metric.stride + cell % n;
             let Some(finished) = self.finished((u, gas), cells, fluxes, (k, cell / n)) else { continue };
-            for (component, value) in finished.conserved.into_iter().enumerate() {
-                cells.new[at(component)] = value;
-            }
-            for (row, value) in cells.speeds.iter_mut().zip([finished.speed_z, finished.speed_r]) {
-                row[cell] = value;
-            }
+            cells.set(cell, finished);
         }
     }
 
@@ -45,37 +38,16 @@ impl ConductionTerm {
         fluxes: [&[f64]; 2],
         (k, j): (usize, usize),
     ) -> Option<FinishedCell> {
-        let [rho, m_z, m_r, energy, phi] = u;
+        let [rho, _, _, _, phi] = u;
         let through = self.heat_through(cells, fluxes, (k, j));
         let [by_gas, by_liquid, by_either] = through;
-        let internal = energy - 0.5 * (m_z * m_z + m_r * m_r) / rho;
-        let [beta1, beta2] = self.mixture.free_betas::<true>(phi, rho, gas);
-        let pressure = (internal - (by_gas + by_liquid + by_either) - beta2) / beta1;
-        if !(pressure + self.mixture.gas.pi > 0.0) {
-            return None;
-        }
-        let phases = self.caloric.phases([rho, pressure, phi], gas);
+        let pressure = pressure_without((u, gas), by_gas + by_liquid + by_either, 0.0, &self.mixture)?;
+        let phases = self.caloric.phases([rho, pressure, phi], gas, &self.mixture);
         let [c_g, c_l] = phases.capacities;
         let split = by_either * c_g / (c_g + c_l);
         let through = [by_gas + split, by_liquid + (by_either - split)];
         let heat = phases.shares(through, self.conductance(cells, phi, k) * cells.metric.dt);
-        self.with_heat(u, gas, &phases, heat)
-    }
-
-    fn with_heat(
-        &self,
-        u: ConservedCell,
-        gas: f64,
-        phases: &PhaseHeats,
-        heat: [f64; 2],
-    ) -> Option<FinishedCell> {
-        let [rho, m_z, m_r, energy, phi] = u;
-        let after = phi + phases.growth(heat)?;
-        if !(after > 0.0 && after < 1.0) {
-            return None;
-        }
-        let finished = finish_corrected([rho, m_z, m_r, energy, after], gas, &self.mixture);
-        (finished.floor == 0.0 && finished.is_admissible()).then_some(finished)
+        heated((u, gas), &phases.energies, heat, 0.0, &self.mixture)
     }
 
     /// The heat that came into a cell in the step through faces on its gas's side, on its liquid's side, and through those of which the

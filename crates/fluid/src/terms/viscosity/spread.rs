@@ -1,8 +1,9 @@
 //! Viscosity in many stages within one step.
 
-use super::stress::{FaceStress, Motion, stresses};
+use super::layered::{SHEET, take_for_layers};
+use super::stress::{FaceStress, Motion, Parts, stresses};
 use super::velocities::{Sides, Velocities};
-use super::{PhaseViscosity, Viscosity, longitudinal};
+use super::{PhaseViscosity, Viscosity, longitudinal, spared_dilatation};
 use crate::state::primitive::{PHI, RHO};
 use crate::terms::super_stepping::{Frame, Spreading, View};
 use crate::terms::{TermBlock, for_cells_without_mid_step};
@@ -11,10 +12,10 @@ impl Viscosity {
     /// The axes of the rows of stresses: τ_zz and τ_zr along z; τ_rr, τ_rz and τ_rr − τ_φφ along r.
     pub(super) const AXES: [usize; 5] = [0, 0, 1, 1, 1];
 
-    /// μ and κ, no less than those of either phase.
+    /// 4μ/3 + κ, no less than those of either phase or of layers of liquid.
     fn most(&self) -> f64 {
         let of = |phase: PhaseViscosity| longitudinal([phase.shear, phase.bulk]);
-        of(self.liquid).max(of(self.gas))
+        (of(self.liquid) + SHEET * self.liquid.shear).max(of(self.gas))
     }
 }
 
@@ -31,9 +32,9 @@ impl Spreading for Viscosity {
         2
     }
 
-    /// μ, κ, ρ.
+    /// μ, κ, ρ, φ, and what the liquid is spared.
     fn constants(&self) -> usize {
-        3
+        5
     }
 
     fn axes(&self) -> &'static [usize] {
@@ -57,7 +58,9 @@ impl Spreading for Viscosity {
         for (k, phi) in block.state[PHI].iter().enumerate() {
             [constants[k], constants[len + k]] = self.at(*phi);
         }
-        constants[2 * len..].copy_from_slice(block.state[RHO]);
+        constants[2 * len..3 * len].copy_from_slice(block.state[RHO]);
+        constants[3 * len..4 * len].copy_from_slice(block.before[PHI]);
+        spared_dilatation(block, &mut constants[4 * len..]);
         for_cells_without_mid_step(block, |k| {
             [constants[k], constants[len + k]] = self.at(block.before[PHI][k]);
             constants[2 * len + k] = block.before[RHO][k];
@@ -67,7 +70,10 @@ impl Spreading for Viscosity {
         let mut fastest = 0.0_f64;
         for j in 0..block.cells {
             for k in (0..block.cells).map(|i| metric.origin + j * stride + i) {
-                let of = |k: usize| longitudinal([constants[k], constants[len + k]]);
+                let of = |k: usize| {
+                    longitudinal([constants[k], constants[len + k]])
+                        + SHEET * self.liquid.shear * constants[4 * len + k]
+                };
                 let beside = [k - 1, k + 1, k - stride, k + stride].map(of).into_iter().fold(0.0, f64::max);
                 let on_face = (0.5 * (of(k) + beside)).max(of(k));
                 fastest = fastest.max(4.0 * BESIDE_AXIS * on_face / constants[2 * len + k] * across);
@@ -104,16 +110,25 @@ impl Spreading for Viscosity {
         let end = frame.origin + (frame.cells - 1) * frame.stride + frame.cells;
         // Along z nothing asks for the hoop stress: what is written there is written over.
         let mut z = FaceStress { normal: z_normal, shear: z_shear, hoop: &mut *hoop };
+        let layers = self.layers(row(3), row(4));
+        let is_layered = layers.spared.iter().any(|spared| *spared != 0.0);
         stresses(&motion, 0, frame.origin - 1..end, &mut z);
+        if is_layered {
+            take_for_layers(&motion, &layers, 0, frame.origin - 1..end, &mut z);
+        }
         let mut r = FaceStress { normal: r_normal, shear: r_shear, hoop };
         stresses(&motion, 1, frame.origin - frame.stride..end, &mut r);
+        if is_layered {
+            take_for_layers(&motion, &layers, 1, frame.origin - frame.stride..end, &mut r);
+        }
     }
 
     fn change(&self, frame: &Frame, constants: &[f64], fluxes: &[f64], rates: &mut [f64]) {
         let len = frame.inverse_r.len();
         let row = |number: usize| &fluxes[number * len..(number + 1) * len];
         let [z_normal, z_shear, r_normal, r_shear, hoop] = [0, 1, 2, 3, 4].map(row);
-        let density = &constants[2 * len..];
+        let density = &constants[2 * len..3 * len];
+        let parts = Parts { shear: &constants[..len], bulk: &constants[len..2 * len] };
         let ([inverse_z, inverse_h], stride) = (frame.inverse_h, frame.stride);
         let (along_z, along_r) = rates.split_at_mut(len);
         for j in 0..frame.cells {
@@ -125,7 +140,7 @@ impl Spreading for Viscosity {
                     + inverse_h * (high * r_shear[k] - low * r_shear[below]);
                 let force_r = inverse_z * (z_shear[k] - z_shear[k - 1])
                     + inverse_h * (r_normal[k] - r_normal[below])
-                    + 0.5 * inverse_r * (hoop[k] + hoop[below]);
+                    + 0.5 * inverse_r * parts.hoop(k, stride, r_normal, hoop);
                 (along_z[k], along_r[k]) = (force_z / density[k], force_r / density[k]);
             }
         }

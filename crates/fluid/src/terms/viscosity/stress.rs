@@ -70,3 +70,47 @@ pub(super) fn stresses(m: &Motion<'_>, axis: usize, range: Range<usize>, out: &m
         hoop[k] = 2.0 * mu * (stretch - around);
     }
 }
+
+/// How the work of a face's stresses is divided between the cells on both sides.
+///
+/// Half of the way from one cell's centre to the other's lies in either. If both halves are deformed alike friction has μ_k/(μ_k + μ_n) of its
+/// work in cell k, and in a cell of gas beside liquid nearly none. That much of the difference of the velocities lies between cell k and the
+/// face:
+///
+/// v_f = v_k + η_k/(η_k + η_n) (v_n − v_k),   η = 4μ/3 + κ,
+///
+/// and the energy that crosses is −τ v_f. With one viscosity it is the mean.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts<'a> {
+    /// μ of the padded cells, Pa s.
+    pub shear: &'a [f64],
+    /// κ, likewise.
+    pub bulk: &'a [f64],
+}
+
+impl Parts<'_> {
+    /// η_k/(η_k + η_n) of the face between `k` and `n`.
+    #[inline(always)]
+    pub fn of(&self, k: usize, n: usize) -> f64 {
+        let [own, other] = [k, n].map(|k| 4.0 / 3.0 * self.shear[k] + self.bulk[k]);
+        if own == other { 0.5 } else { own / (own + other) }
+    }
+
+    /// A component of the velocity on the face above cell `k`, m/s.
+    #[inline(always)]
+    pub fn velocity(&self, k: usize, step: usize, v: &[f64]) -> f64 {
+        let n = k + step;
+        0.5 * (v[k] + v[n]) + (self.of(k, n) - 0.5) * (v[n] - v[k])
+    }
+
+    /// Twice τ_rr − τ_φφ of cell `k`, Pa: with the faces' τ_rr, and as much of their τ_φφ as the cell's own viscosity makes.
+    ///
+    /// - `normal`, `hoop`: τ_rr and τ_rr − τ_φφ of the faces along r.
+    #[inline(always)]
+    pub fn hoop(&self, k: usize, stride: usize, normal: &[f64], hoop: &[f64]) -> f64 {
+        let below = k - stride;
+        let foreign =
+            |face: usize, other: usize| (1.0 - 2.0 * self.of(k, other)) * (normal[face] - hoop[face]);
+        (hoop[k] + hoop[below]) + (foreign(k, k + stride) + foreign(below, below))
+    }
+}

@@ -26,6 +26,7 @@ fn middle_of(rows: &[Vec<f64>; 6], limiter: Limiter, options: TwoPhaseOptions, d
         is_low_mach: false,
         velocity_gain: None,
         jumps: None,
+        excess: None,
     };
     let mut states = FaceStates::default();
     face_states(&cells, &[Window { first: 2 * STRIDE + 2, step: 1, listed: 1 }], &rule, &mut states);

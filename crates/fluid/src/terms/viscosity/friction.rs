@@ -1,0 +1,62 @@
+//! What friction makes of the phases of mixed cells.
+
+use super::stress::Parts;
+use super::{Viscosity, longitudinal, rows_of};
+use crate::state::conserved::{PHI, RHO};
+use crate::terms::FinishedCells;
+use crate::terms::heating::{PhaseEnergies, heated, pressure_without};
+use crate::two_phase::is_mixed;
+
+impl Viscosity {
+    /// Gives both phases of mixed cells their parts of the heat that friction has made there.
+    ///
+    /// It is in the cell's energy, and would make gas and liquid warmer as their volumes are: thin gas by far too much. If both phases are
+    /// deformed alike friction in phase k has α_k η_k/Σ α η of it, η = 4μ/3 + κ. Mass, momentum and energy of the cell stay; the gas
+    /// fraction changes, which says how the energy is divided.
+    pub(super) fn finish_phases(&self, cells: &mut FinishedCells<'_>, work: &[f64]) {
+        let n = cells.cells;
+        for cell in 0..n * n {
+            let (u, gas) = cells.get(cell);
+            if !(is_mixed(u[PHI]) && gas > 0.0 && u[RHO] > gas) {
+                continue;
+            }
+            let k = cells.metric.origin + cell / n * cells.metric.stride + cell % n;
+            let heat = friction(cells, work, (k, cell / n));
+            let excess = cells.excess.map_or(0.0, |excess| excess[k]);
+            let mixture = cells.mixture;
+            let Some(pressure) = pressure_without((u, gas), heat, excess, mixture) else { continue };
+            let phases = PhaseEnergies::of(mixture, [u[RHO], pressure, u[PHI]], gas);
+            let [of_gas, of_liquid] = [
+                u[PHI] * longitudinal([self.gas.shear, self.gas.bulk]),
+                (1.0 - u[PHI]) * longitudinal([self.liquid.shear, self.liquid.bulk]),
+            ];
+            let by_gas = if of_gas > 0.0 { heat * of_gas / (of_gas + of_liquid) } else { 0.0 };
+            let heat = [by_gas, heat - by_gas];
+            if let Some(finished) = heated((u, gas), &phases, heat, excess, mixture) {
+                cells.set(cell, finished);
+            }
+        }
+    }
+}
+
+/// The energy that a cell has got by friction beside that of its motion, J/m³: Δt Σ A/V τ·(v_f − v), and Δt τ_φφ v_r/r.
+///
+/// - `work`: as the fluxes have left it; `k`, `j`: the cell's padded place, and its row.
+fn friction(cells: &FinishedCells<'_>, work: &[f64], (k, j): (usize, usize)) -> f64 {
+    let (metric, stride) = (cells.metric, cells.metric.stride);
+    let [v_z, v_r, shear, bulk, _, z_normal, z_shear, _, r_normal, r_shear, hoop] =
+        rows_of(work, cells.phi.len());
+    let parts = Parts { shear, bulk };
+    let of = |face: usize, step: usize, stresses: [(&[f64], &[f64]); 2]| -> f64 {
+        stresses.into_iter().map(|(stress, v)| stress[face] * (parts.velocity(face, step, v) - v[k])).sum()
+    };
+    let axial = |face: usize| of(face, 1, [(z_normal, v_z), (z_shear, v_r)]);
+    let radial = |face: usize| of(face, stride, [(r_normal, v_r), (r_shear, v_z)]);
+    let row = metric.row(j);
+    let below = k - stride;
+    // Twice τ_φφ: the radial momentum gets τ_rr without weights, and the energy the work of all of it.
+    let around = (r_normal[k] + r_normal[below]) - parts.hoop(k, stride, r_normal, hoop);
+    row.axial(axial(k), axial(k - 1))
+        + row.radial(radial(k), radial(below))
+        + row.around(0.5 * around * v_r[k])
+}
