@@ -9,6 +9,7 @@ mod hammer;
 mod harness;
 mod hits;
 #[allow(clippy::unwrap_used, clippy::print_stdout, reason = "how many inputs were tried is told")]
+#[allow(clippy::duplicate_mod, reason = "the fuzz targets have fixtures of their own")]
 mod hostile;
 mod ledgers;
 mod load;
