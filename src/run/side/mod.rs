@@ -200,7 +200,7 @@ impl<R: Record<Solver: CoupledSolver>> InRun<R> {
     }
 }
 
-/// What [`InRun::saved`] keeps.
+/// What `InRun::saved` keeps.
 #[derive(Serialize, Deserialize)]
 pub struct InRunState {
     schedule: Progressed,
