@@ -100,6 +100,7 @@ fn blocks_of_any_size_give_the_same_bitwise() {
             let start = |i, j| start(kind, i, j);
             let of_8 = after::<8>(&setup, start);
             assert!(of_8 == after::<16>(&setup, start), "16: {kind:?} {geometry:?} {limiter:?} {riemann:?}");
+            assert!(of_8 == after::<32>(&setup, start), "32: {kind:?} {geometry:?} {limiter:?} {riemann:?}");
         }
     });
 }
@@ -118,6 +119,7 @@ fn a_bubble_at_a_wall_is_the_same_in_blocks_of_any_size() {
         for geometry in [AXIAL, PLANAR] {
             let of_8 = collapsed::<8>(kind, geometry);
             assert!(of_8 == collapsed::<16>(kind, geometry), "16: {kind:?} {geometry:?}");
+            assert!(of_8 == collapsed::<32>(kind, geometry), "32: {kind:?} {geometry:?}");
         }
     }
 }

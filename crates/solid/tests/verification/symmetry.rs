@@ -86,6 +86,7 @@ fn blocks_of_any_size_give_the_same_bitwise() {
             let setup = box_of(geometry, Limiter::Mc, kind);
             let of_8 = after::<8>(&setup, start);
             assert!(of_8 == after::<16>(&setup, start), "16: {geometry:?} {kind:?}");
+            assert!(of_8 == after::<32>(&setup, start), "32: {geometry:?} {kind:?}");
         }
     }
 }
