@@ -60,9 +60,12 @@ impl Mesh {
     }
 }
 
-fn spec(name: &'static str, components: usize, unit: &'static str) -> FieldSpec<'static> {
+/// A field as the program writes it.
+fn spec<S>(fields: &[mesh::CellField<S>], name: &str) -> FieldSpec<'static> {
+    let field = fields.iter().find(|field| field.name == name).expect("a field of the program");
     let storage = if name == "level" { Storage::U8 } else { Storage::F64 };
-    FieldSpec { name, components, unit, description: "made up", storage }
+    let mesh::CellField { name, components, unit, description, .. } = *field;
+    FieldSpec { name, components, unit, description, storage }
 }
 
 fn main() -> Result<(), OutputError> {
@@ -74,14 +77,8 @@ fn main() -> Result<(), OutputError> {
 }
 
 fn write_fluid(directory: &RunDirectory) -> Result<(), OutputError> {
-    let fields = [
-        spec("density", 1, "kg/m3"),
-        spec("pressure", 1, "Pa"),
-        spec("velocity", 3, "m/s"),
-        spec("gas_fraction", 1, "1"),
-        spec("schlieren", 1, "kg/m4"),
-        spec("level", 1, "1"),
-    ];
+    let names = ["density", "pressure", "velocity", "gas_fraction", "schlieren", "level"];
+    let fields = names.map(|name| spec(fluid::CELL_FIELDS, name));
     let mut writer = SeriesWriter::create(&directory.file(FLUID_FIELDS), &fields, 1, &[])?;
     for step in 0..6 {
         let t = 1e-5 * step as f64;
@@ -123,16 +120,9 @@ fn write_fluid(directory: &RunDirectory) -> Result<(), OutputError> {
 }
 
 fn write_solid(directory: &RunDirectory) -> Result<(), OutputError> {
-    let fields = [
-        spec("velocity", 3, "m/s"),
-        spec("stress_zz", 1, "Pa"),
-        spec("stress_zr", 1, "Pa"),
-        spec("stress_rr", 1, "Pa"),
-        spec("stress_phiphi", 1, "Pa"),
-        spec("von_mises", 1, "Pa"),
-        spec("yield_function", 1, "Pa"),
-        spec("level", 1, "1"),
-    ];
+    let stresses = ["stress_zz", "stress_zr", "stress_rr", "stress_phiphi", "von_mises", "yield_function"];
+    let names = ["velocity"].into_iter().chain(stresses).chain(["level"]);
+    let fields: Vec<_> = names.map(|name| spec(solid::CELL_FIELDS, name)).collect();
     let mut writer = SeriesWriter::create(&directory.file(SOLID_FIELDS), &fields, 1, &[])?;
     let mesh = Mesh::square(-0.04, 16, |_, _| false);
     for step in 0..6 {

@@ -19,6 +19,8 @@ use rustix::io::Errno;
 
 use super::OutputError;
 
+type Result<T> = std::result::Result<T, OutputError>;
+
 /// Ending of a file in the making.
 pub const TEMPORARY_SUFFIX: &str = ".tmp";
 /// Ending of the version of a file from before it was changed in place, and of the mark that it is being changed.
@@ -33,11 +35,7 @@ pub const HDF5_OVERHEAD: u64 = 1 << 20;
 
 /// [`replace`] for an HDF5 file that may take up to `room` bytes. They are made sure of first: the library does not survive a full
 /// disk.
-pub fn replace_hdf5<T>(
-    path: &Path,
-    room: u64,
-    write: impl FnOnce(&Path) -> Result<T, OutputError>,
-) -> Result<T, OutputError> {
+pub fn replace_hdf5<T>(path: &Path, room: u64, write: impl FnOnce(&Path) -> Result<T>) -> Result<T> {
     replace(path, |temporary| {
         let reserved = fs::File::create(temporary).and_then(|file| reserve(&file, temporary, room));
         reserved.map_err(OutputError::io(path, "make room for"))?;
@@ -60,10 +58,7 @@ fn reserve(file: &fs::File, path: &Path, length: u64) -> io::Result<()> {
 }
 
 /// Makes `path` anew by `write`, which gets the path to write to; then renames the result over `path`.
-pub fn replace<T>(
-    path: &Path,
-    write: impl FnOnce(&Path) -> Result<T, OutputError>,
-) -> Result<T, OutputError> {
+pub fn replace<T>(path: &Path, write: impl FnOnce(&Path) -> Result<T>) -> Result<T> {
     let temporary = beside(path, TEMPORARY_SUFFIX);
     let made = write(&temporary).and_then(|value| {
         fs::rename(&temporary, path).map_err(OutputError::io(path, "rename a new version to")).map(|()| value)
@@ -76,11 +71,7 @@ pub fn replace<T>(
 }
 
 /// Changes the existing HDF5 file `path`, by up to `more` bytes, in place; the mark beside it meanwhile tells [`recover`] of a kill.
-pub fn change_hdf5<T>(
-    path: &Path,
-    more: u64,
-    change: impl FnOnce(&Path) -> Result<T, OutputError>,
-) -> Result<T, OutputError> {
+pub fn change_hdf5<T>(path: &Path, more: u64, change: impl FnOnce(&Path) -> Result<T>) -> Result<T> {
     let mark = beside(path, CHANGING_SUFFIX);
     fs::File::create(&mark).map_err(OutputError::io(&mark, "make"))?;
     extend(path, more)?;
@@ -90,7 +81,7 @@ pub fn change_hdf5<T>(
 }
 
 /// Keeps the present version of a file, which is not to be changed in place before a new one takes its name.
-pub fn keep_before(path: &Path) -> Result<(), OutputError> {
+pub fn keep_before(path: &Path) -> Result<()> {
     let kept = beside(path, BEFORE_SUFFIX);
     replace(&kept, |temporary| {
         // Left by a kill.
@@ -105,7 +96,7 @@ pub fn keep_before(path: &Path) -> Result<(), OutputError> {
 ///
 /// - returns: whether it was half changed.
 /// - errors: there is no such version.
-pub fn recover(path: &Path) -> Result<bool, OutputError> {
+pub fn recover(path: &Path) -> Result<bool> {
     let [mark, kept] = [CHANGING_SUFFIX, BEFORE_SUFFIX].map(|suffix| beside(path, suffix));
     let is_half_changed = mark.exists();
     if is_half_changed {
@@ -118,14 +109,14 @@ pub fn recover(path: &Path) -> Result<bool, OutputError> {
 }
 
 /// Removes what [`keep_before`] has kept.
-pub fn forget_before(path: &Path) -> Result<(), OutputError> {
+pub fn forget_before(path: &Path) -> Result<()> {
     remove_if_there(&beside(path, BEFORE_SUFFIX), "remove")
 }
 
 /// Removes a file that need not be there.
 ///
 /// - `action`: what an error calls it.
-pub fn remove_if_there(file: &Path, action: &'static str) -> Result<(), OutputError> {
+pub fn remove_if_there(file: &Path, action: &'static str) -> Result<()> {
     match fs::remove_file(file) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::io(file, action)(error)),
         _ => Ok(()),
@@ -133,7 +124,7 @@ pub fn remove_if_there(file: &Path, action: &'static str) -> Result<(), OutputEr
 }
 
 /// Makes sure of room for `more` bytes in an HDF5 file.
-fn extend(path: &Path, more: u64) -> Result<(), OutputError> {
+fn extend(path: &Path, more: u64) -> Result<()> {
     let extended = fs::OpenOptions::new().write(true).open(path).and_then(|file| {
         let length = file.metadata()?.len().saturating_add(more);
         reserve(&file, path, length)
@@ -144,11 +135,7 @@ fn extend(path: &Path, more: u64) -> Result<(), OutputError> {
 /// Changes the existing HDF5 file `path` by `change`, which gets the path of a copy to work on and may add up to `more` bytes.
 ///
 /// Copying costs about a second per gigabyte, nothing where the file system clones files.
-pub fn update_hdf5<T>(
-    path: &Path,
-    more: u64,
-    change: impl FnOnce(&Path) -> Result<T, OutputError>,
-) -> Result<T, OutputError> {
+pub fn update_hdf5<T>(path: &Path, more: u64, change: impl FnOnce(&Path) -> Result<T>) -> Result<T> {
     replace(path, |temporary| {
         fs::copy(path, temporary).map_err(OutputError::io(path, "copy"))?;
         extend(temporary, more)?;
@@ -157,13 +144,13 @@ pub fn update_hdf5<T>(
 }
 
 /// Waits until a file or directory is on the disk as it is now.
-pub fn sync(path: &Path) -> Result<(), OutputError> {
+pub fn sync(path: &Path) -> Result<()> {
     let synced = fs::File::open(path).and_then(|file| file.sync_all());
     synced.map_err(OutputError::io(path, "bring to the disk"))
 }
 
 /// Writes `bytes` as the whole content of `path`, on the disk before the name points to it.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     replace(path, |temporary| {
         let write = || -> std::io::Result<()> {
             let mut file = fs::File::create(temporary)?;

@@ -87,17 +87,47 @@ fn check(what: &str, text: &str, sets: &[&str], piece: usize) {
     assert!(assert_same(what, &whole, &parts, true) > 20, "{what}");
 }
 
-#[test]
-fn the_riemann_scheme() {
-    let _turn = without_processes();
-    check("riemann", &coupled(), &[], 31);
-    check("short pieces", &coupled(), &["time.end=1e-5"], 7);
+/// Tests that check one case after the other: what it is, its text, what is set, after how many steps each piece ends.
+macro_rules! goes_on {
+    ($($name:ident: $(($what:literal, $text:expr, [$($set:expr),*], $piece:literal)),+;)+) => {
+        $(
+            #[test]
+            fn $name() {
+                let _turn = without_processes();
+                $(check($what, &$text, &[$($set),*], $piece);)+
+            }
+        )+
+    };
 }
 
-#[test]
-fn the_five_equation_model() {
-    let _turn = without_processes();
-    check("five-equation", &coupled(), &["fluid.model=five-equation"], 37);
+/// A solid whose waves are no faster than the liquid's.
+const SOFT: &str = "solid.material={ density = 1100.0, c1 = 1550.0, c2 = 20.0 }";
+/// Friction that is felt on these grids.
+const THICK: &str = "fluid.terms.viscosity={ liquid = 1e2, gas = 1.0 }";
+
+goes_on! {
+    the_riemann_scheme:
+        ("riemann", coupled(), [], 31),
+        ("short pieces", coupled(), ["time.end=1e-5"], 7);
+    the_five_equation_model: ("five-equation", coupled(), ["fluid.model=five-equation"], 37);
+    steps_that_are_the_same_on_both_sides: ("one step", coupled(), ["coupling.step_ratio=1", "time.end=2e-5"], 41);
+    local_steps_where_the_fluids_are_the_longer: ("local", coupled(), ["time.local_steps=true"], 13);
+    local_steps_where_the_solids_are_the_longer:
+        ("soft", coupled(), [SOFT, "time.local_steps=true", "time.end=2e-5"], 5),
+        ("soft, common", coupled(), [SOFT, "time.end=2e-5"], 9);
+    viscous_fluids:
+        ("viscous", coupled(), [THICK, "time.local_steps=true", "time.end=2e-5"], 7),
+        ("viscous, five-equation", coupled(), [THICK, "fluid.model=five-equation", "time.end=2e-5"], 13);
+    several_bubbles: ("bubbles", (coupled() + &second_bubble()), ["time.end=2e-5"], 23);
+    a_fluid_alone:
+        ("fluid", fluid_alone(), [], 43),
+        ("fluid, local", fluid_alone(), ["time.local_steps=true", "fluid.model=five-equation"], 17);
+    a_solid_under_a_load:
+        ("load", loaded(), [], 7),
+        ("load, local", loaded(), ["time.local_steps=true"], 5);
+    a_solid_alone:
+        ("solid", solid(), [], 11),
+        ("solid, local", solid(), ["time.local_steps=true"], 5);
 }
 
 #[test]
@@ -125,47 +155,6 @@ fn the_papers_other_schemes() {
             check(&format!("{scheme}, {first} first"), &coupled(), &sets, 29);
         }
     }
-}
-
-#[test]
-fn steps_that_are_the_same_on_both_sides() {
-    let _turn = without_processes();
-    check("one step", &coupled(), &["coupling.step_ratio=1", "time.end=2e-5"], 41);
-}
-
-#[test]
-fn local_steps_where_the_fluids_are_the_longer() {
-    let _turn = without_processes();
-    check("local", &coupled(), &["time.local_steps=true"], 13);
-}
-
-#[test]
-fn local_steps_where_the_solids_are_the_longer() {
-    let _turn = without_processes();
-    let soft = "solid.material={ density = 1100.0, c1 = 1550.0, c2 = 20.0 }";
-    check("soft", &coupled(), &[soft, "time.local_steps=true", "time.end=2e-5"], 5);
-    check("soft, common", &coupled(), &[soft, "time.end=2e-5"], 9);
-}
-
-#[test]
-fn viscous_fluids() {
-    let _turn = without_processes();
-    let thick = "fluid.terms.viscosity={ liquid = 1e2, gas = 1.0 }";
-    check("viscous", &coupled(), &[thick, "time.local_steps=true", "time.end=2e-5"], 7);
-    check("viscous, five-equation", &coupled(), &[thick, "fluid.model=five-equation", "time.end=2e-5"], 13);
-}
-
-#[test]
-fn several_bubbles() {
-    let _turn = without_processes();
-    check("bubbles", &(coupled() + &second_bubble()), &["time.end=2e-5"], 23);
-}
-
-#[test]
-fn a_fluid_alone() {
-    let _turn = without_processes();
-    check("fluid", &fluid_alone(), &[], 43);
-    check("fluid, local", &fluid_alone(), &["time.local_steps=true", "fluid.model=five-equation"], 17);
 }
 
 #[test]
@@ -234,20 +223,6 @@ fn all_terms_above_a_wall_that_conducts() {
         "time.local_steps=true",
     ];
     check("all terms", &coupled(), &sets, 29);
-}
-
-#[test]
-fn a_solid_under_a_load() {
-    let _turn = without_processes();
-    check("load", &loaded(), &[], 7);
-    check("load, local", &loaded(), &["time.local_steps=true"], 5);
-}
-
-#[test]
-fn a_solid_alone() {
-    let _turn = without_processes();
-    check("solid", &solid(), &[], 11);
-    check("solid, local", &solid(), &["time.local_steps=true"], 5);
 }
 
 /// The comparison sees a number that is off by one bit.

@@ -67,6 +67,19 @@ impl TraceRow {
         "impedance",
     ];
 
+    /// What the row counts in the state a time after that of the trace: rates so many times, s, all others once.
+    #[inline]
+    #[must_use]
+    pub fn weight_after(self, time: f64) -> f64 {
+        match self {
+            Self::PressureRate
+            | Self::NormalVelocityRate
+            | Self::TangentialVelocityRate
+            | Self::DensityRate => time,
+            _ => 1.0,
+        }
+    }
+
     /// This row's part of a payload of `count` faces.
     pub fn of(self, payload: &[f64], count: usize) -> &[f64] {
         &payload[self as usize * count..][..count]

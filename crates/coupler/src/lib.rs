@@ -8,6 +8,7 @@
 //! - [`exact_star`], [`acoustic_star`]: the Riemann problem between the two media; [`fluid_at_moving_wall`] and its like:
 //!   one half of it; [`KappaFactor`]: the paper's damping of the weak scheme; [`Aitken`]: the relaxation of the
 //!   strong one.
+//! - [`WaveCurve`], [`curve_root`]: shock and isentrope of a stiffened gas, of which the fluid's Riemann solver is made, too.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
@@ -34,6 +35,7 @@ mod process;
 mod silence;
 mod star;
 mod watch;
+mod wave_curve;
 mod weak;
 
 pub use aitken::Aitken;
@@ -55,4 +57,7 @@ pub use options::{Kappa, Scheme, StarSolver};
 pub use participant::{FlowParticipant, FlowTrace, FluidStep, WallMeans, WallParticipant};
 pub use process::{Endpoint, Interrupt, ProcessLink, check_run_id};
 pub use star::{FluidTrace, InterfaceStar, SolidTrace, acoustic_star, exact_star, star_density};
+pub use wave_curve::{
+    CurvePoint, CurveRoot, MAX_ITERATIONS, VACUUM_PRESSURE, WaveCurve, curve_root, ln_pressure_ratio,
+};
 pub use weak::KappaFactor;

@@ -10,14 +10,7 @@
 //! fluid:  v = v_f + f(p),  f the shock or isentrope through the trace, in the limit (p − p_f)/Z_f
 //! ```
 
-/// Newton steps after which [`exact_star`] returns what it has. A million random traces took 12 at most.
-pub const MAX_ITERATIONS: u32 = 40;
-
-/// Below this p + π the liquid has torn; the exponents leave the range of f64. Pa.
-const TORN: f64 = 1e-290;
-
-/// A step in ln(p + π) after which the cubic convergence leaves an error below 1e-24 of it.
-const LAST_STEP: f64 = 1e-9;
+use crate::wave_curve::{CurvePoint, CurveRoot, VACUUM_PRESSURE, WaveCurve, curve_root};
 
 /// The fluid's state at the interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +50,13 @@ impl FluidTrace {
     #[must_use]
     pub fn impedance(&self) -> f64 {
         self.density * self.sound_speed()
+    }
+
+    /// The curve of the wave that runs into the fluid.
+    #[inline]
+    fn wave_curve(&self) -> WaveCurve {
+        let Self { pressure, gamma, pi, .. } = *self;
+        WaveCurve { pressure, gamma, pi, sound_speed: self.sound_speed() }
     }
 }
 
@@ -137,56 +137,15 @@ fn torn(fluid: &FluidTrace, solid: &SolidTrace) -> InterfaceStar {
     InterfaceStar { pressure: -fluid.pi, velocity, iterations: 0, floored: true }
 }
 
-/// f(p) and its derivatives by p, times (p + π) and (p + π)².
-#[derive(Clone, Copy)]
-struct Curve {
-    f: f64,
-    slope: f64,
-    curvature: f64,
-}
-
-/// ln((p + π)/(p_f + π)), exact near the trace and near −π.
-#[inline]
-fn ln_ratio(fluid: &FluidTrace, p: f64, shifted: f64) -> f64 {
-    let base = fluid.pressure + fluid.pi;
-    let x = (p - fluid.pressure) / base;
-    if x > -0.5 { x.ln_1p() } else { (shifted / base).ln() }
-}
-
-/// The velocity that the wave into the fluid adds at pressure p: Toro (2009) eq. 4.7 in p + π = `shifted`.
-#[inline]
-fn curve(fluid: &FluidTrace, p: f64, shifted: f64) -> Curve {
-    let (gamma, c) = (fluid.gamma, fluid.sound_speed());
-    let base = fluid.pressure + fluid.pi;
-    let a = (gamma + 1.0) / (2.0 * gamma);
-    let x = (p - fluid.pressure) / base;
-    if x > 0.0 {
-        let root2 = 1.0 / (1.0 + a * x);
-        let scale = c / gamma * root2.sqrt();
-        let lever = shifted / base;
-        Curve {
-            f: scale * x,
-            slope: scale * root2 * (1.0 + 0.5 * a * x) * lever,
-            curvature: -scale * root2 * root2 * a * (1.0 + 0.25 * a * x) * lever * lever,
-        }
-    } else {
-        let exponent = (gamma - 1.0) / (2.0 * gamma) * ln_ratio(fluid, p, shifted);
-        let slope = c / gamma * exponent.exp();
-        Curve { f: 2.0 * c / (gamma - 1.0) * exponent.exp_m1(), slope, curvature: -a * slope }
-    }
-}
-
 /// The velocity f(p) that the wave into the fluid adds at pressure p ≥ −π.
 pub(crate) fn wave_velocity(fluid: &FluidTrace, p: f64) -> f64 {
-    curve(fluid, p, (p + fluid.pi).max(TORN)).f
+    fluid.wave_curve().at(p, (p + fluid.pi).max(VACUUM_PRESSURE), 0.0).f
 }
 
 /// The star state on the exact shock or isentrope of the stiffened gas.
 ///
 /// The zero of G(p) = v_f + f(p) − v_s − (P_s − p)/Z_s; f as Toro (2009) eq. 4.7 in p + π. Paper: conditions
-/// (22). G is concave in p and convex in ln(p + π), so Newton steps in the one bound the root from below and
-/// in the other from above; the iterate is the Newton step in the power of p + π in which G is linear to
-/// second order, kept between them. It starts at the acoustic star and converges cubically.
+/// (22). It starts at the acoustic star and converges cubically, see [`crate::curve_root`].
 ///
 /// - `fluid`, `solid`: traces at the wall, SI.
 /// - returns: p* (Pa) and v* (m/s). Traces of equal pressure and velocity come back as they are, bitwise.
@@ -202,56 +161,25 @@ pub fn exact_star(fluid: &FluidTrace, solid: &SolidTrace) -> InterfaceStar {
     debug_assert!(fluid.density > 0.0 && fluid.gamma > 1.0 && fluid.pressure + pi > 0.0, "{fluid:?}");
     debug_assert!(solid.impedance > 0.0, "{solid:?}");
     let dv = fluid.velocity - solid.velocity;
-    let g = |curve: &Curve, p: f64| curve.f + (p - solid.pressure) / solid.impedance + dv;
-
-    if g(&curve(fluid, TORN - pi, TORN), TORN - pi) >= 0.0 {
+    let curve = fluid.wave_curve();
+    // The solid's line is straight: it adds nothing to the curvature.
+    let sum = |p: f64, shifted: f64| {
+        let at = curve.at(p, shifted, 0.0);
+        let f = at.f + (p - solid.pressure) / solid.impedance + dv;
+        CurvePoint { f, slope: at.slope + shifted / solid.impedance, ..at }
+    };
+    if sum(VACUUM_PRESSURE - pi, VACUUM_PRESSURE).f >= 0.0 {
         return torn(fluid, solid);
     }
 
     let start = acoustic_star(fluid, solid).pressure;
     // Far below the trace the tangent says nothing.
-    let mut p = if start + pi > 0.1 * (fluid.pressure + pi) { start } else { fluid.pressure };
-    let mut shifted = p + pi;
-    let (mut lowest, mut highest) = (TORN, f64::INFINITY);
-    let mut iterations = 0;
-    loop {
-        iterations += 1;
-        let at = curve(fluid, p, shifted);
-        let slope = at.slope + shifted / solid.impedance;
-        let x = g(&at, p) / slope;
-        let theta = (1.0 + at.curvature / slope).clamp(1e-6, 1.0);
-        lowest = lowest.max(shifted * (1.0 - x) * (1.0 - 1e-12));
-        highest = highest.min(shifted * (-x).exp() * (1.0 + 1e-12));
-        let power = if theta * x < 1.0 { (-theta * x).ln_1p() / theta } else { f64::NEG_INFINITY };
-        let candidate = shifted * power.exp();
-        let step = if candidate < lowest {
-            // The bound of the torn liquid is none; then down with ln(p + pi), which cannot overshoot.
-            if lowest > TORN { (lowest / shifted).ln() } else { -x }
-        } else if candidate > highest {
-            (highest / shifted).ln()
-        } else {
-            power
-        };
-        // Of p and p + pi the smaller is carried, the other one follows.
-        let ahead = shifted * step.exp();
-        if (ahead - pi).abs() < ahead {
-            p += shifted * step.exp_m1();
-            shifted = p + pi;
-        } else {
-            shifted = ahead;
-            p = shifted - pi;
-        }
-        // Cubic: what is left is about step³ (p + pi).
-        let left_over = step.abs().powi(3) * shifted;
-        let done = step.abs() <= LAST_STEP || left_over <= 0.1 * f64::EPSILON * p.abs().min(shifted);
-        if done || iterations >= MAX_ITERATIONS {
-            break;
-        }
-    }
+    let start = if start + pi > 0.1 * (fluid.pressure + pi) { start } else { fluid.pressure };
+    let CurveRoot { p, shifted, iterations } = curve_root(start, pi, sum);
 
     // The remaining round-off between the two lines is shared by impedance: the stiffer one has the better
     // velocity.
-    let at = curve(fluid, p, shifted);
+    let at = curve.at(p, shifted, 0.0);
     let of_solid = solid.velocity + (solid.pressure - p) / solid.impedance;
     let of_fluid = fluid.velocity + at.f;
     let weight = shifted / (shifted + at.slope * solid.impedance);
@@ -276,13 +204,7 @@ pub fn exact_star(fluid: &FluidTrace, solid: &SolidTrace) -> InterfaceStar {
 #[inline]
 #[must_use]
 pub fn star_density(fluid: &FluidTrace, p: f64) -> f64 {
-    let x = (p - fluid.pressure) / (fluid.pressure + fluid.pi);
-    let gamma = fluid.gamma;
-    if x > 0.0 {
-        fluid.density * ((2.0 * gamma + (gamma + 1.0) * x) / (2.0 * gamma + (gamma - 1.0) * x))
-    } else {
-        fluid.density * (ln_ratio(fluid, p, p + fluid.pi) / gamma).exp()
-    }
+    fluid.density * fluid.wave_curve().density_ratio(p, p + fluid.pi)
 }
 
 #[cfg(test)]

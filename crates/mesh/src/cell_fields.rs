@@ -19,10 +19,10 @@ pub struct CellField<S: 'static> {
 /// added here, and where the snapshot is filled.
 #[macro_export]
 macro_rules! cell_fields {
-    ($(#[$about:meta])* $Snapshot:ident, $FIELDS:ident {
+    ($Snapshot:ident, $FIELDS:ident {
         $($name:ident: $components:literal, $unit:literal, $description:literal;)*
     }) => {
-        $(#[$about])*
+        /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub struct $Snapshot {
             $(#[doc = concat!($description, ", ", $unit, ".")] pub $name: Vec<f64>,)*

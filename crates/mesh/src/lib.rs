@@ -53,7 +53,7 @@ pub use multiresolution::remap::{Adapted, Origin, Remap};
 pub use multiresolution::{MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution};
 pub use subcycling::courant::longest_step;
 pub use subcycling::level_clock::{GroupStep, LevelClock, steps_in};
-pub use subcycling::level_steps::{FinerSide, LevelSteps, MOST_HALVINGS, Part, Registers};
+pub use subcycling::level_steps::{FinerSide, LevelSteps, MOST_HALVINGS, Part, Registers, every_slot};
 pub use subcycling::register::{CorrectedFace, FluxRegister};
 pub use tree::domain::{Domain, Mesh, MeshError, Misfit};
 pub use tree::field::Field;

@@ -181,7 +181,13 @@ fn checked(dt: f64) -> PyResult<()> {
 ///
 /// pyo3 has no generic classes and one `impl` block with methods per class, so that only a macro can say once what both have.
 macro_rules! solver_class {
-    ($(#[$document:meta])* $name:ident, $solver:ty, { $($own:tt)* }) => {
+    (
+        $(#[$document:meta])*
+        $name:ident, $solver:ty,
+        $(#[$about:meta])*
+        $surface:ident: $of:expr,
+        { $($own:tt)* }
+    ) => {
         $(#[$document])*
         #[pyclass(frozen, module = "pycav._pycav")]
         pub struct $name(Alone<$solver>);
@@ -218,6 +224,12 @@ macro_rules! solver_class {
             #[getter]
             fn surface_edges<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
                 self.0.surface_edges(py)
+            }
+
+            $(#[$about])*
+            #[getter]
+            fn $surface<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+                self.0.surface(py, $of)
             }
 
             /// The side's own state on these faces in the middle of a step of length `dt`, arrays of shape (faces,).
@@ -260,13 +272,9 @@ solver_class!(
     /// The fluid of a case without its solid.
     FluidSolver,
     fluid::FluidSolver<BLOCK>,
+    /// Mean pressure of the last step on the faces, Pa.
+    surface_pressure: |wall| wall.pressure,
     {
-        /// Mean pressure of the last step on the faces, Pa.
-        #[getter]
-        fn surface_pressure<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-            self.0.surface(py, |wall| wall.pressure)
-        }
-
         /// Equivalent radius of the gas, m.
         #[getter]
         fn equivalent_radius(&self) -> PyResult<f64> {
@@ -279,11 +287,7 @@ solver_class!(
     /// The solid of a case without its fluid.
     SolidSolver,
     solid::SolidSolver<BLOCK>,
-    {
-        /// Mean velocity of the last step on the faces, m/s.
-        #[getter]
-        fn surface_velocity<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-            self.0.surface(py, |face| face.velocity)
-        }
-    }
+    /// Mean velocity of the last step on the faces, m/s.
+    surface_velocity: |face| face.velocity,
+    {}
 );

@@ -40,6 +40,12 @@ fn missing(medium: &str) -> Failure {
     Failure::Python(PyValueError::new_err(format!("the case has no {medium}")))
 }
 
+fn filled<T>(fill: impl FnOnce(&mut Vec<T>)) -> Vec<T> {
+    let mut values = Vec::new();
+    fill(&mut values);
+    values
+}
+
 impl Medium for fluid::FluidSolver<BLOCK> {
     type Trace = FluidTrace;
     const COLUMNS: Columns<FluidTrace> = &[
@@ -57,9 +63,7 @@ impl Medium for fluid::FluidSolver<BLOCK> {
     }
 
     fn traces(&self, dt: f64) -> Vec<FluidTrace> {
-        let mut traces = Vec::new();
-        self.traces_at_mid_step(dt, &mut traces);
-        traces
+        filled(|traces| self.traces_at_mid_step(dt, traces))
     }
 
     fn under(trace: &FluidTrace, pressure: f64) -> InterfaceStar {
@@ -98,13 +102,11 @@ impl Medium for solid::SolidSolver<BLOCK> {
     }
 
     fn traces(&self, dt: f64) -> Vec<SolidFace> {
-        let mut traces = Vec::new();
-        self.traces_at_mid_step(dt, &mut traces);
         let face = |own: solid::SurfaceTrace| SolidFace {
             trace: SolidTrace { pressure: own.pressure, velocity: own.velocity, impedance: own.impedance },
             shear: own.shear,
         };
-        traces.into_iter().map(face).collect()
+        filled(|traces| self.traces_at_mid_step(dt, traces)).into_iter().map(face).collect()
     }
 
     fn under(face: &SolidFace, pressure: f64) -> InterfaceStar {

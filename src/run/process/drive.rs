@@ -99,41 +99,51 @@ pub fn joined(
     match joining.participant {
         Participant::Fluid => {
             let fluid = case.fluid.as_ref().ok_or(RunError::NoPeer { side })?;
+            let saved = keeping.from.map(|step| checkpoints.read(Participant::Fluid, step));
             let resumed = |saved| FluidSide::resumed(case, fluid, &directory, saved);
-            let new = || FluidSide::new(case, fluid, Some(&directory));
-            let side =
-                begun(keeping.from.map(|step| checkpoints.read(Participant::Fluid, step)), resumed, new);
-            let mut side = keeping_by(keeper, told(side, &mut link)?);
-            let result = loop {
-                match side.turn(&mut link, stop) {
-                    Ok(Turn::Continues) => on_step(&line(&side)),
-                    other => break other,
-                }
-            };
-            let result = tell(result, &mut link, side.solver().steps());
-            end(&mut side, Some(&directory), result, link.counters())
+            let side = begun(saved, resumed, || FluidSide::new(case, fluid, Some(&directory)));
+            conducted(side, &mut link, &directory, keeper, |side, link| turns(side, link, stop, on_step))
         }
         Participant::Solid => {
             let solid = case.solid.as_ref().ok_or(RunError::NoPeer { side })?;
+            let saved = keeping.from.map(|step| checkpoints.read(Participant::Solid, step));
             let resumed = |saved| SolidSide::resumed(case, solid, &directory, saved);
-            let new = || SolidSide::new(case, solid, Some(&directory));
-            let side =
-                begun(keeping.from.map(|step| checkpoints.read(Participant::Solid, step)), resumed, new);
-            let mut side = keeping_by(keeper, told(side, &mut link)?);
-            let mut rounds = || -> Result<Turn, RunError> {
-                side.open(&mut link, stop)?;
-                loop {
-                    match side.turn(&mut link, stop)? {
-                        Turn::Continues => on_step(&line(&side)),
-                        over => return Ok(over),
-                    }
-                }
-            };
-            let result = rounds();
-            let result = tell(result, &mut link, side.solver().steps());
-            end(&mut side, Some(&directory), result, link.counters())
+            let side = begun(saved, resumed, || SolidSide::new(case, solid, Some(&directory)));
+            conducted(side, &mut link, &directory, keeper, |side, link| {
+                side.open(link, stop)?;
+                turns(side, link, stop, on_step)
+            })
         }
     }
+}
+
+/// Steps of a side until the run is over.
+fn turns<S: RunSide>(
+    side: &mut S,
+    link: &mut ProcessLink,
+    stop: &Stop,
+    on_step: &mut OnStep<'_>,
+) -> Result<Turn, RunError> {
+    loop {
+        match side.turn(link, stop)? {
+            Turn::Continues => on_step(&line(side)),
+            over => return Ok(over),
+        }
+    }
+}
+
+/// A side through its steps to its end; the peer is told of what fails.
+fn conducted<S: RunSide>(
+    side: Result<S, RunError>,
+    link: &mut ProcessLink,
+    directory: &RunDirectory,
+    keeper: Option<Keeper>,
+    steps: impl FnOnce(&mut S, &mut ProcessLink) -> Result<Turn, RunError>,
+) -> Result<(), RunError> {
+    let mut side = keeping_by(keeper, told(side, link)?);
+    let result = steps(&mut side, link);
+    let result = tell(result, link, side.solver().steps());
+    end(&mut side, Some(directory), result, link.counters())
 }
 
 /// A side as it was kept, or at t = 0.

@@ -197,8 +197,8 @@ impl InterfaceHistory {
     pub fn summary(&self) -> Map<String, Value> {
         let mut part = self.axis.summary();
         part.extend(self.sensors.summary());
-        part.extend(self.shear.iter().flat_map(WallShear::summary));
-        part.extend(self.heat.iter().flat_map(WallHeat::summary));
+        part.extend(self.shear.iter().flat_map(|shear| shear.peak.summary("wall_shear_peak")));
+        part.extend(self.heat.iter().flat_map(|heat| heat.peak.summary("wall_temperature_peak")));
         part
     }
 

@@ -37,6 +37,7 @@ pub mod timed;
 pub mod two_collapses;
 pub mod wall_axis;
 mod wall_heat;
+mod wall_peak;
 mod wall_shear;
 
 use mesh::{BLOCK, Limiter, Mesh, Misfit};

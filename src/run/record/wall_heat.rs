@@ -2,8 +2,8 @@
 
 use coupler::CommonRefinement;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
 
+use super::wall_peak::WallPeak;
 use crate::run::side::wall_faces::WallFaces;
 
 /// The heat flux into the wall and its temperature in the last step; and the highest temperature so far.
@@ -13,19 +13,15 @@ pub struct WallHeat {
     fluxes: Vec<f64>,
     /// Likewise, K.
     temperatures: Vec<f64>,
-    /// The highest on any face so far, K; NaN before the first step.
-    peak: f64,
-    /// In the middle of that face, m.
-    position: f64,
-    /// At the end of that step, s.
-    time: f64,
+    /// The highest temperature, K; NaN before the first step.
+    pub peak: WallPeak,
 }
 
 impl WallHeat {
     /// Nothing yet, on a grid of so many cells.
     pub fn new(cells: usize) -> Self {
         let none = vec![f64::NAN; cells];
-        Self { fluxes: vec![0.0; cells], temperatures: none, peak: f64::NAN, position: 0.0, time: 0.0 }
+        Self { fluxes: vec![0.0; cells], temperatures: none, peak: WallPeak::of(f64::NAN) }
     }
 
     /// Temperatures (K) and heat fluxes (W/m²) in the cells of the grid.
@@ -44,21 +40,7 @@ impl WallHeat {
         map.means(true, |k| fluxes[map.sub_faces()[k].first], |cell, mean| self.fluxes[cell] = mean);
         let put = |cell: usize, mean| self.temperatures[cell] = mean;
         map.means(true, |k| temperatures[map.sub_faces()[k].first], put);
-        let mut low = faces.begin();
-        for (edge, temperature) in faces.edges().iter().zip(temperatures) {
-            if !(*temperature <= self.peak) {
-                (self.peak, self.position, self.time) = (*temperature, 0.5 * (low + edge), time);
-            }
-            low = *edge;
-        }
-    }
-
-    /// Its part of the summary.
-    pub fn summary(&self) -> Map<String, Value> {
-        let Self { peak, position, time, .. } = self;
-        let parts = [("", peak), ("_position", position), ("_time", time)];
-        let key = |name| format!("wall_temperature_peak{name}");
-        parts.into_iter().map(|(name, value)| (key(name), json!(value))).collect()
+        self.peak.after_step(faces, temperatures, time, |temperature, peak| !(temperature <= peak));
     }
 }
 
@@ -73,6 +55,6 @@ mod tests {
         heat.after_step(&faces, &map, [&[5.0, 7.0], &[300.0, 350.0]], 0.1);
         assert_eq!(heat.rows().copied().collect::<Vec<_>>(), [300.0, 300.0, 350.0, 5.0, 5.0, 7.0]);
         heat.after_step(&faces, &map, [&[5.0, 7.0], &[320.0, 340.0]], 0.2);
-        assert_eq!((heat.peak, heat.position, heat.time), (350.0, 1.5, 0.1));
+        assert_eq!(heat.peak, WallPeak { value: 350.0, position: 1.5, time: 0.1 });
     }
 }

@@ -2,8 +2,8 @@
 
 use coupler::CommonRefinement;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
 
+use super::wall_peak::WallPeak;
 use crate::run::side::wall_faces::WallFaces;
 
 /// The shear stress of the last step, σ_zr, positive where the fluid drags the wall along +r; and the largest so far.
@@ -11,42 +11,25 @@ use crate::run::side::wall_faces::WallFaces;
 pub struct WallShear {
     /// In the cells of the grid, Pa.
     means: Vec<f64>,
-    /// The one of the largest magnitude on any face so far, Pa.
-    peak: f64,
-    /// In the middle of that face, m.
-    position: f64,
-    /// At the end of that step, s.
-    time: f64,
+    /// The one of the largest magnitude, Pa.
+    pub peak: WallPeak,
 }
 
 impl WallShear {
     /// Nothing yet, on a grid of so many cells.
     pub fn new(cells: usize) -> Self {
-        Self { means: vec![0.0; cells], peak: 0.0, position: 0.0, time: 0.0 }
-    }
-
-    /// In the cells of the grid, Pa.
-    pub fn means(&self) -> &[f64] {
-        &self.means
+        Self { means: vec![0.0; cells], peak: WallPeak::of(0.0) }
     }
 
     /// Takes notice of a step that ended at `time` with these mean stresses on the faces; `map` leads from them to the grid.
     pub fn after_step(&mut self, faces: &WallFaces, map: &CommonRefinement, stresses: &[f64], time: f64) {
         map.means(true, |k| stresses[map.sub_faces()[k].first], |cell, mean| self.means[cell] = mean);
-        let mut low = faces.begin();
-        for (edge, stress) in faces.edges().iter().zip(stresses) {
-            if stress.abs() > self.peak.abs() {
-                (self.peak, self.position, self.time) = (*stress, 0.5 * (low + edge), time);
-            }
-            low = *edge;
-        }
+        self.peak.after_step(faces, stresses, time, |stress, peak| stress.abs() > peak.abs());
     }
 
-    /// Its part of the summary.
-    pub fn summary(&self) -> Map<String, Value> {
-        let Self { means: _, peak, position, time } = self;
-        let parts = [("", peak), ("_position", position), ("_time", time)];
-        parts.into_iter().map(|(name, value)| (format!("wall_shear_peak{name}"), json!(value))).collect()
+    /// In the cells of the grid, Pa.
+    pub fn means(&self) -> &[f64] {
+        &self.means
     }
 }
 
@@ -61,7 +44,6 @@ mod tests {
         shear.after_step(&faces, &map, &[2.0, -3.0], 0.1);
         assert_eq!(shear.means(), [2.0, 2.0, -3.0]);
         shear.after_step(&faces, &map, &[2.5, 1.0], 0.2);
-        let WallShear { peak, position, time, .. } = shear;
-        assert_eq!((peak, position, time), (-3.0, 1.5, 0.1));
+        assert_eq!(shear.peak, WallPeak { value: -3.0, position: 1.5, time: 0.1 });
     }
 }

@@ -43,7 +43,7 @@ pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
 
     /// Writes the traces on all faces, before a long step of length `dt`.
     fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(dt, |_| true, put);
+        self.write_trace_of(dt, mesh::every_slot, put);
     }
 
     /// Writes the traces on the faces of the levels that are about to step.
@@ -57,7 +57,7 @@ impl CoupledSolver for FluidSolver<BLOCK> {
     const OWN: Participant = Participant::Fluid;
 
     fn write_trace_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, put: impl FnMut(TraceRow, usize, f64)) {
-        FluidSolver::write_trace_of(self, dt, is_due, put);
+        FluidSolver::write_trace(self, dt, is_due, put);
     }
 }
 
@@ -66,7 +66,7 @@ impl CoupledSolver for SolidSolver<BLOCK> {
     const OWN: Participant = Participant::Solid;
 
     fn write_trace_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, put: impl FnMut(TraceRow, usize, f64)) {
-        SolidSolver::write_trace_of(self, dt, is_due, put);
+        SolidSolver::write_trace(self, dt, is_due, put);
     }
 }
 

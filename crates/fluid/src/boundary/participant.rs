@@ -10,7 +10,7 @@ use crate::state::COUNT;
 use crate::state::PrimitiveCell;
 use crate::state::primitive::{PHI, PRESSURE, RHO, V_R, V_Z};
 use crate::step::block_sides;
-use crate::step::rows::{half_step, rates};
+use crate::step::rows::{Prediction, rates};
 use crate::step::update::Metric;
 use crate::step::{BlockScratch, reconstruct, take_wall};
 use crate::terms::{GasMass, HeatBeyond, TermBlock, WallCell};
@@ -25,21 +25,17 @@ impl<const N: usize> FluidSolver<N> {
     /// the face: density and p + π stay clear of zero.
     ///
     /// - `dt`: the step about to be made: a cell that falls back to first order in it has no slope and no rate.
-    /// - `row`: gives the place to write one [`TraceRow`] of a face.
-    pub fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(dt, |_| true, put);
-    }
-
-    /// [`FluidSolver::write_trace`] for the faces of the blocks that are due, by their slots.
-    pub fn write_trace_of(
+    /// - `due`: of the slot of a block, whether the traces on its faces are wanted.
+    /// - `put`: gets the place and one [`TraceRow`] of a face.
+    pub fn write_trace(
         &self,
         dt: f64,
-        is_due: impl Fn(usize) -> bool,
+        due: impl Fn(usize) -> bool,
         mut put: impl FnMut(TraceRow, usize, f64),
     ) {
         let context = self.context(dt);
         let mut scaled = 0;
-        for slot in self.interface().blocks().iter().copied().filter(|slot| is_due(*slot)) {
+        for slot in self.interface().blocks().iter().copied().filter(|slot| due(*slot)) {
             let Some(first) = self.interface().first_face(slot) else { continue };
             let id = self.mesh().tree().leaves()[slot];
             let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
@@ -63,8 +59,17 @@ impl<const N: usize> FluidSolver<N> {
                     let share = self.gas_share(cells, k);
                     let bound = self.mixture().bound_beta1::<true>(share);
                     let [w, d_z, d_r] = [cells, s_z, s_r].map(|rows| at(&rows.split(), k));
-                    let (_, keep) =
-                        half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * dt, bound, self.mixture());
+                    let (_, keep) = Prediction::<true>::new(
+                        w,
+                        d_z,
+                        d_r,
+                        inverse_h,
+                        inverse_r[k],
+                        0.5 * dt,
+                        bound,
+                        self.mixture(),
+                    )
+                    .half_step();
                     let slope = d_r.map(|d| keep * d * inverse_h[1]);
                     let mut rate = rates(
                         w,
@@ -152,8 +157,17 @@ impl<const N: usize> FluidSolver<N> {
             let k = Padded::<N>::index(0, j as isize);
             let [w, d_z, d_r] = [&*cells, s_z, s_r].map(|rows| at(&rows.split(), k));
             let bound = self.mixture().bound_beta1::<true>(self.gas_share(cells, k));
-            let (state, _) =
-                half_step(w, d_z, d_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, bound, self.mixture());
+            let (state, _) = Prediction::<true>::new(
+                w,
+                d_z,
+                d_r,
+                inverse_h,
+                inverse_r[k],
+                0.5 * ctx.dt,
+                bound,
+                self.mixture(),
+            )
+            .half_step();
             let slip = state[V_R] + half.component(V_R)[k] - wall[j].tangential_velocity;
             terms.wall_shear(WallCell { density: w[RHO], phi: w[PHI], slip, dt: ctx.dt, inverse_h })
         })
@@ -170,16 +184,12 @@ impl<const N: usize> FluidSolver<N> {
         if traces.is_empty() {
             return;
         }
-        let half = 0.5 * dt;
-        self.write_trace(dt, |row, face, value| {
-            let trace = &mut traces[face];
+        self.write_trace(dt, mesh::every_slot, |row, face, value| {
+            let (trace, value) = (&mut traces[face], row.weight_after(0.5 * dt) * value);
             match row {
-                TraceRow::Pressure => trace.pressure += value,
-                TraceRow::PressureRate => trace.pressure += half * value,
-                TraceRow::NormalVelocity => trace.velocity += value,
-                TraceRow::NormalVelocityRate => trace.velocity += half * value,
-                TraceRow::Density => trace.density += value,
-                TraceRow::DensityRate => trace.density += half * value,
+                TraceRow::Pressure | TraceRow::PressureRate => trace.pressure += value,
+                TraceRow::NormalVelocity | TraceRow::NormalVelocityRate => trace.velocity += value,
+                TraceRow::Density | TraceRow::DensityRate => trace.density += value,
                 TraceRow::Gamma => trace.gamma = value,
                 TraceRow::Pi => trace.pi = value,
                 _ => {}

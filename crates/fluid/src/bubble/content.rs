@@ -44,6 +44,14 @@ impl std::ops::Add for GasState {
 }
 
 impl BubbleContent {
+    /// Gas alone without surface tension, at 293.15 K.
+    ///
+    /// - `far_pressure`: Pa.
+    #[must_use]
+    pub const fn dry(far_pressure: f64, gas: NobleAbelStiffenedGas) -> Self {
+        Self { far_pressure, gas, surface_tension: 0.0, vapour_pressure: 0.0, temperature: 293.15 }
+    }
+
     /// The gas at the radius R_n of equilibrium: p_n = p∞ + 2σ/R_n − p_v (Laplace), ρ_n at T.
     ///
     /// - `equilibrium_radius`: R_n > 0, m.
@@ -127,13 +135,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const LABORATORY: BubbleContent = BubbleContent {
-        far_pressure: 1e5,
-        gas: NobleAbelStiffenedGas { gamma: 1.4, pi: 0.0, covolume: 0.0, heat: None },
-        surface_tension: 0.0,
-        vapour_pressure: 0.0,
-        temperature: 293.15,
-    };
+    const LABORATORY: BubbleContent =
+        BubbleContent::dry(1e5, NobleAbelStiffenedGas { gamma: 1.4, pi: 0.0, covolume: 0.0, heat: None });
 
     #[test]
     fn a_laser_bubble_has_the_published_pressures() {

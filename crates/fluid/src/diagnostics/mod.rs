@@ -65,7 +65,6 @@ pub struct Totals {
 }
 
 mesh::cell_fields! {
-    /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
     Snapshot, CELL_FIELDS {
         density: 1, "kg/m3", "density";
         pressure: 1, "Pa", "pressure";
@@ -224,13 +223,10 @@ impl<const N: usize> FluidSolver<N> {
 
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
     pub fn sample(&self, point: [f64; 2]) -> Option<Primitive> {
-        let (slot, i, j) = self.mesh().locate(point)?;
-        let id = self.mesh().tree().leaves()[slot];
-        let (centre, widths) = (self.mesh().centre(id, i, j), self.mesh().widths(id.level));
-        let (a, b) = ((point[0] - centre[0]) / widths[0], (point[1] - centre[1]) / widths[1]);
+        let ((slot, i, j), [a, b]) = self.mesh().place_in_cell(point)?;
+        let k = Padded::<N>::index(i as isize, j as isize);
         Some(self.with_scratch(|scratch| {
             reconstruct(&self.context(0.0), slot, scratch);
-            let k = Padded::<N>::index(i as isize, j as isize);
             let BlockScratch { cells, s_z, s_r, .. } = scratch;
             Primitive::from_array(std::array::from_fn(|c| {
                 cells.component(c)[k] + a * s_z.component(c)[k] + b * s_r.component(c)[k]

@@ -6,7 +6,7 @@ use crate::physics::FluidStep;
 use crate::reconstruction::at;
 use crate::state::primitive::PRESSURE;
 use crate::step::BlockScratch;
-use crate::step::rows::half_step;
+use crate::step::rows::Prediction;
 
 /// Gives cells beside interfaces with tension the slopes that their pressure has but for the jumps, and the states at mid-step that go
 /// with them.
@@ -37,7 +37,9 @@ pub(crate) fn level_slopes<const N: usize>(
         let (w, along_z, along_r) = (of(cells), of(s_z), of(s_r));
         let bound = if mixture.has_covolume() { mixture.bound_beta1::<true>(gas_shares[k]) } else { 0.0 };
         let half_dt = 0.5 * ctx.dt;
-        let (state, kept) = half_step(w, along_z, along_r, inverse_h, inverse_r[k], half_dt, bound, mixture);
+        let (state, kept) =
+            Prediction::<true>::new(w, along_z, along_r, inverse_h, inverse_r[k], half_dt, bound, mixture)
+                .half_step();
         for (component, value) in state.into_iter().enumerate() {
             half.component_mut(component)[k] = value;
         }

@@ -7,7 +7,7 @@ use crate::physics::FluidStep;
 use crate::reconstruction::at;
 use crate::state::primitive::{PHI, PRESSURE, RHO};
 use crate::step::BlockScratch;
-use crate::step::rows::half_step;
+use crate::step::rows::Prediction;
 
 /// Gas fractions of two cells may differ by this much where slopes are made.
 const ONE_PHASE: f64 = 1e-6;
@@ -67,7 +67,9 @@ pub(crate) fn predict_beside_mirrors<const N: usize>(
             let of = |rows: &TileRows<N>| at(&rows.split(), k);
             let (w, s_z, s_r) = (of(cells), of(s_z), of(s_r));
             let bound = mixture.bound_beta1::<true>(if *has_gas { gas_shares[k] } else { 0.0 });
-            let (state, kept) = half_step(w, s_z, s_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, bound, mixture);
+            let (state, kept) =
+                Prediction::<true>::new(w, s_z, s_r, inverse_h, inverse_r[k], 0.5 * ctx.dt, bound, mixture)
+                    .half_step();
             for (component, value) in state.into_iter().enumerate() {
                 half.component_mut(component)[k] = value;
             }

@@ -5,7 +5,7 @@ use mesh::Limiter;
 use crate::Mixture;
 use crate::reconstruction::{Rows, RowsMut, at, cut, fraction};
 use crate::state::primitive::{PHI, PRESSURE, RHO, V_R, V_Z};
-use crate::step::rows::{half_step, whole_half_step};
+use crate::step::rows::Prediction;
 use crate::two_phase::is_compliant;
 
 /// Cells after which the pass looks whether all of them keep their slopes: whole lines of the cache, few enough that
@@ -222,7 +222,8 @@ fn differences_and_half<const WITH_GAS: bool, const B: bool>(
             mixture.bound_beta1::<B>(0.0)
         };
         let (half, kept, speed) =
-            whole_half_step::<WITH_GAS, B>(here, s_z, s_r, inverse_h, inverse_r[k], half_dt, bound, &mixture);
+            Prediction::<B>::new(here, s_z, s_r, inverse_h, inverse_r[k], half_dt, bound, &mixture)
+                .whole_half_step::<WITH_GAS>();
         [z0[k], z1[k], z2[k], z3[k], _] = s_z;
         [r0[k], r1[k], r2[k], r3[k], _] = s_r;
         [h0[k], h1[k], h2[k], h3[k], _] = half;
@@ -246,7 +247,9 @@ fn half_again(
     for k in 0..keep.len() {
         let (w, s_z, s_r) = (at(&cells.here, k), at(&s_z, k), at(&s_r, k));
         let bound = mixture.bound_beta1::<true>(if p.with_gas { cells.gas_shares[k] } else { 0.0 });
-        let (half, kept) = half_step(w, s_z, s_r, inverse_h, cells.inverse_r[k], half_dt, bound, &mixture);
+        let (half, kept) =
+            Prediction::<true>::new(w, s_z, s_r, inverse_h, cells.inverse_r[k], half_dt, bound, &mixture)
+                .half_step();
         [h0[k], h1[k], h2[k], h3[k], h4[k]] = half;
         keep[k] = kept;
     }
@@ -316,7 +319,9 @@ mod tests {
                 let (z, r) = (slopes(1), slopes(stride));
                 assert_eq!(s_z.each_ref().map(|row| row[k]), z, "{name}");
                 assert_eq!(s_r.each_ref().map(|row| row[k]), r, "{name}");
-                let (state, kept) = half_step(here, z, r, inverse_h, inverse_r[k], half_dt, 0.0, &mixture);
+                let (state, kept) =
+                    Prediction::<true>::new(here, z, r, inverse_h, inverse_r[k], half_dt, 0.0, &mixture)
+                        .half_step();
                 assert_eq!((half.each_ref().map(|row| row[k]), keep[k]), (state, kept), "{name}, cell {k}");
                 let bulk_modulus = mixture.bulk_modulus(here[RHO], here[PRESSURE], here[PHI], 0.0);
                 approx::assert_relative_eq!(sound[k].powi(2), bulk_modulus / here[RHO], max_relative = 1e-13);

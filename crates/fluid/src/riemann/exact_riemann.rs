@@ -4,38 +4,17 @@
 //! volumes. So pressure and velocity of the star state are those of stiffened gases of the densities ρ/(1 − bρ), of which
 //! this file speaks; densities and the speeds of waves, which cross the whole volume, follow.
 //!
-//! In P = p + π each side is an ideal gas, so its shock and isentrope through (ρ_K, u_K, p_K) are those of
-//! Toro (2009) ch. 4. With x = (p − p_K)/P_K, R = P/P_K and c_K² = γP_K/ρ_K the velocity changes by
-//!
-//! ```text
-//! f_K(p) = (c_K/γ) x / √(1 + (γ + 1)/(2γ) x)              shock, x > 0
-//! f_K(p) = 2c_K/(γ − 1) (R^((γ − 1)/2γ) − 1)              rarefaction, x ≤ 0
-//! ```
-//!
-//! and the star pressure is the zero of G(p) = f_L(p) + f_R(p) + u_R − u_L.
-//!
-//! The iteration works in P = p + min(π_L, π_R), which vanishes in the vacuum. G is concave in P and convex
-//! in ln P (each f_K is, as its two derivatives show). So a Newton step in P ends at or below the root and
-//! one in ln P at or above it, from wherever they start: two bounds per evaluation. The iterate taken between
-//! them is the Newton step in P^θ, with θ in (0, 1] such that G is linear in P^θ to second order. It
-//! converges cubically, and in one step for two rarefactions of one gas. Where it leaves the bounds it is set
-//! on the bound, from which the Newton steps narrow them again, so convergence is certain.
+//! The star pressure is the zero of G(p) = f_L(p) + f_R(p) + u_R − u_L, of the wave curves f_K of `wave_curve.rs` in
+//! P = p + min(π_L, π_R), which vanishes in the vacuum; `curve_root` finds it.
 
 mod sample;
 
 pub use sample::sample;
 
-use crate::thermodynamics::eos::ln_pressure_ratio;
 use crate::thermodynamics::noble_abel::NobleAbelStiffenedGas;
-
-/// Iterations after which the solver returns what it has. Two million random states took 12 at most.
-pub const MAX_ITERATIONS: u32 = 40;
-
-/// Below this P the exponents leave the range of f64; it is nothing but vacuum. Pa.
-const VACUUM_PRESSURE: f64 = 1e-290;
-
-/// A step in ln P after which the cubic convergence leaves an error below 1e-24 of P.
-const LAST_STEP: f64 = 1e-9;
+use crate::thermodynamics::wave_curve::{
+    CurvePoint, VACUUM_PRESSURE, WaveCurve, curve_root, ln_pressure_ratio,
+};
 
 /// The state on one side of the initial jump.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +58,12 @@ impl Side {
     #[must_use]
     pub fn sound_speed(&self) -> f64 {
         self.law().sound_speed(self.rho, self.p)
+    }
+
+    /// The wave curve; in the free volume.
+    #[inline]
+    fn wave_curve(&self) -> WaveCurve {
+        WaveCurve { pressure: self.p, gamma: self.gamma, pi: self.pi, sound_speed: self.sound_speed() }
     }
 
     /// The same state looked at from the other end: u changes sign.
@@ -137,64 +122,16 @@ pub struct Wave {
     pub shock: bool,
 }
 
-/// f_K(p) and its derivatives by P, times P and P².
-#[derive(Clone, Copy)]
-struct Curve {
-    f: f64,
-    slope: f64,
-    curvature: f64,
-}
-
-/// The wave curve of one side in its free volume, as the head of this file has it.
-///
-/// `p` with `shifted` = p + π − `offset` is where; `offset` = π_K − min(π_L, π_R) ≥ 0.
-#[inline]
-fn curve(side: &Side, p: f64, shifted: f64, offset: f64) -> Curve {
-    let own = shifted + offset;
-    let base = side.p + side.pi;
-    let (gamma, c) = (side.gamma, side.sound_speed());
-    let a = (gamma + 1.0) / (2.0 * gamma);
-    let increment = p - side.p;
-    let x = increment / base;
-    if x > 0.0 {
-        // Toro (2009) eq. 4.6, scaled; derivatives by x.
-        let root2 = 1.0 / (1.0 + a * x);
-        let root = root2.sqrt();
-        let scale = c / gamma * root;
-        let lever = shifted / base;
-        Curve {
-            f: scale * x,
-            slope: scale * root2 * (1.0 + 0.5 * a * x) * lever,
-            curvature: -scale * root2 * root2 * a * (1.0 + 0.25 * a * x) * lever * lever,
-        }
-    } else {
-        // Toro (2009) eq. 4.6, second line. d/dP of R^m is m R^m/P.
-        let m = (gamma - 1.0) / (2.0 * gamma);
-        let exponent = m * ln_pressure_ratio(own, increment, base);
-        let lever = shifted / own;
-        let slope = c / gamma * exponent.exp() * lever;
-        Curve { f: 2.0 * c / (gamma - 1.0) * exponent.exp_m1(), slope, curvature: -a * slope * lever }
-    }
-}
-
 /// Density at pressure p on the wave curve of `side` in its free volume, kg/m³: Toro (2009) eqs. 4.50 and 4.53.
 #[inline]
 fn curve_density(side: &Side, p: f64, shifted: f64, offset: f64) -> f64 {
-    let base = side.p + side.pi;
-    let increment = p - side.p;
-    let x = increment / base;
-    let gamma = side.gamma;
-    if x > 0.0 {
-        side.rho * ((2.0 * gamma + (gamma + 1.0) * x) / (2.0 * gamma + (gamma - 1.0) * x))
-    } else {
-        side.rho * (ln_pressure_ratio(shifted + offset, increment, base) / gamma).exp()
-    }
+    side.rho * side.wave_curve().density_ratio(p, shifted + offset)
 }
 
 /// The star state of the Riemann problem between two stiffened gases, each with a covolume or without.
 ///
 /// Toro (2009) ch. 4 in P = p + π; Menikoff & Plohr (1989); Saurel & Abgrall (1999); Le Métayer & Saurel (2016). Paper: sect.
-/// 3.1, the exact solver of the Godunov flux. The iteration is at the head of this file.
+/// 3.1, the exact solver of the Godunov flux. The iteration is `curve_root`'s.
 ///
 /// - `left`, `right`: the two states, SI (rho kg/m³, u m/s, p and pi Pa).
 /// - returns: pressure, velocity, both densities. Equal pressures and velocities come back as they are,
@@ -230,11 +167,12 @@ fn free_star_state(left: &Side, right: &Side) -> Star {
     let pi = left.pi.min(right.pi);
     let (offset_left, offset_right) = (left.pi - pi, right.pi - pi);
     let du = right.u - left.u;
+    let (curve_left, curve_right) = (left.wave_curve(), right.wave_curve());
 
     // Only sides that part, or a tension the softer fluid cannot bear, may leave a vacuum.
     if du > 0.0 || left.p.min(right.p) <= -pi {
-        let at_left = curve(left, VACUUM_PRESSURE - pi, VACUUM_PRESSURE, offset_left);
-        let at_right = curve(right, VACUUM_PRESSURE - pi, VACUUM_PRESSURE, offset_right);
+        let at_left = curve_left.at(VACUUM_PRESSURE - pi, VACUUM_PRESSURE, offset_left);
+        let at_right = curve_right.at(VACUUM_PRESSURE - pi, VACUUM_PRESSURE, offset_right);
         if at_left.f + at_right.f + du >= 0.0 {
             let (u_left, u_right) = (left.u - at_left.f, right.u + at_right.f);
             return Star {
@@ -251,42 +189,18 @@ fn free_star_state(left: &Side, right: &Side) -> Star {
         }
     }
 
-    let mut p = first_guess(left, right, du);
-    let mut shifted = p + pi;
-    let (mut lowest, mut highest) = (VACUUM_PRESSURE, f64::INFINITY);
-    let mut iterations = 0;
-    loop {
-        iterations += 1;
-        let at_left = curve(left, p, shifted, offset_left);
-        let at_right = curve(right, p, shifted, offset_right);
-        let g = at_left.f + at_right.f + du;
-        let slope = at_left.slope + at_right.slope;
-        let step = newton_power_step(
-            g / slope,
-            1.0 + (at_left.curvature + at_right.curvature) / slope,
-            shifted,
-            &mut lowest,
-            &mut highest,
-        );
-        // p and P differ by pi; the smaller of the two is carried, the other one follows.
-        let ahead = shifted * step.exp();
-        if (ahead - pi).abs() < ahead {
-            p += shifted * step.exp_m1();
-            shifted = p + pi;
-        } else {
-            shifted = ahead;
-            p = shifted - pi;
+    let root = curve_root(first_guess(left, right, du), pi, |p, shifted| {
+        let at_left = curve_left.at(p, shifted, offset_left);
+        let at_right = curve_right.at(p, shifted, offset_right);
+        CurvePoint {
+            f: at_left.f + at_right.f + du,
+            slope: at_left.slope + at_right.slope,
+            curvature: at_left.curvature + at_right.curvature,
         }
-        // Cubic: what is left is about step³ P.
-        let left_over = step.abs().powi(3) * shifted;
-        let done = step.abs() <= LAST_STEP || left_over <= 0.1 * f64::EPSILON * p.abs().min(shifted);
-        if done || iterations >= MAX_ITERATIONS {
-            break;
-        }
-    }
-
-    let u_left = left.u - curve(left, p, shifted, offset_left).f;
-    let u_right = right.u + curve(right, p, shifted, offset_right).f;
+    });
+    let (p, shifted) = (root.p, root.shifted);
+    let u_left = left.u - curve_left.at(p, shifted, offset_left).f;
+    let u_right = right.u + curve_right.at(p, shifted, offset_right).f;
     let u = 0.5 * (u_left + u_right);
     Star {
         p,
@@ -296,7 +210,7 @@ fn free_star_state(left: &Side, right: &Side) -> Star {
         u_left: u,
         u_right: u,
         shifted,
-        iterations,
+        iterations: root.iterations,
         vacuum: false,
     }
 }
@@ -313,32 +227,6 @@ fn first_guess(left: &Side, right: &Side, du: f64) -> f64 {
     let fallback = if low.p > floor { low.p } else { high.p };
     // Far below both states the tangent says nothing.
     if acoustic - floor > 0.1 * (fallback - floor) { acoustic } else { fallback }
-}
-
-/// One step of the iteration, in ln P.
-///
-/// The Newton step in P^θ, kept within the bounds that the Newton steps in P and ln P are: see above.
-///
-/// - `x`: G/(P G'). `theta`: 1 + P G''/G', in (0, 1] but for round-off. `shifted`: P, Pa.
-/// - `lowest`, `highest`: bounds of the root so far, Pa; narrowed.
-/// - returns: the change of ln P.
-#[inline]
-fn newton_power_step(x: f64, theta: f64, shifted: f64, lowest: &mut f64, highest: &mut f64) -> f64 {
-    // A flatter power than this only arises by round-off; it costs digits and gains nothing.
-    let theta = theta.clamp(1e-6, 1.0);
-    let slack = 1e-12; // round-off of the bounds themselves
-    *lowest = lowest.max(shifted * (1.0 - x) * (1.0 - slack));
-    *highest = highest.min(shifted * (-x).exp() * (1.0 + slack));
-    let power = if theta * x < 1.0 { (-theta * x).ln_1p() / theta } else { f64::NEG_INFINITY };
-    let candidate = shifted * power.exp();
-    if candidate < *lowest {
-        // The vacuum is no useful bound; then down with ln P, which cannot overshoot.
-        if *lowest > VACUUM_PRESSURE { (*lowest / shifted).ln() } else { -x }
-    } else if candidate > *highest {
-        (*highest / shifted).ln()
-    } else {
-        power
-    }
 }
 
 /// Speeds of the left and the right wave.

@@ -115,7 +115,7 @@ fn scaled([a, b, c, d, e]: PrimitiveCell, factor: f64) -> PrimitiveCell {
 }
 
 /// The predictor of one cell, ready to move by all of a half step or a share of it.
-struct Prediction<'a, const B: bool> {
+pub(crate) struct Prediction<'a, const B: bool> {
     w: PrimitiveCell,
     law: CellLaw,
     /// ∂w/∂t times half the time step.
@@ -130,9 +130,11 @@ struct Prediction<'a, const B: bool> {
 }
 
 impl<'a, const B: bool> Prediction<'a, B> {
+    /// - `s_z`, `s_r`: the differences over the cell. `inverse_h`: 1/h, 1/m. `inverse_r`: 1/r, 1/m. `half_dt`: half the step, s.
+    /// - `bound_per_mass`: what covolumes take of β₁ per mass, see [`Mixture::bound_beta1`].
     #[expect(clippy::too_many_arguments, reason = "all that one cell has, in registers")]
     #[inline(always)]
-    fn new(
+    pub fn new(
         w: PrimitiveCell,
         s_z: PrimitiveCell,
         s_r: PrimitiveCell,
@@ -180,49 +182,23 @@ impl<'a, const B: bool> Prediction<'a, B> {
         let half = self.at(share);
         admissible::<B>(self.w, self.law, half, reach, self.ratio, self.bound_per_mass, self.mixture)
     }
-}
 
-/// The state at mid-step, and the share of its slopes that the cell keeps: all (1), or half of them (MC slopes
-/// are then no steeper than minmod's), or none (0, first order), whichever gives admissible face states.
-///
-/// - `bound_per_mass`: what covolumes take of β₁ per mass, see [`Mixture::bound_beta1`].
-#[expect(clippy::too_many_arguments, reason = "all that one cell has, in registers")]
-#[inline(always)]
-pub(crate) fn half_step(
-    w: PrimitiveCell,
-    s_z: PrimitiveCell,
-    s_r: PrimitiveCell,
-    inverse_h: [f64; 2],
-    inverse_r: f64,
-    half_dt: f64,
-    bound_per_mass: f64,
-    mixture: &Mixture,
-) -> (PrimitiveCell, f64) {
-    let prediction =
-        Prediction::<true>::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, bound_per_mass, mixture);
-    let fallback = if prediction.admissible(0.5) { 0.5 } else { 0.0 };
-    let keep = if prediction.admissible(1.0) { 1.0 } else { fallback };
-    (prediction.at(keep), keep)
-}
+    /// The state at mid-step, and the share of its slopes that the cell keeps: all (1), or half of them (MC slopes
+    /// are then no steeper than minmod's), or none (0, first order), whichever gives admissible face states.
+    #[inline(always)]
+    pub fn half_step(&self) -> (PrimitiveCell, f64) {
+        let fallback = if self.admissible(0.5) { 0.5 } else { 0.0 };
+        let keep = if self.admissible(1.0) { 1.0 } else { fallback };
+        (self.at(keep), keep)
+    }
 
-/// [`half_step`] where all slopes are kept, and the cell's sound speed; where they are not, 0 tells so and the state counts for
-/// nothing.
-#[expect(clippy::too_many_arguments, reason = "all that one cell has, in registers")]
-#[inline(always)]
-pub(crate) fn whole_half_step<const WITH_GAS: bool, const B: bool>(
-    w: PrimitiveCell,
-    s_z: PrimitiveCell,
-    s_r: PrimitiveCell,
-    inverse_h: [f64; 2],
-    inverse_r: f64,
-    half_dt: f64,
-    bound_per_mass: f64,
-    mixture: &Mixture,
-) -> (PrimitiveCell, f64, f64) {
-    let mut prediction =
-        Prediction::<B>::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, bound_per_mass, mixture);
-    prediction.change[PHI] = fraction::<WITH_GAS>(prediction.change[PHI]);
-    (prediction.at(1.0), if prediction.admissible(1.0) { 1.0 } else { 0.0 }, prediction.sound_speed())
+    /// [`Prediction::half_step`] where all slopes are kept, and the cell's sound speed; where they are not, 0 tells so and the state
+    /// counts for nothing.
+    #[inline(always)]
+    pub fn whole_half_step<const WITH_GAS: bool>(mut self) -> (PrimitiveCell, f64, f64) {
+        self.change[PHI] = fraction::<WITH_GAS>(self.change[PHI]);
+        (self.at(1.0), if self.admissible(1.0) { 1.0 } else { 0.0 }, self.sound_speed())
+    }
 }
 
 /// Conserved to primitive variables, in place of rows of equal length; without gas the last row is left alone.

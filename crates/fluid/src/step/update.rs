@@ -4,12 +4,12 @@ use mesh::maximum;
 
 use serde::{Deserialize, Serialize};
 
-use crate::Mixture;
 use crate::reconstruction::{Rows, RowsMut, fraction};
 use crate::state::conserved::PHI;
 use crate::state::finished::{FinishedCell, finish_cell};
 use crate::state::{COUNT, ConservedCell};
 use crate::step::face_rows::FaceRows;
+use crate::{Face, Mixture};
 
 /// Reductions over a block's new cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -207,14 +207,16 @@ impl<'a, const N: usize> FaceSlices<'a, N> {
     }
 
     #[inline(always)]
-    pub fn at(&self, k: usize) -> FaceValues {
-        FaceValues {
+    pub fn at(&self, k: usize) -> Face {
+        Face {
             mass: self.mass[k],
             velocity: self.velocity[k],
             pressure: self.pressure[k],
             shear: self.shear[k],
             energy: self.energy[k],
             phi: self.phi[k],
+            // Rows have none: nothing of the balance asks for it.
+            compression: 1.0,
         }
     }
 }
@@ -248,17 +250,6 @@ impl RowMetric {
     }
 }
 
-/// What one face passes on, see [`crate::Face`].
-#[derive(Clone, Copy)]
-pub(crate) struct FaceValues {
-    pub mass: f64,
-    pub velocity: f64,
-    pub pressure: f64,
-    pub shear: f64,
-    pub energy: f64,
-    pub phi: f64,
-}
-
 /// One cell's conserved variables after the step, paper eqs. (23), (27), before anything is corrected.
 ///
 /// Both directions are added before they meet the old value, and alike for both components of the momentum: planar
@@ -268,14 +259,14 @@ pub(crate) struct FaceValues {
 #[inline(always)]
 pub(crate) fn balance(
     old: ConservedCell,
-    [west, east, south, north]: [FaceValues; 4],
+    [west, east, south, north]: [Face; 4],
     row: RowMetric,
 ) -> ConservedCell {
-    let normal = |f: &FaceValues| f.mass * f.velocity;
+    let normal = |f: &Face| f.mass * f.velocity;
     let force_z = row.axial(normal(&east), normal(&west)) + row.axial(east.pressure, west.pressure);
     let force_r = row.radial(normal(&north), normal(&south)) + row.dt_r * (north.pressure - south.pressure);
     let [rho, mz, mr, energy, phi] = old;
-    let carried = |f: &FaceValues| f.velocity * (f.phi - phi);
+    let carried = |f: &Face| f.velocity * (f.phi - phi);
     [
         rho - (row.axial(east.mass, west.mass) + row.radial(north.mass, south.mass)),
         mz - (force_z + row.radial(north.shear, south.shear)),

@@ -1,5 +1,7 @@
 //! The stiffened-gas equation of state.
 
+use crate::thermodynamics::wave_curve::ln_pressure_ratio;
+
 /// A stiffened gas: p = (γ − 1) ρe − γπ, paper eq. (6). With π = 0 it is the ideal gas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StiffenedGas {
@@ -117,16 +119,6 @@ impl StiffenedGas {
         let beta2 = phi * gas.beta2() + (1.0 - phi) * liquid.beta2();
         Self { gamma: 1.0 + 1.0 / beta1, pi: beta2 / (1.0 + beta1) } // (11)
     }
-}
-
-/// ln((p₂ + π)/(p₁ + π)) without loss of digits for p₂ near p₁ as well as for p₂ near −π.
-///
-/// - `shifted_new`: p₂ + π, Pa. `increment`: p₂ − p₁, Pa. `shifted`: p₁ + π, Pa.
-/// - returns: the logarithm; −∞ at `shifted_new` = 0.
-#[inline]
-pub(crate) fn ln_pressure_ratio(shifted_new: f64, increment: f64, shifted: f64) -> f64 {
-    let relative = increment / shifted;
-    if relative > -0.5 { relative.ln_1p() } else { (shifted_new / shifted).ln() }
 }
 
 #[cfg(test)]

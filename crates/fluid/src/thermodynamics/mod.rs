@@ -5,3 +5,4 @@ pub(crate) mod library;
 pub(crate) mod mixture;
 pub(crate) mod noble_abel;
 pub(crate) mod temperature;
+pub(crate) mod wave_curve;

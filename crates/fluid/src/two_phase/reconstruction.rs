@@ -10,6 +10,7 @@ use super::windows::{LANES, Lane, Window, bits, lanes};
 use crate::Mixture;
 use crate::options::TwoPhaseOptions;
 use crate::state::{PrimitiveCell, primitive};
+use crate::step::rows::Prediction;
 
 /// ρ_g, ρ_l, v_z, v_r, p, φ of the cells.
 type Phases = [Lane; 6];
@@ -364,7 +365,7 @@ fn kept_share(cells: &Cells<'_>, k: usize, rule: &CellRule<'_>) -> f64 {
     let bound = rule.mixture.bound_beta1::<true>(cells.mean(k).gas_share);
     let (inverse_h, inverse_r) = (rule.inverse_h, rule.inverse_r[k]);
     let (_, share) =
-        crate::step::rows::half_step(w, s_z, s_r, inverse_h, inverse_r, half_dt, bound, rule.mixture);
+        Prediction::<true>::new(w, s_z, s_r, inverse_h, inverse_r, half_dt, bound, rule.mixture).half_step();
     share
 }
 

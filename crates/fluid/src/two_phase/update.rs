@@ -6,13 +6,13 @@ use super::closure::{bounded, is_bound, phase_densities};
 use super::reconstruction::CellRule;
 use super::relaxation::{Advected, relaxed_fractions};
 use super::windows::{LANES, Lane, Window, bits, lanes};
-use crate::Mixture;
 use crate::reconstruction::Rows;
 use crate::state::conserved::{ENERGY, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
 use crate::state::finished::finish_cell;
 use crate::state::{COUNT, ConservedCell};
 use crate::step::face_rows::FaceRows;
-use crate::step::update::{FaceSlices, FaceValues, Metric, NewCells, balance, row};
+use crate::step::update::{FaceSlices, Metric, NewCells, balance, row};
+use crate::{Face, Mixture};
 
 /// The gas's mass fluxes of one direction: the mass flux times the gas's part of the mass in the cell it comes from.
 ///
@@ -200,7 +200,7 @@ pub(crate) fn update_mixed<const N: usize>(
             let own = lane(&before, k);
             let after = balance(own, [west, east, south, north], widths);
             [u[RHO][k], u[MOMENTUM_Z][k], u[MOMENTUM_R][k], u[ENERGY][k], u[PHI][k]] = after;
-            let carried = |face: FaceValues| face.velocity * face.phi;
+            let carried = |face: Face| face.velocity * face.phi;
             let volume =
                 widths.axial(east.velocity, west.velocity) + widths.radial(north.velocity, south.velocity);
             is_chosen[k] = window.has(k);

@@ -1,6 +1,5 @@
 //! All terms together: ledgers of each species, momentum and energy, and interfaces that stay as thin as they are without.
 
-use coupler::TraceRow;
 use fluid::{
     Boundary, ConductingWall, Conduction, EvaporationLaw, FluidSetup, FluidSolver, InitialCondition,
     NamedFluid, NobleAbelStiffenedGas, PhaseChange, PhaseViscosity, SurfaceTension, ThinGas, Viscosity,
@@ -50,12 +49,7 @@ fn vapour(fluid: &FluidSolver<8>) -> f64 {
 /// A wall that moves and slides, more on the axis than farther out, with what it meets in the fluid.
 fn move_wall(fluid: &mut FluidSolver<8>, dt: f64) {
     let edges = fluid.interface_edges();
-    let (mut shear, mut traces) = (vec![0.0; fluid.interface().faces()], vec![]);
-    fluid.write_trace(dt, |row, face, value| {
-        if row == TraceRow::Shear {
-            shear[face] = value;
-        }
-    });
+    let (shear, mut traces) = (shear_on_wall(fluid, dt), vec![]);
     fluid.traces_at_mid_step(dt, &mut traces);
     let phase = (3e3 * fluid.time()).sin();
     fluid.interface_mut().set_all(|face| {

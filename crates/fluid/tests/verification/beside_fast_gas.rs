@@ -1,7 +1,6 @@
 //! Waves in a domain in which something else is faster than they are.
 
-use fluid::{FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState};
-use fluid::{Pulse, PulseShape, Region, Shape, Sharpening};
+use fluid::{FluidSetup, FluidSolver, InitialCondition, Model, Pulse, PulseShape, Sharpening};
 use mesh::{Adaptation, Domain, LevelBound, Zone};
 
 use crate::helpers::*;
@@ -25,21 +24,9 @@ fn pulse_and_bubble(density: f64, model: Model) -> FluidSolver<8> {
         scales: fluid::Scales { pressure: 1e4, density: 1e3 },
         ..setup(PLANAR, [16, 16], WALLS)
     };
-    let state = |phase, density| PhaseState { phase, density, pressure: 1e5, velocity: [0.0; 2] };
-    let initial = InitialCondition {
-        ambient: state(Phase::Liquid, 1000.0),
-        pressure: InitialPressure::Uniform,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre: [0.036, 0.006], radius: 0.0015 },
-            state: state(Phase::Gas, density),
-        }],
-        pulses: vec![Pulse {
-            shape: PulseShape::Sphere,
-            centre: [0.008, 0.008],
-            width: 2e-3,
-            amplitude: 1e4,
-        }],
-    };
+    let pulse = Pulse { shape: PulseShape::Sphere, centre: [0.008, 0.008], width: 2e-3, amplitude: 1e4 };
+    let bubble = ball_of_gas(([0.036, 0.006], 0.0015), 1e5, [density, 1e5], 0.0);
+    let initial = InitialCondition { pulses: vec![pulse], ..bubble };
     FluidSolver::new(&setup, &initial).unwrap()
 }
 

@@ -47,7 +47,7 @@ fn a_trace_beside_gas_is_that_of_a_mixture() {
         };
         let fluid = FluidSolver::<16>::new(&setup, &initial).unwrap();
         let mut faces = 0;
-        fluid.write_trace(fluid.time_step_limit(CFL), |row, face, value| {
+        fluid.write_trace(fluid.time_step_limit(CFL), mesh::every_slot, |row, face, value| {
             let allowed = match row {
                 TraceRow::Gamma => GAS.gamma..=LIQUID.gamma * (1.0 + 1e-12),
                 TraceRow::Pi => GAS.pi..=LIQUID.pi * (1.0 + 1e-12),

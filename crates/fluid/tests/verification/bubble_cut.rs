@@ -13,13 +13,8 @@ const RADIUS: f64 = 0.1;
 /// Of the ambient liquid and of the gas at the start, Pa.
 const PRESSURES: [f64; 2] = [1e7, 4e8];
 const RESETS: [BubbleReset; 2] = [BubbleReset::GasShare(0.1), BubbleReset::EquilibriumRadius(0.12, CONTENT)];
-const CONTENT: BubbleContent = BubbleContent {
-    far_pressure: 1e7,
-    gas: NobleAbelStiffenedGas { gamma: 1.4, pi: 0.0, covolume: 0.0, heat: None },
-    surface_tension: 0.0,
-    vapour_pressure: 1e5,
-    temperature: 293.15,
-};
+const GAS: NobleAbelStiffenedGas = NobleAbelStiffenedGas { gamma: 1.4, pi: 0.0, covolume: 0.0, heat: None };
+const CONTENT: BubbleContent = BubbleContent { vapour_pressure: 1e5, ..BubbleContent::dry(1e7, GAS) };
 
 /// A bubble in the middle of a vessel of a metre, on levels of 8 to 64 cells; with a tracer in its upper half.
 fn growing(kind: Kind, reset: Option<BubbleReset>, cells_per_radius: Option<f64>) -> FluidSolver<8> {

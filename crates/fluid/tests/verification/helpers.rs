@@ -87,6 +87,17 @@ pub fn run_to<const N: usize>(fluid: &mut FluidSolver<N>, end: f64) {
     }
 }
 
+/// The shear stresses that a fluid shows on the faces of its wall in a step of length `dt`, Pa.
+pub fn shear_on_wall(fluid: &FluidSolver<8>, dt: f64) -> Vec<f64> {
+    let mut shear = vec![0.0; fluid.interface().faces()];
+    fluid.write_trace(dt, mesh::every_slot, |row, face, value| {
+        if row == coupler::TraceRow::Shear {
+            shear[face] = value;
+        }
+    });
+    shear
+}
+
 pub fn run_steps<const N: usize>(fluid: &mut FluidSolver<N>, steps: usize) {
     for _ in 0..steps {
         fluid.step_at(CFL).unwrap();

@@ -2,7 +2,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use coupler::TraceRow;
 use fluid::{Boundary, FluidSetup, FluidSolver, Gravity, PhaseViscosity, Primitive, ThinGas, Viscosity};
 use mesh::{FaceState, Geometry, Limiter};
 
@@ -206,12 +205,7 @@ fn a_wall_that_slides_to_and_fro_drags_a_layer_along() {
             let middle = fluid.time() + 0.5 * dt;
             let wall = FaceState { tangential_velocity: layer(0.0, middle), ..[1e5, 0.0, 0.0].into() };
             fluid.interface_mut().set_all(|_| wall);
-            let mut shear = vec![0.0; fluid.interface().faces()];
-            fluid.write_trace(dt, |row, face, value| {
-                if row == TraceRow::Shear {
-                    shear[face] = value;
-                }
-            });
+            let shear = shear_on_wall(&fluid, dt);
             fluid.interface_mut().set_all(|face| FaceState { shear: shear[face], ..wall });
             fluid.step(dt).unwrap();
             let amplitude = speed * (omega * 1000.0 * 1000.0 * nu).sqrt();

@@ -42,23 +42,29 @@ impl Extent {
     }
 }
 
+/// A field whose details say which blocks are wanted.
+pub(crate) struct Marked<'a, const N: usize, R> {
+    pub mesh: &'a Mesh<N>,
+    pub field: &'a Field,
+    pub rule: &'a R,
+    pub adaptation: &'a Adaptation,
+}
+
 /// The levels that the details of a field ask for, leaf by leaf: each at most one from the present one, neighbours
 /// at most one from each other, within the bounds.
 ///
 /// - `travel`: how many of its cells a wave in the block of a slot crosses before the next adaptation.
 /// - `at_least`: the level that something else demands of a block, 0 if nothing does; it may lie above what details may ask for.
 pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
-    mesh: &Mesh<N>,
-    field: &Field,
-    rule: &R,
-    adaptation: &Adaptation,
+    marked: &Marked<'_, N, R>,
     scratch: &ScratchPool<Patch<N>>,
     travel: impl Fn(usize) -> f64 + Sync,
     at_least: impl Fn(usize) -> u8 + Sync,
 ) -> Vec<u8> {
+    let Marked { mesh, adaptation, .. } = *marked;
     let tree = mesh.tree();
-    let mut extents = significant_extents(mesh, field, rule, adaptation, scratch);
-    for (first, kept) in refined_again(mesh, field, rule, adaptation, &extents) {
+    let mut extents = significant_extents(marked, scratch);
+    for (first, kept) in refined_again(marked, &extents) {
         for (extents, kept) in extents[first..].iter_mut().zip(kept) {
             extents[0] = kept;
         }
@@ -92,10 +98,7 @@ pub(crate) fn wanted_levels<const N: usize, R: Multiresolution>(
 
 /// Where in each block the details are above the threshold, and where they foretell such ones on the next level.
 fn significant_extents<const N: usize, R: Multiresolution>(
-    mesh: &Mesh<N>,
-    field: &Field,
-    rule: &R,
-    adaptation: &Adaptation,
+    &Marked { mesh, field, rule, adaptation }: &Marked<'_, N, R>,
     scratch: &ScratchPool<Patch<N>>,
 ) -> Vec<[Extent; 2]> {
     let tree = mesh.tree();
@@ -189,10 +192,7 @@ fn threshold(tree: &Quadtree, adaptation: &Adaptation, level: u8) -> f64 {
 /// of the first, and the cells of each that must be kept for it. Fresh children have only predicted values, hence no
 /// details; without this they would come and go with every adaptation.
 fn refined_again<const N: usize, R: Multiresolution>(
-    mesh: &Mesh<N>,
-    field: &Field,
-    rule: &R,
-    adaptation: &Adaptation,
+    &Marked { mesh, field, rule, adaptation }: &Marked<'_, N, R>,
     extents: &[[Extent; 2]],
 ) -> Vec<(usize, [Extent; 4])> {
     let tree = mesh.tree();

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::ghosts::mean_of_cells;
-use crate::multiresolution::marks::wanted_levels;
+use crate::multiresolution::marks::{Marked, wanted_levels};
 use crate::multiresolution::patch::{continue_beyond, odd_components, predict};
 use crate::multiresolution::{MOST_IN_FIELD, Multiresolution};
 use crate::{Adaptation, BlockId, Field, GHOSTS, Mesh, Padded, Patch, ScratchPool};
@@ -46,7 +46,8 @@ impl<const N: usize> Mesh<N> {
         travel: impl Fn(usize) -> f64 + Sync,
         at_least: impl Fn(usize) -> u8 + Sync,
     ) -> Option<Adapted<N>> {
-        let wanted = wanted_levels(self, field, rule, adaptation, scratch, travel, at_least);
+        let marked = Marked { mesh: self, field, rule, adaptation };
+        let wanted = wanted_levels(&marked, scratch, travel, at_least);
         self.with_levels(&wanted)
     }
 

@@ -272,6 +272,15 @@ impl<const N: usize> Mesh<N> {
         let [i, j] = index.map(|index| index >> (finest - leaf.level));
         Some((slot, i - leaf.i as usize * N, j - leaf.j as usize * N))
     }
+
+    /// [`Mesh::locate`], and the place of the point in the cell: so many of its widths from its centre, along z and r.
+    pub fn place_in_cell(&self, point: [f64; 2]) -> Option<((usize, usize, usize), [f64; 2])> {
+        let (slot, i, j) = self.locate(point)?;
+        let id = self.tree.leaves()[slot];
+        let (centre, widths) = (self.centre(id, i, j), self.widths(id.level));
+        let within = std::array::from_fn(|axis| (point[axis] - centre[axis]) / widths[axis]);
+        Some(((slot, i, j), within))
+    }
 }
 
 #[cfg(test)]

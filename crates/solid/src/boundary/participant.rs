@@ -46,20 +46,16 @@ impl<const N: usize> SolidSolver<N> {
     /// mid-step it is what the face's Riemann problem would see.
     ///
     /// - `dt`: the step about to be made, s: what the trace gets besides depends on it, see [`mesh::dispersion_share`].
+    /// - `due`: of the slot of a block, whether the traces on its faces are wanted.
     /// - `put`: gets the place and one [`TraceRow`] of a face.
-    pub fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(dt, |_| true, put);
-    }
-
-    /// [`SolidSolver::write_trace`] for the faces of the blocks that are due, by their slots.
-    pub fn write_trace_of(
+    pub fn write_trace(
         &self,
         dt: f64,
-        is_due: impl Fn(usize) -> bool,
+        due: impl Fn(usize) -> bool,
         mut put: impl FnMut(TraceRow, usize, f64),
     ) {
         let context = self.context(dt);
-        for slot in self.interface().blocks().iter().copied().filter(|slot| is_due(*slot)) {
+        for slot in self.interface().blocks().iter().copied().filter(|slot| due(*slot)) {
             let Some(first) = self.interface().first_face(slot) else { continue };
             let id = self.mesh().tree().leaves()[slot];
             let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
@@ -169,7 +165,7 @@ impl<const N: usize> SolidSolver<N> {
 
     /// The own traces on the surface at the middle of a step of length `dt`, face by face.
     pub fn traces_at_mid_step(&self, dt: f64, traces: &mut Vec<SurfaceTrace>) {
-        self.mid_step_of(dt, |_| true, traces);
+        self.mid_step_of(dt, mesh::every_slot, traces);
     }
 
     /// [`SolidSolver::traces_at_mid_step`] for the faces of the levels that are about to make a step; of others, nothing.
@@ -183,16 +179,14 @@ impl<const N: usize> SolidSolver<N> {
         if traces.is_empty() {
             return;
         }
-        let half = 0.5 * dt;
-        self.write_trace_of(dt, is_due, |row, face, value| {
-            let trace = &mut traces[face];
+        self.write_trace(dt, is_due, |row, face, value| {
+            let (trace, value) = (&mut traces[face], row.weight_after(0.5 * dt) * value);
             match row {
-                TraceRow::Pressure => trace.pressure += value,
-                TraceRow::PressureRate => trace.pressure += half * value,
-                TraceRow::NormalVelocity => trace.velocity += value,
-                TraceRow::NormalVelocityRate => trace.velocity += half * value,
-                TraceRow::TangentialVelocity => trace.tangential_velocity += value,
-                TraceRow::TangentialVelocityRate => trace.tangential_velocity += half * value,
+                TraceRow::Pressure | TraceRow::PressureRate => trace.pressure += value,
+                TraceRow::NormalVelocity | TraceRow::NormalVelocityRate => trace.velocity += value,
+                TraceRow::TangentialVelocity | TraceRow::TangentialVelocityRate => {
+                    trace.tangential_velocity += value;
+                }
                 TraceRow::Shear => trace.shear = value,
                 TraceRow::Impedance => trace.impedance = value,
                 _ => {}

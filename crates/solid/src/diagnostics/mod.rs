@@ -2,6 +2,9 @@
 
 pub(crate) mod ledger;
 pub(crate) mod plastic;
+mod totals;
+
+pub use totals::Totals;
 
 use mesh::Padded;
 
@@ -18,21 +21,7 @@ pub struct MisesPeak {
     pub position: [f64; 2],
 }
 
-/// Integrals over the domain, per radian in axial symmetry, per metre of depth in planar geometry.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Totals {
-    /// Mass (constant), kg.
-    pub mass: f64,
-    /// Axial momentum, N s.
-    pub momentum_z: f64,
-    /// Kinetic energy, J.
-    pub kinetic: f64,
-    /// Elastic energy, J.
-    pub elastic: f64,
-}
-
 mesh::cell_fields! {
-    /// The fields of a snapshot, cell by cell: blocks in the order of their slots, rows of r, z within a row.
     Snapshot, CELL_FIELDS {
         velocity: 3, "m/s", "velocity (z, r, 0)";
         stress_zz: 1, "Pa", "axial stress, positive in tension";
@@ -84,50 +73,12 @@ impl<const N: usize> SolidSolver<N> {
             * self.reports().finished.iter().map(|report| report.yielded).sum::<f64>()
     }
 
-    /// Mass, axial momentum, kinetic and elastic energy in the domain.
-    ///
-    /// The elastic energy per volume is tr(σ)²/(18K) + s:s/(4μ) with the deviator s and the bulk modulus K.
-    pub fn totals(&self) -> Totals {
-        let (density, mu) = (self.setup().speeds.density, self.model().elasticity.mu);
-        let bulk = self.model().elasticity.lambda + 2.0 / 3.0 * mu;
-        let mut totals = Totals::default();
-        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
-            let mut block = [0.0; 4];
-            for j in 0..N {
-                let volume = self.mesh().volume(*id, j);
-                let [v_z, v_r, zz, zr, rr, pp]: [&[f64]; COUNT] =
-                    std::array::from_fn(|c| &self.state().component(slot, c)[j * N..(j + 1) * N]);
-                let (mut velocity, mut speed_squared, mut strain) = (0.0, 0.0, 0.0);
-                for i in 0..N {
-                    let mean = (zz[i] + rr[i] + pp[i]) / 3.0;
-                    let (a, b, c) = (zz[i] - mean, rr[i] - mean, pp[i] - mean);
-                    let deviator = a * a + b * b + c * c + 2.0 * zr[i] * zr[i];
-                    velocity += v_z[i];
-                    speed_squared += v_z[i] * v_z[i] + v_r[i] * v_r[i];
-                    strain += mean * mean / (2.0 * bulk) + deviator / (4.0 * mu);
-                }
-                block[0] += volume * density * N as f64;
-                block[1] += volume * density * velocity;
-                block[2] += volume * 0.5 * density * speed_squared;
-                block[3] += volume * strain;
-            }
-            totals.mass += block[0];
-            totals.momentum_z += block[1];
-            totals.kinetic += block[2];
-            totals.elastic += block[3];
-        }
-        totals
-    }
-
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
     pub fn sample(&self, point: [f64; 2]) -> Option<ElasticState> {
-        let (slot, i, j) = self.mesh().locate(point)?;
-        let id = self.mesh().tree().leaves()[slot];
-        let (centre, widths) = (self.mesh().centre(id, i, j), self.mesh().widths(id.level));
-        let (a, b) = ((point[0] - centre[0]) / widths[0], (point[1] - centre[1]) / widths[1]);
+        let ((slot, i, j), [a, b]) = self.mesh().place_in_cell(point)?;
+        let k = Padded::<N>::index(i as isize, j as isize);
         Some(self.with_scratch(|scratch| {
             reconstruct(&self.context(0.0), slot, scratch);
-            let k = Padded::<N>::index(i as isize, j as isize);
             let BlockScratch { cells, s_z, s_r, .. } = scratch;
             let hoop = cells.component(S_PHIPHI);
             let stride = Padded::<N>::STRIDE;

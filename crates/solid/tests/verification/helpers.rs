@@ -38,12 +38,12 @@ pub fn run_to<const N: usize>(solid: &mut SolidSolver<N>, end: f64) {
 }
 
 /// Steps of the coarsest level, after which the grid adapts where that is due. `run` makes some of what is left of a step that has
-/// begun; `after` is called after that, and after an adaptation.
+/// begun; `after` is called after that with the length of the finest level's step, s, and with none after an adaptation.
 pub fn whole_steps<const N: usize>(
     solid: &mut SolidSolver<N>,
     steps: usize,
     mut run: impl FnMut(&mut SolidSolver<N>),
-    mut after: impl FnMut(&SolidSolver<N>),
+    mut after: impl FnMut(&mut SolidSolver<N>, f64),
 ) {
     for _ in 0..steps {
         let base = solid.mesh().coarsest_base();
@@ -53,11 +53,12 @@ pub fn whole_steps<const N: usize>(
         solid.begin_step(dt, base);
         while !solid.clock().is_over() {
             run(solid);
-            after(solid);
+            let own = solid.clock().length(solid.clock().finest());
+            after(solid, own);
         }
         if follows {
             solid.adapt(dt, substeps);
-            after(solid);
+            after(solid, 0.0);
         }
     }
 }

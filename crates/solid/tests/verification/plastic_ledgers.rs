@@ -30,9 +30,7 @@ fn press(solid: &mut SolidSolver<8>, amplitude: f64, steps: usize, mut after: im
         let factor = (std::f64::consts::PI * t / 6e-5).sin().max(0.0);
         amplitude * factor * (-(r / 0.15).powi(2)).exp()
     };
-    for _ in 0..steps {
-        press_locally(solid, load, |solid, _| after(solid));
-    }
+    press_locally(solid, steps, load, |solid, _| after(solid));
 }
 
 /// The largest q/Y of a cell, at no rate.

@@ -181,7 +181,7 @@ fn displacement_is_as_good_where_the_grid_adapts_and_levels_step_by_themselves()
     let (mut depth, mut jumps) = (0.0, 0);
     for end in [2e-7, 3e-7, 5e-7, 6e-7] {
         while adaptive.time() < end {
-            press_locally(&mut adaptive, load, |solid, dt| {
+            press_locally(&mut adaptive, 1, load, |solid, dt| {
                 if dt > 0.0 {
                     depth += dt * solid.interface().states()[0].velocity;
                 }

@@ -52,33 +52,23 @@ pub fn press<const N: usize>(
     }
 }
 
-/// A whole step in which each level makes its own under such a pressure, then adaptation; `after` is called at the end of each step of the
-/// finest level with its length, and once more with none where the grid has adapted.
+/// [`whole_steps`] under such a pressure.
 pub fn press_locally<const N: usize>(
     solid: &mut SolidSolver<N>,
+    steps: usize,
     pressure: impl Fn(f64, f64) -> f64,
-    mut after: impl FnMut(&mut SolidSolver<N>, f64),
+    after: impl FnMut(&mut SolidSolver<N>, f64),
 ) {
-    let base = solid.mesh().coarsest_base();
-    let dt = solid.local_step_limit(CFL, base);
-    let steps = 1 << (solid.mesh().levels_present()[1] - base);
-    let follows = solid.adaptation_follows(dt, steps);
-    solid.begin_step(dt, base);
-    while !solid.clock().is_over() {
+    let run = |solid: &mut SolidSolver<N>| {
         while solid.clock().due().is_some() {
             let limit = solid.due_limit(CFL);
             let step = solid.start(limit);
             load(solid, step, &pressure);
             solid.run(step, Part::All).unwrap();
         }
-        let own = solid.clock().length(solid.clock().finest());
         solid.finish().unwrap();
-        after(solid, own);
-    }
-    if follows {
-        solid.adapt(dt, steps);
-        after(solid, 0.0);
-    }
+    };
+    whole_steps(solid, steps, run, after);
 }
 
 /// Sets the surface of the levels that are about to make a step: what a pressure makes of the solid's own trace.

@@ -219,7 +219,7 @@ fn adaptive() -> SolidSolver<8> {
 }
 
 fn go_on(solid: &mut SolidSolver<8>, steps: usize) {
-    whole_steps(solid, steps, |solid| solid.sub_step(CFL).unwrap(), |_| {});
+    whole_steps(solid, steps, |solid| solid.sub_step(CFL).unwrap(), |_, _| {});
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Tests of the exact Riemann solver.
 
 use super::*;
+use crate::thermodynamics::wave_curve::MAX_ITERATIONS;
 use approx::assert_relative_eq;
 
 mod reference;

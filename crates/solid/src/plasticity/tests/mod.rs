@@ -7,7 +7,7 @@ mod rows;
 mod tangent;
 mod uniaxial;
 
-use super::{Hardening, JohnsonCook, RateFactor, Stress, Table, ThermalSoftening};
+use super::{Hardening, JohnsonCook, Plasticity, RateFactor, Stress, Table, ThermalSoftening};
 use crate::WaveSpeeds;
 
 /// The aluminium and the steel of the reference solutions.
@@ -49,6 +49,11 @@ pub(super) fn laws() -> Vec<Hardening> {
         Hardening::Table(table.with_rate(RateFactor::new(0.02, 1.0).expect("a rate's factor"))),
         Hardening::Table(Table::new(&[[0.2, 3e8]]).expect("a table")),
     ]
+}
+
+/// Each law, and its return in steel.
+pub(super) fn in_steel() -> impl Iterator<Item = (Hardening, Plasticity)> {
+    laws().into_iter().map(|law| (law.clone(), Plasticity::new(law, STEEL)))
 }
 
 /// A linear congruential generator (Knuth's constants).

@@ -1,7 +1,7 @@
 //! What holds for any state.
 
-use super::{Dice, STEEL, laws};
-use crate::plasticity::{Hardening, Plasticity, Returned, project_to_yield};
+use super::{Dice, in_steel};
+use crate::plasticity::{Hardening, Returned, project_to_yield};
 
 /// Any state: trial stress, plastic strain, temperature, time step.
 fn state(dice: &mut Dice) -> (crate::plasticity::Stress, f64, f64, f64) {
@@ -25,8 +25,7 @@ fn known_to(hardening: &Hardening, returned: &Returned, rate: f64) -> f64 {
 fn any_state_returns_to_the_yield_surface_and_dissipates() {
     let mut dice = Dice::new(23);
     let (mut flowed, mut off) = (0, 0.0_f64);
-    for hardening in laws() {
-        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+    for (hardening, plasticity) in in_steel() {
         for _ in 0..40_000 {
             let (trial, strain, temperature, dt) = state(&mut dice);
             let said = format!("{hardening:?} {trial:?} {strain:e} {temperature} {dt:e}");
@@ -73,8 +72,7 @@ fn any_state_returns_to_the_yield_surface_and_dissipates() {
 #[test]
 fn energy_that_the_deviator_loses_is_the_energy_released() {
     let mut dice = Dice::new(5);
-    for hardening in laws() {
-        let plasticity = Plasticity::new(hardening, STEEL);
+    for (_, plasticity) in in_steel() {
         for _ in 0..1000 {
             let (trial, strain, temperature, dt) = state(&mut dice);
             let Some(returned) = plasticity.return_map(trial, strain, temperature, dt) else { continue };

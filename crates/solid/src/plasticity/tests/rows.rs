@@ -1,6 +1,6 @@
 //! Rows against single cells.
 
-use super::{Dice, STEEL, aluminium, laws};
+use super::{Dice, STEEL, aluminium, in_steel, laws};
 use crate::plasticity::{Hardening, PlasticRows, Plasticity, Returned, Stress};
 
 /// Columns zz, zr, rr, φφ, ε_p, T of `n` cells, of which about a share `beyond` yields.
@@ -19,28 +19,27 @@ fn columns(dice: &mut Dice, n: usize, beyond: f64) -> [Vec<f64>; 6] {
     columns
 }
 
+/// Returns them within a nanosecond; how many flowed.
+fn return_columns(
+    plasticity: &Plasticity,
+    [stress_zz, stress_zr, stress_rr, stress_phiphi, strain, temperature]: &mut [Vec<f64>; 6],
+    [increment, work]: [&mut [f64]; 2],
+) -> usize {
+    let temperature: &mut [f64] = if plasticity.has_heat() { temperature } else { &mut [] };
+    let mut rows =
+        PlasticRows { stress_zz, stress_zr, stress_rr, stress_phiphi, strain, temperature, increment, work };
+    plasticity.return_rows(&mut rows, 1e-9)
+}
+
 #[test]
 fn rows_return_what_single_cells_return() {
     let mut dice = Dice::new(11);
-    for hardening in laws() {
-        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+    for (hardening, plasticity) in in_steel() {
         for (n, beyond) in [(1, 1.0), (63, 0.5), (200, 0.05), (256, 0.0), (300, 1.0)] {
             let before = columns(&mut dice, n, beyond);
             let mut after = before.clone();
-            let [zz, zr, rr, phiphi, strain, temperature] = &mut after;
-            let temperature: &mut [f64] = if plasticity.has_heat() { temperature } else { &mut [] };
             let (mut increment, mut work) = (vec![0.0; n], vec![f64::NAN; n]);
-            let mut rows = PlasticRows {
-                stress_zz: zz,
-                stress_zr: zr,
-                stress_rr: rr,
-                stress_phiphi: phiphi,
-                strain,
-                temperature,
-                increment: &mut increment,
-                work: &mut work,
-            };
-            let count = plasticity.return_rows(&mut rows, 1e-9);
+            let count = return_columns(&plasticity, &mut after, [&mut increment, &mut work]);
             assert_eq!(count, increment.iter().filter(|increment| **increment > 0.0).count());
             assert_eq!(count == 0, beyond == 0.0);
             for k in 0..n {
@@ -70,27 +69,14 @@ fn rows_return_what_single_cells_return() {
 fn guesses_change_nothing_but_rounding() {
     let mut dice = Dice::new(17);
     let mut worst = 0.0_f64;
-    for hardening in laws() {
-        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+    for (hardening, plasticity) in in_steel() {
         let (mut before, n) = (columns(&mut dice, 320, 1.0), 320);
         // Below melting, where a law that softens has one solution.
         before[5].iter_mut().for_each(|temperature| *temperature = temperature.min(400.0));
         let returned = |guess: &dyn Fn(usize) -> f64| {
             let mut after = before.clone();
-            let [zz, zr, rr, phiphi, strain, temperature] = &mut after;
-            let temperature: &mut [f64] = if plasticity.has_heat() { temperature } else { &mut [] };
             let (mut increment, mut work): (Vec<f64>, _) = ((0..n).map(guess).collect(), vec![0.0; n]);
-            let mut rows = PlasticRows {
-                stress_zz: zz,
-                stress_zr: zr,
-                stress_rr: rr,
-                stress_phiphi: phiphi,
-                strain,
-                temperature,
-                increment: &mut increment,
-                work: &mut work,
-            };
-            plasticity.return_rows(&mut rows, 1e-9);
+            return_columns(&plasticity, &mut after, [&mut increment, &mut work]);
             increment
         };
         let alone = returned(&|_| 0.0);
@@ -145,8 +131,7 @@ fn quick_returns_are_those_of_the_bracketed_solver() {
 #[test]
 fn the_quick_look_never_overlooks_a_cell_that_yields() {
     let mut dice = Dice::new(3);
-    for hardening in laws() {
-        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+    for (hardening, plasticity) in in_steel() {
         for _ in 0..5000 {
             let (strain, temperature) = (dice.power(-9.0, 0.5), 250.0 + 1200.0 * dice.unit());
             let strength = hardening.yield_stress(strain, 0.0, temperature);

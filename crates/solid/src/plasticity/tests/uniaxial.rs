@@ -65,6 +65,12 @@ fn cases() -> Vec<(&'static str, Hardening, Law)> {
         ThermalSoftening::new(m, melting, reference, capacity, 0.9).expect("softening")
     };
     let law = |a, b, n| JohnsonCook::new(a, b, n).expect("a law");
+    // With A, B, n; C; m, T_m, T_r, c_p.
+    let hot = |name, [a, b, n]: [f64; 3], c, [m, melting, reference, capacity]: [f64; 4]| {
+        let ours = law(a, b, n).with_rate(rate(c)).with_softening(heat(m, melting, reference, capacity));
+        let again = Some([m, melting - reference, reference, capacity, 0.9]);
+        (name, Hardening::JohnsonCook(ours), Law { a, b, n, c, reference_rate: 1.0, heat: again })
+    };
     vec![
         ("perfect", Hardening::perfect(2.5e8).expect("a law"), line(2.5e8, 0.0, 0.0)),
         ("linear", Hardening::linear(2.5e8, 3e9).expect("a law"), line(2.5e8, 3e9, 0.0)),
@@ -74,38 +80,8 @@ fn cases() -> Vec<(&'static str, Hardening, Law)> {
             Hardening::JohnsonCook(law(3e8, 1e9, 0.6)),
             Law { a: 3e8, b: 1e9, n: 0.6, c: 0.0, reference_rate: 1.0, heat: None },
         ),
-        (
-            "johnson-cook",
-            Hardening::JohnsonCook(
-                law(324e6, 114e6, 0.42)
-                    .with_rate(rate(0.015))
-                    .with_softening(heat(1.34, 925.0, 293.0, 896.0)),
-            ),
-            Law {
-                a: 324e6,
-                b: 114e6,
-                n: 0.42,
-                c: 0.015,
-                reference_rate: 1.0,
-                heat: Some([1.34, 632.0, 293.0, 896.0, 0.9]),
-            },
-        ),
-        (
-            "johnson-cook, m < 1",
-            Hardening::JohnsonCook(
-                law(305e6, 1161e6, 0.61)
-                    .with_rate(rate(0.05))
-                    .with_softening(heat(0.517, 1700.0, 293.0, 480.0)),
-            ),
-            Law {
-                a: 305e6,
-                b: 1161e6,
-                n: 0.61,
-                c: 0.05,
-                reference_rate: 1.0,
-                heat: Some([0.517, 1407.0, 293.0, 480.0, 0.9]),
-            },
-        ),
+        hot("johnson-cook", [324e6, 114e6, 0.42], 0.015, [1.34, 925.0, 293.0, 896.0]),
+        hot("johnson-cook, m < 1", [305e6, 1161e6, 0.61], 0.05, [0.517, 1700.0, 293.0, 480.0]),
     ]
 }
 
