@@ -107,8 +107,10 @@ class Tab:
         assert not failed, f"{address}: {failed}"
         while not any(event["method"] == "Page.loadEventFired" for event in chromium.events):
             chromium.events.append(chromium.message())
-        # Images may be decoded after they are loaded, and what scripts do late is said late.
+        # Images may be decoded after they are loaded, and what scripts do late is said late. Charts are drawn once the page is laid out,
+        # which a busy machine does late, too: it is within the second frame.
         self.value("Promise.all([...document.images].map(i => i.decode().catch(() => null)))"
+                   ".then(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))))"
                    ".then(() => new Promise(done => setTimeout(() => done('ready'), 100)))")
 
     def value(self, expression: str) -> Any:
