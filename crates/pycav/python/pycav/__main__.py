@@ -14,9 +14,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from . import _pycav
-
-PROGRAM = [sys.executable, "-m", "pycav"]
-"""The command line of `cav` as this installation has it, for the processes of a run."""
+from ._program import PROGRAM
 
 OWN = [
     ("report", "Write one self-contained page on a run; see pycav report --help"),

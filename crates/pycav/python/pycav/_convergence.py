@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _pycav
-from .__main__ import PROGRAM
+from ._program import PROGRAM
 from .case import Case
 from .result import Result
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from . import _pycav
-from .__main__ import PROGRAM
+from ._program import PROGRAM
 from .case import Case
 from .result import Result
 from .simulation import Simulation

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import h5py
 
-from ..__main__ import PROGRAM
+from .._program import PROGRAM
 from .._run import run
 from ..case import Case
 from ..histories import text as plain
