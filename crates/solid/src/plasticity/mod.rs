@@ -12,6 +12,7 @@ mod hardening;
 mod johnson_cook;
 mod lanes;
 mod library;
+mod polyline;
 mod powers;
 mod rate;
 mod return_map;

@@ -5,6 +5,7 @@ use super::consistency::Trial;
 use super::flow::Flow;
 use super::hardening::Hardening;
 use super::lanes::{PowerLaw, UNSOLVED};
+use super::polyline::Polyline;
 use super::screen::Screen;
 use super::stress::Stress;
 use crate::WaveSpeeds;
@@ -16,6 +17,7 @@ pub struct Plasticity {
     pub(super) screen: Screen,
     /// Of laws in closed form.
     pub(super) line: Option<Line>,
+    pub(super) polyline: Option<Polyline>,
     /// Of laws that are solved many cells at once.
     pub(super) power: Option<PowerLaw>,
     mu: f64,
@@ -54,6 +56,7 @@ impl Plasticity {
         Self {
             screen: Screen::new(&hardening),
             line: Line::new(&hardening, speeds.shear_modulus()),
+            polyline: Polyline::new(&hardening, speeds.shear_modulus()),
             power: PowerLaw::new(&hardening, speeds.shear_modulus(), heating),
             mu: speeds.shear_modulus(),
             heating,
@@ -115,6 +118,13 @@ impl Plasticity {
             let LineReturn { yields, stress, von_mises, increment } = line.return_map(trial, strain);
             return yields
                 .then(|| self.returned(stress, von_mises, strain + increment, temperature, increment));
+        }
+        if let Some(law) = &self.polyline {
+            let von_mises = self.beyond(trial, strain, temperature)?;
+            return law.single(von_mises, strain).map(|(increment, left)| {
+                let stress = trial.with_deviator_times(left / von_mises);
+                self.returned(stress, left, strain + increment, temperature, increment)
+            });
         }
         let Some(law) = &self.power else { return self.return_bracketed(trial, strain, temperature, dt) };
         let von_mises = self.beyond(trial, strain, temperature)?;

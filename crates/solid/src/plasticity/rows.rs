@@ -6,6 +6,7 @@ use multiversion::multiversion;
 
 use super::closed::{LineCells, return_batch};
 use super::lanes::{LaneCells, PowerLaw, UNSOLVED, return_lanes};
+use super::polyline;
 use super::return_map::Plasticity;
 use super::screen::{any_beyond, any_beyond_hot};
 use super::stress::Stress;
@@ -40,7 +41,7 @@ impl Plasticity {
     /// guess, and to the accuracy said there where it had one.
     ///
     /// A first pass, free of branches, looks at batches of cells; only in batches where a cell may lie outside the cells are looked
-    /// at closely. Laws on a straight line and that of Johnson and Cook are then solved many cells at once.
+    /// at closely. Laws on straight lines and that of Johnson and Cook are then solved many cells at once.
     ///
     /// - `rows`: as [`PlasticRows`] says; elastic cells keep their bits. `dt`: s.
     /// - returns: how many cells flowed.
@@ -64,6 +65,8 @@ impl Plasticity {
             if !any {
                 batch.increment.fill(0.0);
                 batch.work.fill(0.0);
+            } else if let Some(law) = &self.polyline {
+                count += polyline::return_batch(law, batch.of_line());
             } else if let Some(law) = &self.power {
                 count += self.return_power(law, &mut batch, dt);
             } else {

@@ -1,7 +1,7 @@
 //! Rows against single cells.
 
 use super::{Dice, STEEL, aluminium, in_steel, laws};
-use crate::plasticity::{Hardening, PlasticRows, Plasticity, Returned, Stress};
+use crate::plasticity::{Hardening, PlasticRows, Plasticity, Returned, Stress, Table};
 
 /// Columns zz, zr, rr, φφ, ε_p, T of `n` cells, of which about a share `beyond` yields.
 fn columns(dice: &mut Dice, n: usize, beyond: f64) -> [Vec<f64>; 6] {
@@ -126,6 +126,55 @@ fn quick_returns_are_those_of_the_bracketed_solver() {
         println!("{solved} solved, off by {worst:.1e}");
         assert!(solved > 15_000, "{hardening:?}: {solved}");
     }
+}
+
+/// The closed form of tables ends where the bracketed solver does, however many points a step passes.
+#[test]
+fn returns_on_tables_are_those_of_the_bracketed_solver() {
+    let mut dice = Dice::new(29);
+    let (mut worst, mut passed) = (0.0_f64, 0);
+    for number in 0..200 {
+        let mut point = [if number % 2 == 0 { 0.0 } else { dice.power(-6.0, -1.0) }, dice.power(6.0, 9.0)];
+        let mut points = vec![point];
+        for _ in 0..number % 12 {
+            let flat = dice.unit() < 0.2;
+            point =
+                [point[0] + dice.power(-6.0, -0.5), point[1] + if flat { 0.0 } else { dice.power(3.0, 9.0) }];
+            points.push(point);
+        }
+        let hardening = Hardening::Table(Table::new(&points).expect("a table"));
+        let plasticity = Plasticity::new(hardening.clone(), STEEL);
+        for _ in 0..200 {
+            let strain = match dice.unit() {
+                unit if unit < 0.2 => 0.0,
+                // At a point itself, too.
+                unit if unit < 0.4 => points[(unit * 1e6) as usize % points.len()][0],
+                _ => dice.power(-9.0, 0.0),
+            };
+            let bound = hardening.yield_stress(strain, 0.0, 0.0);
+            let q = bound * (1.0 + dice.power(-13.0, 3.0));
+            let trial = Stress { zz: q, ..Stress::default() };
+            let what = format!("{points:?} at {strain:e}, {q:e} Pa");
+            let [found, wanted] = [
+                plasticity.return_map(trial, strain, 0.0, 1e-9),
+                plasticity.return_bracketed(trial, strain, 0.0, 1e-9),
+            ]
+            .map(|returned| returned.unwrap_or_else(|| panic!("{what}")));
+            let (flow, mu) = (hardening.flow(found.strain, 0.0, 0.0), plasticity.mu());
+            let off = [
+                found.von_mises - flow.stress,
+                q - 3.0 * mu * found.increment - found.von_mises,
+                3.0 * mu * (found.increment - wanted.increment),
+            ]
+            // The strain's own rounding costs what the slope makes of it.
+            .map(|off| off.abs() / (q + 3.0 * mu * strain + flow.per_log_strain));
+            worst = off.into_iter().fold(worst, f64::max);
+            assert!(worst < 1e-14, "{what}: {found:?}, not {wanted:?}");
+            passed += points.iter().filter(|[at, _]| strain < *at && *at < found.strain).count();
+        }
+    }
+    println!("off by {worst:.1e}, {passed} points passed");
+    assert!(passed > 1000, "{passed}");
 }
 
 #[test]

@@ -1,0 +1,142 @@
+//! The return in closed form: flow stresses that are straight between points, without rate.
+
+use multiversion::multiversion;
+
+use super::closed::LineCells;
+use super::hardening::Hardening;
+use super::stress::Stress;
+
+/// Cells that go through the points of a table together (SIMD batches).
+const LANES: usize = 16;
+
+/// A table over an elasticity.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Polyline {
+    /// From each point to the next; a flat one before the first.
+    segments: Vec<Segment>,
+    /// Pa.
+    three_mu: f64,
+}
+
+/// A straight part of the flow stress.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Segment {
+    /// ε_p where it begins, and Y there, Pa.
+    strain: f64,
+    stress: f64,
+    /// H = dY/dε_p, Pa.
+    modulus: f64,
+    /// 3μ ε_p + Y where it begins, Pa: returns end on it where q_trial + 3μ ε_p is no less.
+    reach: f64,
+}
+
+/// What a return of cells gives.
+struct Returns<const L: usize> {
+    /// Whether a cell yields; nothing else means anything otherwise.
+    yields: [bool; L],
+    /// Of the trial's deviator, what is left.
+    left_share: [f64; L],
+    /// q at the end, Pa.
+    von_mises: [f64; L],
+    increment: [f64; L],
+}
+
+impl Polyline {
+    /// Of a table without a rate's factor.
+    pub fn new(hardening: &Hardening, mu: f64) -> Option<Self> {
+        let Hardening::Table(table) = hardening else { return None };
+        if table.rate().acts() {
+            return None;
+        }
+        let points: Vec<[f64; 2]> = table.points().collect();
+        let three_mu = 3.0 * mu;
+        let segment = |[strain, stress]: [f64; 2], modulus| Segment {
+            strain,
+            stress,
+            modulus,
+            reach: three_mu * strain + stress,
+        };
+        let slope = |a: [f64; 2], b: [f64; 2]| (b[1] - a[1]) / (b[0] - a[0]);
+        let before = segment([0.0, points.first()?[1]], 0.0);
+        let between = points.windows(2).map(|pair| segment(pair[0], slope(pair[0], pair[1])));
+        let beyond = segment(*points.last()?, 0.0);
+        Some(Self { segments: [before].into_iter().chain(between).chain([beyond]).collect(), three_mu })
+    }
+
+    /// The return of cells with these q of their trial stresses (Pa) and plastic strains, free of branches.
+    ///
+    /// On the segment where it ends, from ε = max(ε_p, where that begins) with Y = Y(ε),
+    ///
+    /// Δε_p = ε − ε_p + (q_trial − 3μ (ε − ε_p) − Y)/(3μ + H).
+    #[inline(always)]
+    fn returns<const L: usize>(&self, trial: &[f64; L], strain: &[f64; L]) -> Returns<L> {
+        let first = self.segments[0];
+        let (mut own, mut end) = ([[0.0, first.stress, 0.0]; L], [[0.0, first.stress, 0.0]; L]);
+        for Segment { strain: begin, stress, modulus, reach } in &self.segments[1..] {
+            for k in 0..L {
+                let here = [*begin, *stress, *modulus];
+                let (is_own, is_end) = (strain[k] >= *begin, trial[k] + self.three_mu * strain[k] >= *reach);
+                for c in 0..3 {
+                    own[k][c] = if is_own { here[c] } else { own[k][c] };
+                    end[k][c] = if is_end { here[c] } else { end[k][c] };
+                }
+            }
+        }
+        let (mut yields, mut left_share) = ([false; L], [0.0; L]);
+        let (mut von_mises, mut increment) = ([0.0; L], [0.0; L]);
+        for k in 0..L {
+            let (q, [begin, stress, modulus]) = (trial[k], own[k]);
+            let bound = stress + modulus * (strain[k] - begin);
+            yields[k] = q > bound;
+            let [begin, stress, modulus] = end[k];
+            let from = if begin > strain[k] { begin } else { strain[k] };
+            let (ahead, line) = (from - strain[k], stress + modulus * (from - begin));
+            increment[k] = ahead + (q - self.three_mu * ahead - line) / (self.three_mu + modulus);
+            let line = stress + modulus * (strain[k] + increment[k] - begin);
+            // Rounding must not put a stress that just yields outside of where it was.
+            von_mises[k] = if line < q { line } else { q };
+            left_share[k] = von_mises[k] / q;
+        }
+        Returns { yields, left_share, von_mises, increment }
+    }
+
+    /// Δε_p and q at the end, Pa, of one cell; `None` where it stays elastic. Bitwise what [`return_batch`] makes of it.
+    pub fn single(&self, trial: f64, strain: f64) -> Option<(f64, f64)> {
+        let Returns { yields: [yields], von_mises: [left], increment: [increment], .. } =
+            self.returns(&[trial], &[strain]);
+        yields.then_some((increment, left))
+    }
+}
+
+/// The returns of a batch; tells how many cells flowed.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(super) fn return_batch(law: &Polyline, cells: LineCells<'_>) -> usize {
+    let LineCells { stress: [zz, zr, rr, phiphi], strain, increment, work } = cells;
+    let n = strain.len();
+    let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
+    let (increment, work) = (&mut increment[..n], &mut work[..n]);
+    let mut count = 0;
+    for first in (0..n).step_by(LANES) {
+        let m = LANES.min(n - first);
+        let (mut trial, mut before) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..m {
+            let at = first + k;
+            let stress = Stress { zz: zz[at], zr: zr[at], rr: rr[at], phiphi: phiphi[at] };
+            (trial[k], before[k]) = (stress.von_mises_squared().sqrt(), strain[at]);
+        }
+        let returns = law.returns(&trial, &before);
+        for k in 0..m {
+            let at = first + k;
+            let old = Stress { zz: zz[at], zr: zr[at], rr: rr[at], phiphi: phiphi[at] };
+            let new = old.with_deviator_times(returns.left_share[k]);
+            let select = |new: f64, old: f64| if returns.yields[k] { new } else { old };
+            (zz[at], zr[at]) = (select(new.zz, old.zz), select(new.zr, old.zr));
+            (rr[at], phiphi[at]) = (select(new.rr, old.rr), select(new.phiphi, old.phiphi));
+            strain[at] = select(before[k] + returns.increment[k], before[k]);
+            increment[at] = select(returns.increment[k], 0.0);
+            work[at] = select(returns.von_mises[k] * returns.increment[k], 0.0);
+            count += u64::from(returns.yields[k]);
+        }
+    }
+    count as usize
+}
