@@ -48,7 +48,7 @@ def table(options):
     print(f"{cells} cells per radius; sides {NEAR} radii from the bubble against {WIDE}.\n")
     print("| ambient | | collapse time | smallest radius | time of the rebound | its radius | wall pressure |"
           "\n|---|---|---|---|---|---|---|")
-    for pressure in PRESSURES:
+    for pressure in options.pressures or PRESSURES:
         for k, setting in enumerate(SETTINGS):
             near, wide = (measure(options, f"{pressure:.0e}-{k}", pressure, sides, setting, cells)
                           for sides in (NEAR, WIDE))
