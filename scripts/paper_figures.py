@@ -67,8 +67,8 @@ FIGURES = [
 ]
 
 
-def pathlines(study, spacing):
-    return plot.pathlines(study.result, study.window(WIDE), spacing=spacing * study.radius, substeps=16)
+def pathlines(study, spacing, substeps):
+    return plot.pathlines(study.result, study.window(WIDE), spacing=spacing * study.radius, substeps=substeps)
 
 
 def histories(study):
@@ -83,6 +83,7 @@ def main():
     parser.add_argument("--all", action="store_true", help="every kind at every snapshot instead")
     parser.add_argument("--only", metavar="NAME", help="only pictures whose name contains this, and no numbers")
     parser.add_argument("--spacing", type=float, default=0.2, metavar="RADII", help="of the pathlines' starts")
+    parser.add_argument("--substeps", type=int, default=16, help="of pathlines from snapshot to snapshot")
     parser.add_argument("--numbers", action="store_true", help="with --only the numbers, too")
     arguments = parser.parse_args()
     study = Study(arguments.run)
@@ -103,7 +104,7 @@ def main():
             print(f"{file}: left out, no snapshot near {microseconds * study.slowness:g} µs", file=sys.stderr)
             continue
         save(KINDS[kind](study, time, study.window(window)), arguments.out / file)
-    lines = partial(pathlines, spacing=arguments.spacing)
+    lines = partial(pathlines, spacing=arguments.spacing, substeps=arguments.substeps)
     for file, draw in (("pathlines.png", lines), ("histories.png", histories), ("wall-front.png", wall_front)):
         if arguments.only and arguments.only not in file:
             continue

@@ -50,6 +50,8 @@ def table(options):
           "\n|---|---|---|---|---|---|---|")
     for pressure in options.pressures or PRESSURES:
         for k, setting in enumerate(SETTINGS):
+            if options.only not in setting[0]:
+                continue
             near, wide = (measure(options, f"{pressure:.0e}-{k}", pressure, sides, setting, cells)
                           for sides in (NEAR, WIDE))
             if near is None or wide is None:

@@ -135,6 +135,8 @@ def grids(options):
     print(f"| {cells} cells per width | largest misfit in the fluid | in the solid and on the interface | cell updates |")
     print("|---|---|---|---|")
     for what, settings in GRIDS:
+        if options.only not in what:
+            continue
         result, readings = solve(options, cells, *NEAR, **settings)
         print(f"| {what} | {100 * worst(readings, 'fluid'):.2f} % | {100 * worst(readings, 'solid'):.2f} % "
               f"| {result.updates():.2e} |", flush=True)
