@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The paper's coupling schemes and its factors on the figures' case: what each does to the numbers, and its errors (33).
 
-    python3 scripts/coupling_schemes.py [--cfl 0.45 0.098] [--out DIR] [--cav PATH]
+    python3 scripts/coupling_schemes.py [--cfl 0.45 0.098] [--set KEY=VALUE ...] [--out DIR] [--cav PATH]
 
 Runs cases/dickopp2012-coarse.toml (256² cells each, one step for both sides) with every scheme and prints Markdown. The errors are
 those of the paper's (33): ε_k = v_z of the fluid's cell on the axis next to the interface less that of the solid's, ε_d = −p − σ_zz
@@ -38,7 +38,7 @@ def run(options, cfl, changes):
     if not (directory / "summary.json").exists():
         probes = ", ".join(f'{{ name = "{name}", position = [{z!r}, {0.5 * CELL!r}], medium = "{medium}" }}'
                            for name, z, medium in PROBES)
-        sets = [f"time.cfl={cfl}", "coupling.step_ratio=1", f"probe=[{probes}]", *changes]
+        sets = [f"time.cfl={cfl}", "coupling.step_ratio=1", f"probe=[{probes}]", *changes, *options.set]
         command = program.command(options.cav, options.case, directory, sets, "--in-process", "--threads", "1")
         subprocess.run(command, check=False)
     return pycav.open(directory)
@@ -61,6 +61,7 @@ def row(result):
 def main():
     parser = program.parser(__doc__, "coupling-schemes")
     parser.add_argument("--cfl", type=float, nargs="+", default=[0.45, 0.098])
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a change of every run")
     parser.add_argument("--case", type=Path, default=program.ROOT / "cases/dickopp2012-coarse.toml")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)

@@ -58,8 +58,10 @@ def by_gilmore(bubble):
 
 
 def turns(time, radius):
-    """Largest, smallest, rebound, second collapse: row after row."""
+    """Largest, smallest, rebound, second collapse: row after row, None for what has not come yet."""
     a = int(radius.argmax())
+    if not (radius[a:] < 0.5 * radius[a]).any():
+        return a, None, None, None
     half = a + int(np.argmax(radius[a:] < 0.5 * radius[a]))
     rise = half + int(np.argmax(np.diff(radius[half:]) > 0))
     b = half + int(radius[half:rise + 2].argmin())

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The paper's kinds of pictures from a run, as docs/verification/paper-figures.md shows them.
 
-    python3 scripts/paper_figures.py RUN_DIR OUT_DIR [--all] [--only NAME]
+    python3 scripts/paper_figures.py RUN_DIR OUT_DIR [--all] [--only NAME] [--numbers]
 
 Draws the paper's figures 5 to 21 at the snapshots nearest to its times, the levels of refinement, pathlines (with 40
 snapshots or more) and histories, and prints what can be read off them. With --all every kind at every snapshot instead.
@@ -10,6 +10,7 @@ Times and windows scale with the bubble's radius (the paper's figures: 10 mm). N
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 
 from pycav import plot
@@ -66,8 +67,8 @@ FIGURES = [
 ]
 
 
-def pathlines(study):
-    return plot.pathlines(study.result, study.window(WIDE), spacing=study.radius / 5, substeps=16)
+def pathlines(study, spacing, substeps):
+    return plot.pathlines(study.result, study.window(WIDE), spacing=spacing * study.radius, substeps=substeps)
 
 
 def histories(study):
@@ -81,6 +82,9 @@ def main():
     parser.add_argument("out", type=Path, metavar="OUT_DIR", help="directory for the pictures")
     parser.add_argument("--all", action="store_true", help="every kind at every snapshot instead")
     parser.add_argument("--only", metavar="NAME", help="only pictures whose name contains this, and no numbers")
+    parser.add_argument("--spacing", type=float, default=0.2, metavar="RADII", help="of the pathlines' starts")
+    parser.add_argument("--substeps", type=int, default=16, help="of pathlines from snapshot to snapshot")
+    parser.add_argument("--numbers", action="store_true", help="with --only the numbers, too")
     arguments = parser.parse_args()
     study = Study(arguments.run)
     arguments.out.mkdir(parents=True, exist_ok=True)
@@ -100,14 +104,15 @@ def main():
             print(f"{file}: left out, no snapshot near {microseconds * study.slowness:g} µs", file=sys.stderr)
             continue
         save(KINDS[kind](study, time, study.window(window)), arguments.out / file)
-    for file, draw in (("pathlines.png", pathlines), ("histories.png", histories), ("wall-front.png", wall_front)):
+    lines = partial(pathlines, spacing=arguments.spacing, substeps=arguments.substeps)
+    for file, draw in (("pathlines.png", lines), ("histories.png", histories), ("wall-front.png", wall_front)):
         if arguments.only and arguments.only not in file:
             continue
         if file == "pathlines.png" and len(study.result.fluid.times) < 40:
             print(f"{file}: left out, needs 40 snapshots or more", file=sys.stderr)
             continue
         save(draw(study), arguments.out / file)
-    if not arguments.only:
+    if arguments.numbers or not arguments.only:
         report(study, {figure[2] for figure in FIGURES})
 
 

@@ -4,11 +4,13 @@ import argparse
 import json
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pycav
 
 ROOT = Path(__file__).resolve().parents[1]
+FAILED = []  # exit codes of the runs that `solve` has seen fail
 
 
 def parser(doc, out=None):
@@ -21,12 +23,13 @@ def parser(doc, out=None):
 
 
 def run_table(doc, out, tables, add_options):
-    """Prints the table that the command line names; tables are functions of the options."""
+    """Prints the table that the command line names; tables are functions of the options. Ends with 1 if a run has failed."""
     arguments = parser(doc, out)
     arguments.add_argument("table", choices=tables)
     add_options(arguments)
     options = arguments.parse_args()
     tables[options.table](options)
+    sys.exit(1 if FAILED else 0)
 
 
 def command(cav, case, out, changes=(), *more):
@@ -50,5 +53,6 @@ def solve(options, name, case, changes=(), *more, threads=None):
         environment = os.environ | ({} if threads is None else {"RAYON_NUM_THREADS": str(threads)})
         done = subprocess.run(command(options.cav, path, directory, changes, *more), check=False, env=environment)
         if done.returncode:
+            FAILED.append(done.returncode)
             return None, done.returncode
     return pycav.open(directory), 0

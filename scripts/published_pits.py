@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Pits and plastic strains that others have published or computed, beside this program's: docs/verification/pits.md's tables.
 
-    python3 scripts/published_pits.py [plateau] [loads] [ratios] [--out DIR] [--cells 20] [--levels 4]
+    python3 scripts/published_pits.py [plateau] [loads] [ratios] [--out DIR] [--cells 20] [--levels 4] [--first ROWS]
 
 plateau: depth over the duration of the load, which Chahine finds to be the same above 2 us. loads: pits under Gaussian loads by
 an independent finite-element program. ratios: a jet's plastic strain and zone over those of a shock, after Joshi.
@@ -105,7 +105,7 @@ def plateau(options):
     """
     print("| Δt, µs | " + " | ".join(f"{1e-9 * amplitude:g} GPa: depth, µm | largest ε_p" for amplitude in AMPLITUDES) + " |")
     print("|---" * (2 * len(AMPLITUDES) + 1) + "|")
-    for duration in DURATIONS:
+    for duration in DURATIONS[: options.first]:
         found = [pit(options, BILINEAR_7075, amplitude, 1e-4, duration) for amplitude in AMPLITUDES]
         columns = " | ".join(f"{1e6 * s['pit_depth_axis']:.3g} | {s['plastic_strain_peak']:.3g}" for s in found)
         print(f"| {1e6 * duration:g} | {columns} |", flush=True)
@@ -119,7 +119,7 @@ def loads(options):
     """
     print("| material | P₀, GPa | Δr, µm | Δt, µs | depth, µm | radius at half depth, µm | largest ε_p |")
     print("|---|---|---|---|---|---|---|")
-    for name, solid, amplitude, radius, duration, expected in LOADS:
+    for name, solid, amplitude, radius, duration, expected in LOADS[: options.first]:
         summary = pit(options, solid, amplitude, radius, duration)
         found = 1e6 * summary["pit_depth"], 1e6 * (summary["pit_radius"] or np.nan), summary["plastic_strain_peak"]
         pairs = " | ".join(f"{a:.3g} / {b:.3g} ({100 * (a / b - 1):+.1f} %)" for a, b in zip(found, expected))
@@ -185,8 +185,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("parts", nargs="*", metavar="PART", help=f"any of {', '.join(PARTS)}; all without")
     parser.add_argument("--out", type=Path, default=ROOT / "runs/published-pits", help="directory of the runs")
-    parser.add_argument("--cells", type=int, default=20, choices=[10, 20, 40], help="cells to the load's radius")
+    parser.add_argument("--cells", type=int, default=20, choices=[5, 10, 20, 40], help="cells to the load's radius")
     parser.add_argument("--levels", type=int, default=4, help="levels of the bubble's grids: 2 cells per radius, times 2 each")
+    parser.add_argument("--first", type=int, metavar="ROWS", help="only so many rows of plateau and loads")
     options = parser.parse_args()
     if unknown := [part for part in options.parts if part not in PARTS]:
         parser.error(f"{unknown[0]}: not one of {', '.join(PARTS)}")

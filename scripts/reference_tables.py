@@ -14,13 +14,13 @@
     python3 scripts/reference_tables.py pictures [--cells 20]          the pulse's fields against the exact ones
 
 Runs `cav` (target/release/cav, or --cav) in a directory of its own (--out), with changes of the cases given by --set, and
-prints Markdown. The exact solutions are CSV files in --data. Needs scripts/requirements.txt.
+prints Markdown. The exact solutions are CSV files in --data, by default those of
+scripts/reference/exact.zip. Needs scripts/requirements.txt.
 """
-
-from pathlib import Path
 
 import program
 from reference import lamb, pictures, plane, pulse
+from reference.series import EXACT, curves
 
 TABLES = {
     "plane": plane.table, "oblique": plane.oblique, "materials": plane.materials, "rest": plane.rest,
@@ -32,8 +32,9 @@ TABLES = {
 def add_options(parser):
     parser.add_argument("--cells", type=int, nargs="+", help="cells per width of the pulse or the load")
     parser.add_argument("--far", action="store_true", help="all receivers, to 16 mm and 16 µs, instead of 2 mm and 3 µs")
+    parser.add_argument("--only", default="", metavar="TEXT", help="of grids: rows whose name holds this")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a change of every case")
-    parser.add_argument("--data", type=Path, default=program.ROOT.parent / "shared/reference/data")
+    parser.add_argument("--data", type=curves, default=str(EXACT), help="directory or archive of the exact solutions")
     parser.add_argument("--threads", type=int, default=1)
 
 

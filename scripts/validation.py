@@ -29,7 +29,8 @@ TABLES = {
 
 def add_options(parser):
     parser.add_argument("--cells", type=int, nargs="+", help="cells per radius")
-    parser.add_argument("--stand-offs", type=float, nargs="+", help="of near-wall: d/R")
+    parser.add_argument("--stand-offs", type=float, nargs="+", help="of near-wall, contact and laser: d/R")
+    parser.add_argument("--euler", type=int, default=200, metavar="CELLS", help="of free and one-bar: cells of gas in one dimension")
     parser.add_argument("--data", type=Path, help="of one-bar: directory of reference-data_emissions of APECSS' rayleighcollapse")
     parser.add_argument("--riemann", nargs="+", help="of one-bar: solvers, hllc and hllc-lm")
     parser.add_argument("--picture", type=Path, help="of near-wall: directory for its pictures")

@@ -42,6 +42,10 @@ def no_run() -> list[str]:
     return sorted(tomllib.loads(FILE.read_text())["no_run"])
 
 
+def unsourced() -> list[str]:
+    return sorted(tomllib.loads(FILE.read_text())["unsourced"])
+
+
 def measured() -> dict[str, dict[str, int]]:
     return {page.name: excess(page) for page in book() if page.name not in generated()}
 

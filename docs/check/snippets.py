@@ -6,13 +6,23 @@ Blocks of `python` share one namespace; blocks of `sh` are run by bash; blocks o
 over one: `cases/pit-near-steel.toml`, or what `base=PATH` after the word `toml` names; `file=PATH` saves it.
 
 `cases/` in the directory are the cases of the repository with cells four times as wide, and so are those that commands ask for
-(`--set fluid.levels=6`): what takes a minute on a page takes a second here.
+(`--set fluid.levels=6`): what takes a minute on a page takes a second here. What takes hours is shortened by the comment before it:
+
+    <!-- run-as: --cells 5 -->          these words are added to every command of the block
+    <!-- run-as:                        a line for each command
+    --set time.end=1e-6
+    nothing
+    -->
+
+`scripts/` and `tests/long/` are copies, `.venv/bin/python` is the Python that runs this, `target/release/cav` the program of the tests, and
+`cargo` is cargo.py beside this file: nothing is compiled again.
 """
 
 from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -22,19 +32,34 @@ from typing import Any
 
 from pages import DOCS, ROOT, Block, Page
 
+HERE = Path(__file__).parent
 BASE = "cases/pit-near-steel.toml"
 COARSER = 2
 RUN = ("python", "sh", "toml")
 NOT_RUN = ("text", "")
 """What a block may be called that nothing is done with: output, equations, drawings."""
+RUN_AS = re.compile(r"<!-- run-as:(.+)-->", re.S)
+DONE_BY = re.compile(r"<!-- done-by: (\S+): (.+) -->")
+"""Something else does what the block does: the file, and a text that it holds there."""
+COPIED = ("cases", "examples", "scripts", "tests/long")
 
 
 def prepare(place: Path) -> None:
-    """Copies what pages refer to: the cases, coarser, and the examples."""
-    shutil.copytree(ROOT / "cases", place / "cases")
-    shutil.copytree(ROOT / "examples", place / "examples")
+    """Copies what pages refer to, the cases coarser, and puts the programs where commands look for them."""
+    for name in COPIED:
+        shutil.copytree(ROOT / name, place / name, ignore=shutil.ignore_patterns("__pycache__"))
     for path in (place / "cases").rglob("*.toml"):
         path.write_text(coarser(path.read_text()))
+    for name in ("target/release", ".venv/bin", "docs/images/paper"):
+        (place / name).mkdir(parents=True)
+    (place / "target/release/cav").symlink_to(os.environ["CAV_BINARY"])
+    program(place / ".venv/bin/python", sys.executable)
+
+
+def program(path: Path, *words: str) -> None:
+    """Writes a program that is a command with words of its own."""
+    path.write_text(f"#!/bin/sh\nexec {shlex.join(words)} \"$@\"\n")
+    path.chmod(0o755)
 
 
 def coarser(text: str) -> str:
@@ -69,8 +94,31 @@ def read_case(block: Block) -> None:
     pycav.Case.from_dict(given if whole else over(_toml.parse(Path(base).read_text()), given))
 
 
+def commands(text: str) -> list[str]:
+    """The commands of a block, without what they say about themselves."""
+    lines = re.sub(r"\\\n\s*", "", text).splitlines()
+    return [re.sub(r"\s+#.*", "", line) for line in lines if line.strip() and not line.startswith("#")]
+
+
+def shell(block: Block) -> str:
+    """What bash is given: the block, with what a comment `run-as` adds to its commands."""
+    text = coarser(block.text)
+    found = RUN_AS.fullmatch(block.comment)
+    if not found:
+        return text
+    lines, added = commands(text), found[1].strip().splitlines()
+    if len(added) not in (1, len(lines)):
+        raise SystemExit(f"{block.first}: {len(lines)} commands, and {len(added)} lines of run-as")
+    more = ["" if words.strip() == "nothing" else words for words in added] * (len(lines) // len(added))
+    return "\n".join(f"{line} {words}" for line, words in zip(lines, more))
+
+
 def run_shell(block: Block) -> None:
-    subprocess.run(["bash", "-euo", "pipefail", "-c", coarser(block.text)], check=True, stdin=subprocess.DEVNULL, timeout=300)
+    subprocess.run(["bash", "-euo", "pipefail", "-c", shell(block)], check=True, stdin=subprocess.DEVNULL, timeout=300)
+
+
+def is_run(block: Block) -> bool:
+    return "no-run" not in block.words and block.language not in NOT_RUN and not DONE_BY.fullmatch(block.comment)
 
 
 def run(page: Page, place: Path) -> None:
@@ -78,7 +126,7 @@ def run(page: Page, place: Path) -> None:
     namespace: dict[str, Any] = {"__name__": "__main__"}
     for block in page.blocks:
         where = f"{page.name}:{block.line}"
-        if "no-run" in block.words or block.language in NOT_RUN:
+        if not is_run(block):
             continue
         if block.language not in RUN:
             raise SystemExit(f"{where}: code called {block.language!r}; call it one of {', '.join(RUN)}, or text")

@@ -4,8 +4,9 @@ import re
 
 import pytest
 
-from allowances import KINDS, allowances, excess, generated, no_run
-from pages import Page, book, length, split
+import measured
+from allowances import KINDS, allowances, excess, generated, no_run, unsourced
+from pages import DOCS, Page, book, length, split
 
 PAGES = [page for page in book() if page.name not in generated()]
 
@@ -37,6 +38,19 @@ def test_code_that_is_not_run_is_known_and_says_why() -> None:
     assert sorted(f"{page.name}: {block.first}" for page, block in blocks) == no_run()
     for page, block in blocks:
         assert re.match(r"<!-- no-run: .{10,} -->$", block.comment), f"{page.name}:{block.line} says not why it is not run"
+
+
+def test_tables_of_numbers_say_how_and_when_they_were_made() -> None:
+    assert sorted(table.name for table in measured.unsourced()) == unsourced(), "python docs/check/measured.py"
+
+
+def test_a_table_needs_command_version_and_date() -> None:
+    page = Page(DOCS / "index.md")
+    page.text = "# A\n\n| a | b |\n|---|---|\n| x | 1 |\n| y | 2 |\n| z | 3 |\n"
+    assert [table.lacks for table in measured.tables(page)] == [("command", "version", "date")]
+    page = Page(DOCS / "index.md")
+    page.text = "# A\n\nBy `cav run a.toml`.\n\n## B\n\n0.1.0, 2026-11-25\n\n| a | b |\n|---|---|\n| x | 1 |\n| y | 2 |\n| z | 3 |\n"
+    assert [table.lacks for table in measured.tables(page)] == [()]
 
 
 def test_sentences_are_told_apart() -> None:

@@ -7,6 +7,7 @@ import numpy as np
 from .runs import run
 
 RADIUS = 1e-3
+SHIFT = 0.37  # of a cell: so much larger is the bubble of which the interface lies inside cells
 # Name, ambient pressure, gas density and pressure, side of the box, end, exact collapse time and smallest radius.
 CASES = [
     ("mild", 1e6, (1.2, 1e5), 25.6e-3, 40e-6, 3.22318e-5, 0.288562, "free_bubble_1e6_1e5.csv"),
@@ -63,9 +64,11 @@ def table(options):
     """Refinement, with the interface along cell faces and inside cells."""
     print(HEAD.format(what="cells per radius"))
     for case in CASES:
-        for cells in options.cells or [20, 40, 80]:
+        grids = options.cells or [20, 40, 80]
+        for cells in grids:
             measure(options, case, f"{cells}", f"{cells}", cells)
-        measure(options, case, "40-shifted", "40.37", 40, shift=0.37)
+        middle = grids[len(grids) // 2]
+        measure(options, case, f"{middle}-shifted", f"{middle + SHIFT:.2f}", middle, shift=SHIFT)
 
 
 def parts(options):

@@ -60,7 +60,7 @@ def table(options):
                 print(f"| {name} | {cells} | exit code {code} | | | |", flush=True)
                 continue
             for radius, time in zip(radii, times):
-                z, r, fraction = gas(result.result.fluid.at(time), 1.6 * radius * RADIUS)
+                z, r, fraction = gas(result.result.fluid.at(time), max(1.6 * radius, 4.0 / cells) * RADIUS)
                 found = surface(z, r, fraction)
                 mean = np.average(found, weights=np.sin(ANGLES))
                 low, high = found.min() / mean - 1, found.max() / mean - 1

@@ -48,8 +48,10 @@ def table(options):
     print(f"{cells} cells per radius; sides {NEAR} radii from the bubble against {WIDE}.\n")
     print("| ambient | | collapse time | smallest radius | time of the rebound | its radius | wall pressure |"
           "\n|---|---|---|---|---|---|---|")
-    for pressure in PRESSURES:
+    for pressure in options.pressures or PRESSURES:
         for k, setting in enumerate(SETTINGS):
+            if options.only not in setting[0]:
+                continue
             near, wide = (measure(options, f"{pressure:.0e}-{k}", pressure, sides, setting, cells)
                           for sides in (NEAR, WIDE))
             if near is None or wide is None:

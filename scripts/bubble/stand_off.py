@@ -3,8 +3,6 @@
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
-from pycav.plot.style import BLUE, GREY, ORANGE, legend
 
 from .runs import box_side, rayleigh_time, run
 
@@ -26,7 +24,7 @@ def table(options):
         density = 0.0266 * gas / 2118.0
         scale = rayleigh_time(RADIUS, pressure, gas)
         free = None
-        for stand_off in [FREE, *STAND_OFFS]:
+        for stand_off in [FREE, *(options.stand_offs or STAND_OFFS)]:
             is_free = stand_off == FREE
             side = box_side(RADIUS)
             result, code = run(options, f"stand-off-{pressure:.0e}-{'free' if is_free else stand_off}-{cells}",
@@ -55,6 +53,10 @@ def table(options):
 
 def picture(curves, path: Path):
     """Both ratios over the stand-off, with what is known of incompressible liquid."""
+    # Not above: the other tables draw nothing.
+    from matplotlib.figure import Figure
+    from pycav.plot.style import BLUE, GREY, ORANGE, legend
+
     figure = Figure(figsize=(7.2, 3.0), layout="constrained")
     times, jets = figure.subplots(1, 2)
     known = np.linspace(1.0, 3.1, 100)

@@ -1,7 +1,7 @@
 """What can be read off a run, in numbers."""
 
 import numpy as np
-from pycav._health import jumps
+from pycav._report.health import jumps
 
 from .study import MEGA, MICRO, MILLI
 from .wall_front import Front

@@ -48,7 +48,7 @@ def table(options):
     for name, covolume in (("Gilmore, covolume", COVOLUME * GAS_DENSITY), ("Gilmore, ideal gas", 0.0)):
         row(name, key_numbers(*gilmore(RADIUS, GAS, PRESSURE, DENSITY, 180e-6, covolume=covolume)))
     for name, covolume in (("Euler, covolume", COVOLUME), ("Euler, ideal gas", 0.0)):
-        found = euler(RADIUS, GAS, PRESSURE, DENSITY, 180e-6, gas_density=GAS_DENSITY, cells=200, covolume=covolume)
+        found = euler(RADIUS, GAS, PRESSURE, DENSITY, 180e-6, gas_density=GAS_DENSITY, cells=options.euler, covolume=covolume)
         row(name, key_numbers(*found[:2]))
     farthest = {}
     for cells in options.cells or [20, 40, 80]:

@@ -7,6 +7,7 @@ from .spherical import gilmore
 
 RADIUS, GAS, PRESSURE, DENSITY = 5e-5, 5e7, 1e5, 998.0
 STAND_OFFS = [0.15, 0.3, 0.6]
+LEVELS, CELLS = 7, 100  # of cases/validation/laser-bubble.toml, cells per largest radius
 
 
 def largest():
@@ -20,9 +21,11 @@ def table(options):
     free, when = largest()
     print(f"Largest radius without a wall {free * 1e6:.0f} µm at {when * 1e6:.1f} µs (Gilmore).\n")
     print("| D* | largest equivalent radius | smallest | jet: fastest liquid before it | its tip | wall, axis |\n|---|---|---|---|---|---|")
-    for stand_off in STAND_OFFS:
+    cells = (options.cells or [CELLS])[0]
+    for stand_off in options.stand_offs or STAND_OFFS:
         centre = [round(float(stand_off * free), 8), 0.0]
-        done = run(options, "laser-bubble", f"{stand_off}", {"fluid.region.0.centre": centre})
+        levels = LEVELS + round(np.log2(cells / CELLS))
+        done = run(options, "laser-bubble", f"{stand_off}-{cells}", {"fluid.region.0.centre": centre, "fluid.levels": levels})
         if done is None:
             continue
         most = int(done.radius[: np.searchsorted(done.time, 1.6 * when)].argmax())

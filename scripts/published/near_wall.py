@@ -41,7 +41,7 @@ def changes(stand_off, cells):
 
 def measure(options, stand_off, cells):
     """Collapse time, fastest liquid, the tip's speed over the last tenth of a radius, and the radius then; or None."""
-    done = run(options, "near-wall", f"{'free' if stand_off is None else stand_off}-{cells}", changes(stand_off, cells))
+    done = run(options, "near-wall", f"{stand_off}-{cells}", changes(stand_off, cells))
     if done is None:
         return None
     time, _ = done.first_minimum()
@@ -51,7 +51,7 @@ def measure(options, stand_off, cells):
 
 def table(options):
     cells = (options.cells or [40])[0]
-    free = measure(options, None, cells)[0]
+    free, _ = run(options, "near-wall", f"free-{cells}", changes(None, cells)).first_minimum()
     print(f"{cells} cells per radius; the free bubble takes {free * 1e6:.2f} µs, {free / RAYLEIGH:.4f} of Rayleigh's.\n")
     print("| d/R | T(d)/T(free) | 1 + 0.2032 R/d | off | jet: fastest liquid | its tip | radius then | Supponen et al. "
           "| Plesset & Chapman |\n|---|---|---|---|---|---|---|---|---|")

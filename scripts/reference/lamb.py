@@ -7,7 +7,7 @@ import numpy as np
 
 from .pulse import OURS, STRESSES, VELOCITIES
 from .runs import Box, Problem, elastic, run
-from .series import misfit, order, read
+from .series import misfit, order, read, stems
 
 LOAD_RADIUS, LOAD, START, RISE = 1e-3, 1e6, 1.65e-6, 3e-7
 WAVE_WIDTH, POTENTIAL = 1e-3, 1e-12
@@ -26,9 +26,9 @@ def place_of(stem):
     return float(match[3]) * 1e-3 * (-1 if match[2] else 1), float(match[1]) * 1e-3
 
 
-def probes(stems, shift=0.0):
+def probes(chosen, shift=0.0):
     found = []
-    for stem in stems:
+    for stem in chosen:
         z, r = place_of(stem)
         found.append((stem.replace(".", "p"), "solid", z + shift, r))
     return found
@@ -45,23 +45,23 @@ def misfits(options, result, stem, until):
 
 def lamb(options, kind, cells, size=32e-3, end=9e-6):
     """Lamb's problem: a load that comes and goes, or comes and stays; the load's radius over `cells`."""
-    stems = sorted(path.stem for path in (options.data / "E").glob(f"lamb_steel_{kind}_*.csv"))
+    chosen = [stem for stem in stems(options.data / "E") if stem.startswith(f"lamb_steel_{kind}_")]
     load = f"[coupling.load]\namplitude = {LOAD}\nradius = {LOAD_RADIUS}\nhistory = {history(kind, end)}\n"
     problem = Problem(Box(LOAD_RADIUS / cells, size, 0.0, size), end, solid=elastic(),
-                      coupling='scheme = "load"\n' + load, probes=probes(stems))
-    return run(options, f"lamb-{kind}-{cells}", problem), stems, end
+                      coupling='scheme = "load"\n' + load, probes=probes(chosen))
+    return run(options, f"lamb-{kind}-{cells}", problem), chosen, end
 
 
 def spherical(options, cells, size=9e-3, end=2e-6):
     """The spherical P wave in the middle of a solid twice as deep as wide."""
-    stems = sorted(path.stem for path in (options.data / "E").glob("spherical_P_steel_series*.csv"))
+    chosen = [stem for stem in stems(options.data / "E") if stem.startswith("spherical_P_steel_series")]
     half = Box(WAVE_WIDTH / cells, size, 0.0, size)
     reach = float(half.coarsest_block() * np.ceil(size / half.coarsest_block() - 1e-9))
     pulse = (f"[[solid.pulse]]\ncentre = [{-reach!r}, 0.0]\nwidth = {WAVE_WIDTH}\namplitude = {POTENTIAL}\n"
              '[solid.boundary]\nz_max = "non-reflecting"\n')
     problem = Problem(Box(half.cell, size, 0.0, 2 * reach), end, solid=elastic() + pulse,
-                      coupling='scheme = "none"\n', probes=probes(stems, -reach))
-    return run(options, f"spherical-{cells}", problem), stems, end
+                      coupling='scheme = "none"\n', probes=probes(chosen, -reach))
+    return run(options, f"spherical-{cells}", problem), chosen, end
 
 
 def table(options):

@@ -81,7 +81,7 @@ ANGLES, REACH, NARROW = (5.0, 10.0), 32e-3, 3e-4
 def oblique(options):
     """Plane pulses at oblique incidence: what is measured above the wall, against incident and reflected wave."""
     grids = options.cells or [10, 20]
-    angles, reflected, *_ = np.loadtxt(options.data / "C/oblique_steel.csv", delimiter=",", skiprows=2, unpack=True)
+    angles, reflected, *_ = read(options.data / "C/oblique_steel.csv").values()
     c = sound(1e5)
     print("| angle | V | quantity | " + " | ".join(f"{n} cells" for n in grids) + " |")
     print("|---|---|---|" + "---|" * len(grids))

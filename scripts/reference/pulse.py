@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 from .runs import Box, Problem, elastic, run, water
-from .series import first_half, misfit, order, read
+from .series import first_half, misfit, order, read, stems
 
 WIDTH, CENTRE, AMPLITUDE = 3e-4, 2e-3, 1e4
 IN_FLUID = ["p_Pa", "v_z_m_s", "v_r_m_s"]
@@ -23,16 +23,16 @@ OURS = {"p_Pa": "pressure", "p_fluid_Pa": "pressure", "v_r_fluid_m_s": "velocity
 def receivers(data, farthest):
     """(file's stem, medium, z, r) of all receivers up to a radius."""
     found = []
-    for path in sorted((data / "D/steel").glob("*.csv")):
-        match = re.fullmatch(r"(fluid|interface|solid)_r([\d.]+)(?:_z(m?)([\d.]+))?mm(?:_z(m?)([\d.]+)mm)?", path.stem)
+    for stem in stems(data / "D/steel"):
+        match = re.fullmatch(r"(fluid|interface|solid)_r([\d.]+)(?:_z(m?)([\d.]+))?mm(?:_z(m?)([\d.]+)mm)?", stem)
         if not match:
-            match = re.fullmatch(r"(fluid|solid)_r([\d.]+)_z(m?)([\d.]+)mm", path.stem)
+            match = re.fullmatch(r"(fluid|solid)_r([\d.]+)_z(m?)([\d.]+)mm", stem)
         if not match:
             continue
         medium, r = match[1], float(match[2]) * 1e-3
         z = float(match[4]) * 1e-3 * (-1 if match[3] else 1) if medium != "interface" else 0.0
         if r <= farthest:
-            found.append((path.stem, medium, z, r))
+            found.append((stem, medium, z, r))
     return found
 
 
@@ -135,6 +135,8 @@ def grids(options):
     print(f"| {cells} cells per width | largest misfit in the fluid | in the solid and on the interface | cell updates |")
     print("|---|---|---|---|")
     for what, settings in GRIDS:
+        if options.only not in what:
+            continue
         result, readings = solve(options, cells, *NEAR, **settings)
         print(f"| {what} | {100 * worst(readings, 'fluid'):.2f} % | {100 * worst(readings, 'solid'):.2f} % "
               f"| {result.updates():.2e} |", flush=True)

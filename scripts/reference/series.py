@@ -1,6 +1,22 @@
 """Reference curves, and how far a run's histories are from them."""
 
+import zipfile
+from pathlib import Path
+
 import numpy as np
+
+EXACT = Path(__file__).with_name("exact.zip")
+
+
+def curves(place):
+    """A directory of reference curves, or an archive that holds one."""
+    place = Path(place)
+    return place if place.is_dir() else zipfile.Path(place)
+
+
+def stems(folder):
+    """Names of the curves in a folder of `curves`, in order."""
+    return sorted(path.name.removesuffix(".csv") for path in folder.iterdir() if path.name.endswith(".csv"))
 
 
 def read(path):
