@@ -4,7 +4,7 @@
 //! and read them again: more than fits the first-level cache. Here all stages are made of two rows at a time, by the same loops over
 //! cells, so the results are the same to the last bit.
 
-use mesh::{GHOSTS, Tile, maximum};
+use mesh::{GHOSTS, Tile, fetch_lines, maximum};
 
 use crate::boundary::outer_states::MidStep;
 use crate::reconstruction::predictor::{Predictor, predict_from};
@@ -77,6 +77,8 @@ pub(crate) struct Sweep<'a> {
     pub dt: f64,
     /// The squared von Mises stress at mid-step beyond which the sweep ends, Pa².
     pub most_mises: f64,
+    /// Whether the cells come from far away, so that it is worth while to ask for memory before it is needed.
+    pub is_far: bool,
 }
 
 /// What else has a say between the predictor and the faces: gets the number of two rows, the first of which are those of the ghosts below
@@ -107,6 +109,9 @@ pub(crate) fn sweep<const N: usize, const ALONG: usize>(
         // Counted from the first row of ghosts, the first of which nothing is made of.
         let j = ROWS * strip + 1;
         let len = ROWS * stride;
+        if s.is_far && strip > 0 {
+            [j - 1, j].into_iter().for_each(|j| ask_for_row::<N, ALONG>(j, new));
+        }
         predict_strip(j * stride, len, cells, s, here);
         if s.most_mises < f64::INFINITY {
             let stress = [2, 3, 4, 5].map(|c| &here.half[c][..len]);
@@ -129,6 +134,17 @@ pub(crate) fn sweep<const N: usize, const ALONG: usize>(
         std::mem::swap(&mut south, &mut north);
     }
     Some(largest.map(|row| maximum(&row)))
+}
+
+/// Asks for the memory that a row of new cells is written to.
+#[inline(always)]
+fn ask_for_row<const N: usize, const ALONG: usize>(j: usize, new: &[f64]) {
+    let (in_tile, len) = (j - GHOSTS, new.len() / (ALONG * ALONG));
+    for part in 0..ALONG {
+        let block = &new[(in_tile / N * ALONG + part) * len..];
+        let first = in_tile % N * N;
+        (0..COUNT).for_each(|c| fetch_lines(row::<N>(block, c * N * N + first)));
+    }
 }
 
 /// Differences and states at mid-step of `len` cells from number `first` on.

@@ -84,9 +84,14 @@ fn sweep_tile<const N: usize>(
         elasticity: model.elasticity,
         dt: ctx.dt,
         most_mises,
+        is_far: ctx.old.is_far(),
     };
     let has_sides = Side::ALL.into_iter().any(|side| ctx.mesh.tile_touches(tile, side));
+    let (is_far, strips) = (this.is_far, frame.cells() / 2 + 1);
     let mut between = |strip: usize, mut mid_step: MidStep<'_>| {
+        if is_far {
+            ctx.old.look_beyond(tile, strip, strips);
+        }
         if has_sides {
             let first = 2 * strip as isize - 1;
             model.boundaries.impose_outer(ctx, tile, cells, first..first + 2, &mut mid_step);
