@@ -1,6 +1,6 @@
 //! `FluidSolver`: how a fluid is made.
 
-use mesh::{BlockSolver, Domain, Mesh, SavedBlocks, Side, SideStates};
+use mesh::{BlockSolver, Domain, Mesh, SavedBlocks, Side, SideStates, Tile};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
@@ -124,7 +124,7 @@ impl<const N: usize> FluidSolver<N> {
             carried: components::of(setup),
             analysis,
             near_wall: setup.near_wall,
-            has_tiles: BlockScratch::<N>::HAS_FOUR,
+            has_tiles: Tile::holds_four::<N>(),
             follower: setup.followed.clone().map(Follower::new),
             tally: Tally::default(),
             mixture,

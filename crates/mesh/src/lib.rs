@@ -39,7 +39,7 @@ pub use ghosts::padded::{GHOSTS, Padded};
 pub use ghosts::side_faces::SideFaces;
 pub use ghosts::side_states::SideStates;
 pub use ghosts::tile_rows::TileRows;
-pub use kernels::ahead::fetch;
+pub use kernels::ahead::{fetch, fetch_lines};
 pub use kernels::aligned::{AlignedRow, whole_lines};
 pub use kernels::dispersion::{dispersion_share, oblique_dispersion_shares};
 pub use kernels::elementary::{exp_and_less_one, ln_of};

@@ -1,17 +1,17 @@
 //! What the solid is to the block solver.
 
-use mesh::{BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap, Reports, Side};
+use mesh::{BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap, Reports, Side, Tile};
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::absorbing::SideFilters;
 use crate::components::admissible::Admissible;
 use crate::components::following::{Following, SavedFollowing};
-use crate::physics::{Solid, SolidStep};
+use crate::physics::{Solid, SolidStep, Ways};
 use crate::step::plastic::{measure_flow, return_block};
 use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::{BlockReport, PlasticReport, report_stresses};
-use crate::step::{BlockScratch, STAGES, step_block};
+use crate::step::{BlockScratch, STAGES, has_only_waves, step_block, step_tile};
 use crate::{Boundary, BoundaryLedger, PlasticLedger, SolidError};
 
 /// What of a solid changes in time besides its cells.
@@ -50,9 +50,32 @@ impl<const N: usize> Model<N> for Solid {
         &self,
         step: &SolidStep<'_, N>,
         slot: usize,
-        work: BlockWork<'_, BlockScratch<N>>,
+        mut work: BlockWork<'_, BlockScratch<N>>,
     ) -> BlockReport {
+        let mut report = [BlockReport::default()];
+        let tile = Tile::one(slot);
+        if self.ways.has_sweeps
+            && has_only_waves(step, tile)
+            && step_tile(step, tile, &mut work, &mut report)
+        {
+            let [report] = report;
+            return report;
+        }
         step_block(step, slot, work)
+    }
+
+    fn step_tile(
+        &self,
+        step: &SolidStep<'_, N>,
+        tile: Tile,
+        mut work: BlockWork<'_, BlockScratch<N>>,
+        reports: &mut [BlockReport],
+    ) {
+        let Ways { has_tiles, has_sweeps } = self.ways;
+        let is_one = !tile.is_one() && has_tiles && has_sweeps && has_only_waves(step, tile);
+        if !(is_one && step_tile(step, tile, &mut work, reports)) {
+            work.each_of(tile, reports, |slot, work, report| *report = self.step_block(step, slot, work));
+        }
     }
 
     fn correct(

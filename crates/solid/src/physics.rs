@@ -30,6 +30,16 @@ pub struct Solid {
     pub(crate) analysis: Analysis,
     pub(crate) ledger: BoundaryLedger,
     pub(crate) plastic: PlasticLedger,
+    pub(crate) ways: Ways,
+}
+
+/// How blocks are stepped where there is a choice: the results are the same to the last bit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ways {
+    /// Whether four siblings are, as one.
+    pub has_tiles: bool,
+    /// Whether what has only waves is, in one sweep.
+    pub has_sweeps: bool,
 }
 
 /// A step of the solid.

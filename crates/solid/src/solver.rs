@@ -1,6 +1,6 @@
 //! `SolidSolver`: how a solid is made.
 
-use mesh::{BlockId, BlockSolver, Field, Mesh, MeshError, SavedBlocks, SideStates};
+use mesh::{BlockId, BlockSolver, Field, Mesh, MeshError, SavedBlocks, SideStates, Tile};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
@@ -10,7 +10,7 @@ use crate::components::following::Following;
 use crate::components::untouched::Untouched;
 use crate::components::{self, Component};
 use crate::model::SolidMemory;
-use crate::physics::Solid;
+use crate::physics::{Solid, Ways};
 use crate::plasticity::Plasticity;
 use crate::step::BlockScratch;
 use crate::step::report::BlockReport;
@@ -109,6 +109,7 @@ impl<const N: usize> SolidSolver<N> {
             analysis,
             ledger: BoundaryLedger::default(),
             plastic: PlasticLedger::default(),
+            ways: Ways { has_tiles: Tile::holds_four::<N>(), has_sweeps: N <= Tile::MOST_CELLS },
             setup,
         };
         Ok(Self(BlockSolver::new(solid, mesh, state, adaptation, || BlockScratch::new(count))?))

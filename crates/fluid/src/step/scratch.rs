@@ -1,6 +1,6 @@
 //! What a thread works in.
 
-use mesh::{AlignedRow, FaceState, Frame, GHOSTS, Interface, Mesh, Neighbour, Offset, Patch, TileRows};
+use mesh::{AlignedRow, FaceState, Frame, GHOSTS, Interface, Mesh, Neighbour, Offset, Patch, Tile, TileRows};
 
 use crate::capillarity::CapillaryRows;
 use crate::components::carried::CarriedScratch;
@@ -52,12 +52,9 @@ pub struct BlockScratch<const N: usize> {
 }
 
 impl<const N: usize> BlockScratch<N> {
-    /// Whether four blocks fit into a tile.
-    pub(crate) const HAS_FOUR: bool = 2 * N <= MOST_CELLS;
-
     /// For fields of so many components, the last `carried` of which the mass carries.
     pub(crate) fn new(components: usize, carried: usize) -> Self {
-        let of_four = Self::HAS_FOUR.then(|| Box::new(Self::of(2, components, carried)));
+        let of_four = Tile::holds_four::<N>().then(|| Box::new(Self::of(2, components, carried)));
         Self { of_four, ..Self::of(1, components, carried) }
     }
 
@@ -110,9 +107,6 @@ impl<const N: usize> BlockScratch<N> {
         self.r_faces.without_gas();
     }
 }
-
-/// The most cells along a side of a tile: more do not stay in the second-level cache from stage to stage.
-const MOST_CELLS: usize = 32;
 
 /// Takes the states of a block's faces of the wall to another medium, and of as many more at both ends as there are ghosts: of the block of
 /// its level beside it, or else the block's last. Nothing where it has none.

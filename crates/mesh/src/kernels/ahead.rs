@@ -62,6 +62,46 @@ impl<const N: usize> Mesh<N> {
     }
 }
 
+impl Field {
+    /// Whether it is so large that asking for what comes next is worth while.
+    pub fn is_far(&self) -> bool {
+        self.as_slice().len() >= NEAR
+    }
+
+    /// Asks for a part of the blocks that follow a tile, as many as it has, for the second-level cache: in the first one they would take the
+    /// place of what is worked on.
+    pub fn look_beyond(&self, tile: Tile, part: usize, parts: usize) {
+        debug_assert!(part < parts, "part {part} of {parts}");
+        let Range { start, end } = tile.slots();
+        let len = self.block_len();
+        let all = self.as_slice();
+        let following = &all[(end * len).min(all.len())..((end + end - start) * len).min(all.len())];
+        let share = following.len() / parts;
+        fetch_from_afar(&following[part * share..(part + 1) * share]);
+    }
+}
+
+/// Asks for some lines, for the second-level cache.
+#[cfg(target_arch = "x86_64")]
+fn fetch_from_afar(numbers: &[f64]) {
+    numbers.iter().step_by(LINE).for_each(safe_arch::prefetch_t1);
+}
+
+/// Other machines are left to look ahead for themselves.
+#[cfg(not(target_arch = "x86_64"))]
+fn fetch_from_afar(_: &[f64]) {}
+
+/// Asks for the lines of some numbers, without waiting for any.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub fn fetch_lines(numbers: &[f64]) {
+    numbers.iter().step_by(LINE).for_each(safe_arch::prefetch_t0);
+}
+
+/// Other machines are left to look ahead for themselves.
+#[cfg(not(target_arch = "x86_64"))]
+pub fn fetch_lines(_: &[f64]) {}
+
 /// Asks for the lines of a part of some numbers, without waiting for any.
 #[cfg(target_arch = "x86_64")]
 pub fn fetch(block: &[f64], part: usize, parts: usize) {

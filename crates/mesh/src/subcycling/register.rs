@@ -46,7 +46,13 @@ impl<const N: usize> FluxRegister<N> {
         &self.values
     }
 
-    /// Keeps the values on those sides of a block that meet another level, and on those of the domain.
+    /// The sides of a block whose values are kept: those that meet another level, and those of the domain.
+    pub fn recorded(mesh: &Mesh<N>, slot: usize) -> impl Iterator<Item = Side> {
+        let is_kept = move |side: &Side| Self::is_needed(mesh, slot, *side) || mesh.touches(slot, *side);
+        Side::ALL.into_iter().filter(is_kept)
+    }
+
+    /// Keeps the values on the sides of a block that [`FluxRegister::recorded`] names.
     ///
     /// - `at`: where the block lies in padded rows; `block`: its part of the register; `first`: the number of the first quantity;
     ///   `values`: what passes the outer face of a side above the padded cell `k`.
@@ -57,10 +63,7 @@ impl<const N: usize> FluxRegister<N> {
         first: usize,
         values: impl Fn(Side, usize) -> [f64; K],
     ) {
-        for side in Side::ALL {
-            if !Self::is_needed(mesh, slot, side) && !mesh.touches(slot, side) {
-                continue;
-            }
+        for side in Self::recorded(mesh, slot) {
             let rows = &mut Self::rows(block, side)[first * N..];
             for along in 0..N {
                 let (n, along_side) = (N as isize, along as isize);

@@ -14,6 +14,14 @@ pub struct Tile {
 }
 
 impl Tile {
+    /// The most cells along a side of a tile: more do not stay in the second-level cache from stage to stage.
+    pub const MOST_CELLS: usize = 32;
+
+    /// Whether four blocks of N × N cells fit into one.
+    pub const fn holds_four<const N: usize>() -> bool {
+        2 * N <= Self::MOST_CELLS
+    }
+
     /// A block by itself.
     pub const fn one(slot: usize) -> Self {
         Self { first: slot, along: 1 }

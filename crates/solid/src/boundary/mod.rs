@@ -5,7 +5,7 @@ pub(crate) mod held;
 pub(crate) mod outer_states;
 pub(crate) mod participant;
 
-use mesh::{FaceState, Limiter, Mesh, Padded, Side, SideStates};
+use mesh::{FaceState, Limiter, Mesh, Padded, Side, SideStates, Tile, TileRows};
 
 use crate::Boundary;
 use crate::boundary::held::Held;
@@ -30,18 +30,19 @@ impl Boundaries {
         self.kinds[side as usize]
     }
 
-    /// Fills the ghosts of one block beyond the domain.
-    pub fn fill_ghosts<const N: usize>(&self, mesh: &Mesh<N>, slot: usize, cells: &mut Padded<N>) {
+    /// Fills the ghosts of a tile beyond the domain.
+    pub fn fill_ghosts<const N: usize>(&self, mesh: &Mesh<N>, tile: Tile, cells: &mut TileRows<N>) {
+        let frame = cells.frame();
         // r first: the z sides then find the ghosts beyond r filled and complete the corners.
         for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
-            if !mesh.touches(slot, side) {
+            if !mesh.tile_touches(tile, side) {
                 continue;
             }
             for component in 0..6 {
                 let row = cells.component_mut(component);
                 match parity(self.kind(side), side, component) {
-                    Some(sign) => Padded::<N>::reflect(row, side, sign),
-                    None => Padded::<N>::extrapolate(row, side),
+                    Some(sign) => frame.reflect(row, side, sign),
+                    None => frame.extrapolate(row, side),
                 }
             }
         }
@@ -50,13 +51,15 @@ impl Boundaries {
     /// Makes the differences of v_r and σ_zr across the cells on the surface (z_max) as accurate as those of the cells below,
     /// see [`surface_difference`]. (Not those of v_z and σ_zz: what the wall is given is made of them, and they would let
     /// round-off grow.)
-    pub fn complete_shear_differences<const N: usize>(
+    ///
+    /// - `cells`: a component of the block's padded cells.
+    pub fn complete_shear_differences<'a, const N: usize>(
         limiter: Limiter,
-        cells: &Padded<N>,
+        cells: impl Fn(usize) -> &'a [f64],
         s_z: &mut Padded<N>,
     ) {
         for component in [V_R, S_ZR] {
-            let w = cells.component(component);
+            let w = cells(component);
             let differences = s_z.component_mut(component);
             for j in 0..N as isize {
                 let k = Padded::<N>::index(N as isize - 1, j);

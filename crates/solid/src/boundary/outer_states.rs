@@ -1,35 +1,59 @@
 //! The states beyond the sides of the domain at mid-step.
 
-use mesh::{Padded, Side};
+use std::ops::Range;
+
+use mesh::{Side, Tile, TileRows};
 
 use crate::boundary::absorbing::Absorption;
 use crate::boundary::{Boundaries, parity};
 use crate::physics::SolidStep;
+use crate::reconstruction::predictor::{ALONG_R, ALONG_Z};
+use crate::state::component::COUNT;
 use crate::{Boundary, ElasticState};
+
+/// What the faces are made of, all padded rows of a tile or some.
+pub(crate) struct MidStep<'a> {
+    /// The padded cell that they begin with.
+    pub first: usize,
+    /// The states at mid-step.
+    pub half: [&'a mut [f64]; COUNT],
+    /// Differences of the components [`ALONG_Z`] and [`ALONG_R`].
+    pub differences: [[&'a mut [f64]; 4]; 2],
+}
 
 impl Boundaries {
     /// Puts the outer states into the ghost cells at mid-step: on open sides so that the face has just that state, with
     /// the slope of the cell within, elsewhere the reflected inner ones, so that what the side holds at zero is zero to
-    /// the last bit.
+    /// the last bit. Only the components that the face's Riemann problem has.
     ///
-    /// - `cells`: the state at the beginning of the step.
+    /// - `cells`: the state at the beginning of the step; `rows`: of the tile's cells that `mid_step` holds, two at least, ghosts counted.
     pub fn impose_outer<const N: usize>(
         &self,
         ctx: &SolidStep<'_, N>,
-        slot: usize,
-        cells: &Padded<N>,
-        half: &mut Padded<N>,
-        s_z: &mut Padded<N>,
-        s_r: &mut Padded<N>,
+        tile: Tile,
+        cells: &TileRows<N>,
+        rows: Range<isize>,
+        mid_step: &mut MidStep<'_>,
     ) {
         let mesh = ctx.mesh;
-        let id = mesh.tree().leaves()[slot];
+        let (id, frame) = (mesh.first_of(tile), cells.frame());
+        let n = frame.cells() as isize;
+        let first_row = mid_step.first;
         for side in Side::ALL {
             let kind = self.kind(side);
-            if kind == Boundary::Interface || !mesh.touches(slot, side) {
+            if kind == Boundary::Interface || !mesh.tile_touches(tile, side) {
                 continue;
             }
-            let across_z = side.axis_across() == 0;
+            let along_side = match side {
+                Side::ZMin | Side::ZMax => rows.start.max(0)..rows.end.min(n),
+                Side::RMin if rows.contains(&-1) => 0..n,
+                Side::RMax if rows.contains(&n) => 0..n,
+                Side::RMin | Side::RMax => continue,
+            };
+            let axis = side.axis_across();
+            let components = [ALONG_Z, ALONG_R][axis];
+            let MidStep { half, differences, .. } = &mut *mid_step;
+            let differences = &mut differences[axis];
             let first = id.first_face::<N>(side);
             let inwards = if matches!(side, Side::ZMin | Side::RMin) { 0.5 } else { -0.5 };
             let mut absorption = (kind == Boundary::Absorbing).then(|| {
@@ -38,44 +62,41 @@ impl Boundaries {
                     ctx.model.sides.follow(side),
                 )
             });
-            for along in 0..N {
-                let (n, a) = (N as isize, along as isize);
+            for a in along_side {
                 let (i, j) = match side {
                     Side::ZMin => (-1, a),
                     Side::ZMax => (n, a),
                     Side::RMin => (a, -1),
                     Side::RMax => (a, n),
                 };
-                let k = Padded::<N>::index(i, j);
+                let k = frame.index(i, j) - first_row;
+                let inner = frame.index(i.clamp(0, n - 1), j.clamp(0, n - 1)) - first_row;
                 if !kind.is_open() {
-                    let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
-                    for component in 0..6 {
-                        let row = half.component_mut(component);
+                    for component in components {
+                        let row = &mut half[component];
                         row[k] = parity(kind, side, component).unwrap_or(1.0) * row[inner];
                     }
                     continue;
                 }
-                let held = self.initial.at(side, id.level, first + along);
+                let along = first + a as usize;
+                let held = self.initial.at(side, id.level, along);
                 let mut outer = held.face;
-                let inner = Padded::<N>::index(i.clamp(0, n - 1), j.clamp(0, n - 1));
                 if let Some((absorption, followed)) = &mut absorption {
-                    let before = ctx.model.sides.at(side, id.level, first + along);
+                    let before = ctx.model.sides.at(side, id.level, along);
                     let (di, dj) = (i - i.clamp(0, n - 1), j - j.clamp(0, n - 1));
-                    let within =
-                        |depth: isize| Padded::<N>::index(i - (1 + depth) * di, j - (1 + depth) * dj);
+                    let within = |depth: isize| frame.index(i - (1 + depth) * di, j - (1 + depth) * dj);
                     let initial = held.cells.map(ElasticState::to_array);
                     let change = |depth: isize, c: usize| {
                         cells.component(c)[within(depth)] - initial[depth as usize][c]
                     };
                     let after = absorption.follow(before, change);
-                    followed.of_mut(id.level, first + along).fill(after);
+                    followed.of_mut(id.level, along).fill(after);
                     outer = absorption.outer(after, outer);
                 }
-                for (component, value) in outer.to_array().into_iter().enumerate() {
-                    let slopes = if across_z { &mut *s_z } else { &mut *s_r };
-                    let slopes = slopes.component_mut(component);
+                let outer = outer.to_array();
+                for (component, slopes) in components.into_iter().zip(differences.iter_mut()) {
                     slopes[k] = slopes[inner];
-                    half.component_mut(component)[k] = value - inwards * slopes[k];
+                    half[component][k] = outer[component] - inwards * slopes[k];
                 }
             }
         }

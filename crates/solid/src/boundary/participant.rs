@@ -63,7 +63,7 @@ impl<const N: usize> SolidSolver<N> {
                 let [share, _] = context.model.dispersion(context.mesh.widths(id.level), dt, 0);
                 reconstruct(&context, slot, scratch);
                 let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
-                Boundaries::complete_shear_differences(self.setup().limiter, cells, s_z);
+                Boundaries::complete_shear_differences(self.setup().limiter, |c| cells.component(c), s_z);
                 for j in 0..N {
                     let k = Padded::<N>::index(N as isize - 1, j as isize);
                     let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);

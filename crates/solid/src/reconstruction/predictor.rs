@@ -40,17 +40,57 @@ pub(crate) fn predict(
     s_r: [&mut [f64]; 4],
     half: [&mut [f64]; 6],
 ) {
-    let e = *elasticity;
+    // The first and the last cell of these rows have neighbours, if not their own; all lines are whole.
+    let first = p.stride;
+    let n = w[0].len() - 2 * first;
+    let [z0, z1, z2, z3] = s_z;
+    let [r0, r1, r2, r3] = s_r;
+    let [h0, h1, h2, h3, h4, h5] = half;
+    predict_from(
+        first,
+        n,
+        w,
+        p,
+        *elasticity,
+        [&mut z0[first..], &mut z1[first..], &mut z2[first..], &mut z3[first..]],
+        [&mut r0[first..], &mut r1[first..], &mut r2[first..], &mut r3[first..]],
+        [
+            &mut h0[first..],
+            &mut h1[first..],
+            &mut h2[first..],
+            &mut h3[first..],
+            &mut h4[first..],
+            &mut h5[first..],
+        ],
+    );
+}
+
+/// [`predict`] of `n` cells from number `first` on, which all have neighbours; what is written begins with that cell.
+#[expect(clippy::too_many_arguments, reason = "rows of a block and what is written")]
+#[inline(always)]
+pub(crate) fn predict_from(
+    first: usize,
+    n: usize,
+    w: Rows<'_>,
+    p: Predictor<'_>,
+    e: Elasticity,
+    s_z: [&mut [f64]; 4],
+    s_r: [&mut [f64]; 4],
+    half: [&mut [f64]; 6],
+) {
     match p.limiter {
-        Limiter::Mc => body(|a, b| Limiter::Mc.difference(a, b), w, p, e, s_z, s_r, half),
-        Limiter::Minmod => body(|a, b| Limiter::Minmod.difference(a, b), w, p, e, s_z, s_r, half),
-        Limiter::Eno => body(|a, b| Limiter::Eno.difference(a, b), w, p, e, s_z, s_r, half),
-        Limiter::None => body(|a, b| Limiter::None.difference(a, b), w, p, e, s_z, s_r, half),
+        Limiter::Mc => body(first, n, |a, b| Limiter::Mc.difference(a, b), w, p, e, s_z, s_r, half),
+        Limiter::Minmod => body(first, n, |a, b| Limiter::Minmod.difference(a, b), w, p, e, s_z, s_r, half),
+        Limiter::Eno => body(first, n, |a, b| Limiter::Eno.difference(a, b), w, p, e, s_z, s_r, half),
+        Limiter::None => body(first, n, |a, b| Limiter::None.difference(a, b), w, p, e, s_z, s_r, half),
     }
 }
 
+#[expect(clippy::too_many_arguments, reason = "as above")]
 #[inline(always)]
 fn body(
+    first: usize,
+    n: usize,
     limit: impl Fn(f64, f64) -> f64,
     w: Rows<'_>,
     p: Predictor<'_>,
@@ -59,9 +99,6 @@ fn body(
     s_r: [&mut [f64]; 4],
     half: [&mut [f64]; 6],
 ) {
-    // The first and the last cell of these rows have neighbours, if not their own; all lines are whole.
-    let first = p.stride;
-    let n = p.inverse_r.len() - 2 * first;
     let [z0, z1, z2, z3] = s_z;
     let [r0, r1, r2, r3] = s_r;
     let [h0, h1, h2, h3, h4, h5] = half;
@@ -79,20 +116,20 @@ fn body(
         p.inverse_h,
         p.half_dt,
         e,
-        &mut z0[first..][..n],
-        &mut z1[first..][..n],
-        &mut z2[first..][..n],
-        &mut z3[first..][..n],
-        &mut r0[first..][..n],
-        &mut r1[first..][..n],
-        &mut r2[first..][..n],
-        &mut r3[first..][..n],
-        &mut h0[first..][..n],
-        &mut h1[first..][..n],
-        &mut h2[first..][..n],
-        &mut h3[first..][..n],
-        &mut h4[first..][..n],
-        &mut h5[first..][..n],
+        &mut z0[..n],
+        &mut z1[..n],
+        &mut z2[..n],
+        &mut z3[..n],
+        &mut r0[..n],
+        &mut r1[..n],
+        &mut r2[..n],
+        &mut r3[..n],
+        &mut h0[..n],
+        &mut h1[..n],
+        &mut h2[..n],
+        &mut h3[..n],
+        &mut h4[..n],
+        &mut h5[..n],
     );
 }
 

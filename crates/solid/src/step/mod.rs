@@ -1,4 +1,4 @@
-//! One MUSCL-Hancock step of one block: the algorithm, stage by stage.
+//! One MUSCL-Hancock step of one tile, a block or four: the algorithm, stage by stage, or in one sweep.
 
 pub(crate) mod plastic;
 pub(crate) mod reflux;
@@ -6,13 +6,19 @@ pub(crate) mod report;
 pub(crate) mod rows;
 pub(crate) mod update;
 
+mod rim;
 mod scratch;
 mod stages;
+mod sweep;
+mod tile;
+#[cfg(test)]
+mod tile_tests;
 
 use mesh::{BlockId, BlockWork};
 
 pub use scratch::BlockScratch;
 pub(crate) use stages::reconstruct;
+pub(crate) use tile::{has_only_waves, step_tile};
 
 use crate::physics::SolidStep;
 use crate::step::report::BlockReport;
@@ -29,11 +35,12 @@ enum Stage {
     Terms,
     Plastic,
     Report,
+    Sweep,
 }
 
 /// Their names.
 pub(crate) const STAGES: &[&str] =
-    &["assemble", "predict", "boundary", "faces", "register", "update", "terms", "plastic", "report"];
+    &["assemble", "predict", "boundary", "faces", "register", "update", "terms", "plastic", "report", "sweep"];
 
 /// A block in a step.
 struct BlockStep<'a, const N: usize> {

@@ -132,11 +132,11 @@ pub(crate) fn measure_flow<const N: usize>(block: &[f64], report: &mut PlasticRe
 }
 
 /// Of the squared flow stress: rounding must not keep a cell from its return.
-const LEAST: f64 = 1.0 - 1e-9;
+pub(super) const LEAST: f64 = 1.0 - 1e-9;
 
 /// The largest squared von Mises stress in rows of σ_zz, σ_zr, σ_rr, σ_φφ, infinite if one is not a number.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-fn largest_mises(stress: [&[f64]; 4]) -> f64 {
+pub(super) fn largest_mises(stress: [&[f64]; 4]) -> f64 {
     const LANES: usize = 32;
     let n = stress[0].len();
     let [zz, zr, rr, phiphi] = stress.map(|row| &row[..n]);

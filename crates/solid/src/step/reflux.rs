@@ -1,29 +1,31 @@
 //! Flux correction at level jumps: the finer side's star states pass for both.
 
-use mesh::{FinerSide, FluxRegister, Frame, Geometry, Mesh, Side};
+use mesh::{FinerSide, FluxRegister, Geometry, Mesh, Side};
 
 use crate::physics::SolidStep;
 use crate::state::component::COUNT;
 use crate::step::plastic::return_block;
 use crate::step::report::{BlockReport, report_stresses};
-use crate::step::rows::FaceRows;
+use crate::step::rim::Rim;
 use crate::step::update::FACES;
 
 /// What is registered of a face: v_n, v_t, σ_nn, σ_nt.
 pub(crate) const QUANTITIES: usize = 4;
 
 /// Keeps the star states on those sides of a block that meet another level.
+///
+/// - `place`: of the block in the tile that the rim is of.
 pub(crate) fn register_stars<const N: usize>(
     mesh: &Mesh<N>,
     slot: usize,
-    z_faces: &FaceRows,
-    r_faces: &FaceRows,
+    place: [usize; 2],
+    rim: &Rim,
     values: &mut [f64],
 ) {
-    FluxRegister::<N>::record::<QUANTITIES>(mesh, (slot, Frame::of(N)), values, 0, |side, k| {
-        let faces = if matches!(side, Side::ZMin | Side::ZMax) { z_faces } else { r_faces };
-        [faces.v_n[k], faces.v_t[k], faces.s_nn[k], faces.s_nt[k]]
-    });
+    for side in FluxRegister::<N>::recorded(mesh, slot) {
+        let rows = FluxRegister::<N>::rows(values, side).chunks_exact_mut(N);
+        rows.zip(rim.of_block::<N>(side, place)).for_each(|(row, faces)| row.copy_from_slice(faces));
+    }
 }
 
 /// Corrects the cells of a block along its finer neighbours, after all blocks have made their step; the formulas

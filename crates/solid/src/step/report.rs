@@ -1,11 +1,11 @@
 //! What one block tells of its step.
 
-use mesh::{Mesh, Padded, Side, maximum};
+use mesh::{Mesh, Side, maximum};
 use serde::{Deserialize, Serialize};
 
 use crate::PlasticLedger;
 use crate::physics::SolidStep;
-use crate::step::rows::FaceRows;
+use crate::step::rim::Rim;
 
 /// What one block tells of its step.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -98,11 +98,13 @@ pub(crate) fn yielded_volume<const N: usize>(
 }
 
 /// Axial momentum and energy that a block took in through the sides of the domain.
+///
+/// - `place`: of the block in the tile that the rim is of.
 pub(crate) fn boundary_inflow<const N: usize>(
     ctx: &SolidStep<'_, N>,
     slot: usize,
-    z_faces: &FaceRows,
-    r_faces: &FaceRows,
+    place: [usize; 2],
+    rim: &Rim,
 ) -> [[f64; 2]; 4] {
     let mut inflow = [[0.0; 2]; 4];
     let id = ctx.mesh.tree().leaves()[slot];
@@ -114,20 +116,16 @@ pub(crate) fn boundary_inflow<const N: usize>(
         }
         let outward = if matches!(side, Side::ZMin | Side::RMin) { -1.0 } else { 1.0 };
         let total = &mut inflow[side as usize];
+        let [v_n, v_t, s_nn, s_nt] = rim.of_block::<N>(side, place);
         for along in 0..N {
-            let [traction_z, power, area] = match side {
+            // Of the traction on a face with outward normal along the axis, W/m².
+            let power = s_nn[along] * v_n[along] + s_nt[along] * v_t[along];
+            let [traction_z, area] = match side {
                 Side::ZMin | Side::ZMax => {
-                    let i = if side == Side::ZMin { -1 } else { N as isize - 1 };
-                    let k = Padded::<N>::index(i, along as isize);
-                    let area = ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r;
-                    [z_faces.s_nn[k], power(z_faces, k), area]
+                    [s_nn[along], ctx.mesh.weight(ctx.mesh.centre(id, 0, along)[1]) * h_r]
                 }
-                Side::RMin | Side::RMax => {
-                    let j = if side == Side::RMin { -1 } else { N as isize - 1 };
-                    let k = Padded::<N>::index(along as isize, j);
-                    let area = ctx.mesh.weight(r_low + (j + 1) as f64 * h_r) * h_z;
-                    [r_faces.s_nt[k], power(r_faces, k), area]
-                }
+                Side::RMin => [s_nt[along], ctx.mesh.weight(r_low) * h_z],
+                Side::RMax => [s_nt[along], ctx.mesh.weight(r_low + N as f64 * h_r) * h_z],
             };
             total[0] += outward * ctx.dt * area * traction_z;
             total[1] += outward * ctx.dt * area * power;
@@ -143,11 +141,6 @@ pub(crate) fn boundary_inflow<const N: usize>(
         }
     }
     inflow
-}
-
-/// Power of the traction on a face with outward normal along the axis, W/m².
-fn power(faces: &FaceRows, k: usize) -> f64 {
-    faces.s_nn[k] * faces.v_n[k] + faces.s_nt[k] * faces.v_t[k]
 }
 
 impl PlasticLedger {

@@ -92,7 +92,7 @@ pub(crate) struct Reconstruction<'a> {
 impl<'a> Reconstruction<'a> {
     /// `n` cells from `at` on.
     #[inline(always)]
-    fn cut(&self, at: usize, n: usize) -> Self {
+    pub fn cut(&self, at: usize, n: usize) -> Self {
         let ([a, b, c, d], [e, f, g, h]) = (self.half, self.differences);
         Self {
             half: [&a[at..][..n], &b[at..][..n], &c[at..][..n], &d[at..][..n]],
@@ -159,9 +159,10 @@ pub(crate) fn faces(
     );
 }
 
+/// The exact linear Riemann solution at `n` faces, the cells below and above which are in `lower` and `upper`.
 #[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
 #[inline(always)]
-fn faces_body(
+pub(crate) fn faces_body(
     n: usize,
     lower: Reconstruction<'_>,
     upper: Reconstruction<'_>,

@@ -1,10 +1,11 @@
 //! The stages of a block's step.
 
-use mesh::{Padded, Tile, dispersion_share, limited_differences};
+use mesh::{Frame, Padded, Tile, dispersion_share, limited_differences};
 
 use super::BlockStep;
 use super::scratch::{BlockScratch, split_block};
 use crate::boundary::Boundaries;
+use crate::boundary::outer_states::MidStep;
 use crate::components::following::Following;
 use crate::physics::{Solid, SolidStep};
 use crate::reconstruction::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
@@ -23,17 +24,17 @@ impl Solid {
     }
 }
 
-/// Assembles a block with its ghosts: the first so many components of the state in `cells`.
-fn assemble<const N: usize>(
+/// Assembles a tile with its ghosts: the first so many components of the state in `cells`.
+pub(super) fn assemble<const N: usize>(
     ctx: &SolidStep<'_, N>,
-    slot: usize,
+    tile: Tile,
     components: usize,
     scratch: &mut BlockScratch<N>,
 ) {
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
-    cells.assemble_first(components, ctx.mesh, ctx.old, slot, &ctx.model.analysis, patch);
-    ctx.model.boundaries.fill_ghosts(ctx.mesh, slot, cells);
-    ctx.mesh.inverse_radii(Tile::one(slot), inverse_r);
+    cells.assemble(components, ctx.mesh, ctx.old, tile, &ctx.model.analysis, patch);
+    ctx.model.boundaries.fill_ghosts(ctx.mesh, tile, cells);
+    ctx.mesh.inverse_radii(tile, inverse_r);
 }
 
 /// Assembles a block with its ghosts and reconstructs it: the state in `cells`, limited differences in `s_z`, `s_r`.
@@ -43,7 +44,7 @@ pub(crate) fn reconstruct<const N: usize>(
     slot: usize,
     scratch: &mut BlockScratch<N>,
 ) {
-    assemble(ctx, slot, ctx.old.components(), scratch);
+    assemble(ctx, Tile::one(slot), ctx.old.components(), scratch);
     let BlockScratch { cells, s_z, s_r, .. } = scratch;
     // No derivative of the hoop stress enters.
     for component in 0..S_PHIPHI {
@@ -60,10 +61,15 @@ pub(crate) fn reconstruct<const N: usize>(
 impl<'a, const N: usize> BlockStep<'a, N> {
     /// The state of the block and its ghosts.
     pub(super) fn assemble(ctx: &'a SolidStep<'a, N>, slot: usize, scratch: &mut BlockScratch<N>) -> Self {
+        let is_untouched = ctx.model.is_untouched(ctx.mesh, slot);
+        assemble(ctx, Tile::one(slot), if is_untouched { COUNT } else { ctx.old.components() }, scratch);
+        Self::of(ctx, slot, is_untouched)
+    }
+
+    /// Of a block that has been assembled.
+    pub(super) fn of(ctx: &'a SolidStep<'a, N>, slot: usize, is_untouched: bool) -> Self {
         let id = ctx.mesh.tree().leaves()[slot];
         let inverse_h = ctx.mesh.widths(id.level).map(|h| 1.0 / h);
-        let is_untouched = ctx.model.is_untouched(ctx.mesh, slot);
-        assemble(ctx, slot, if is_untouched { COUNT } else { ctx.old.components() }, scratch);
         Self { ctx, slot, id, inverse_h, is_untouched }
     }
 
@@ -109,9 +115,15 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     pub(super) fn impose_boundaries(&self, scratch: &mut BlockScratch<N>) {
         let Self { ctx, slot, .. } = *self;
         let BlockScratch { cells, half, s_z, s_r, .. } = scratch;
-        ctx.model.boundaries.impose_outer(ctx, slot, cells, half, s_z, s_r);
+        let rows = -1..N as isize + 1;
+        let [z0, z1, z2, z3, _, _] = s_z.split_mut::<COUNT>();
+        let [r0, r1, _, r3, r4, _] = s_r.split_mut::<COUNT>();
+        let differences = [[z0, z1, z2, z3], [r0, r1, r3, r4]];
+        let mut mid_step = MidStep { first: 0, half: half.split_mut(), differences };
+        ctx.model.boundaries.impose_outer(ctx, Tile::one(slot), cells, rows, &mut mid_step);
         if ctx.interface.states_of::<N>(slot).is_some() {
-            Boundaries::complete_shear_differences(ctx.model.setup.limiter, half, s_z);
+            let limiter = ctx.model.setup.limiter;
+            Boundaries::complete_shear_differences(limiter, |c| half.component(c), s_z);
         }
     }
 
@@ -143,7 +155,8 @@ impl<'a, const N: usize> BlockStep<'a, N> {
             Reconstruction { half: [v_r, v_z, rr, zr], differences: [d_vr, d_vz, d_rr, d_zr], dispersion };
         let r_range = Padded::<N>::index(0, -1)..Padded::<N>::index(N as isize - 1, N as isize - 1) + 1;
         rows::faces(&along_r, stride, stride, r_range, &ctx.model.elasticity, &mut scratch.r_faces);
-        ctx.model.terms.add_to_faces(self.inverse_h, [&mut scratch.z_faces, &mut scratch.r_faces]);
+        self.ctx.model.terms.add_to_faces(self.inverse_h, [&mut scratch.z_faces, &mut scratch.r_faces]);
+        scratch.sweep.rim.take_block(Frame::of(N), &scratch.z_faces, &scratch.r_faces);
     }
 
     /// What terms add to the new cells, before they yield.
@@ -153,7 +166,7 @@ impl<'a, const N: usize> BlockStep<'a, N> {
 
     /// What passes to blocks of other levels.
     pub(super) fn register_stars(&self, scratch: &BlockScratch<N>, stars: &mut [f64]) {
-        register_stars(self.ctx.mesh, self.slot, &scratch.z_faces, &scratch.r_faces, stars);
+        register_stars(self.ctx.mesh, self.slot, [0, 0], &scratch.sweep.rim, stars);
     }
 
     /// The new cells.
@@ -182,6 +195,6 @@ impl<'a, const N: usize> BlockStep<'a, N> {
     pub(super) fn report(&self, scratch: &BlockScratch<N>, new: &[f64], report: &mut BlockReport) {
         let Self { ctx, slot, .. } = *self;
         report.yielded = yielded_volume(ctx.mesh, slot, new, report.mises_squared, ctx.model.yield_squared());
-        report.inflow = boundary_inflow(ctx, slot, &scratch.z_faces, &scratch.r_faces);
+        report.inflow = boundary_inflow(ctx, slot, [0, 0], &scratch.sweep.rim);
     }
 }

@@ -79,18 +79,18 @@ pub(crate) fn update<const N: usize>(
 
 /// N numbers from `at` on, so that the compiler knows how many.
 #[inline(always)]
-fn row<const N: usize>(numbers: &[f64], at: usize) -> &[f64; N] {
+pub(crate) fn row<const N: usize>(numbers: &[f64], at: usize) -> &[f64; N] {
     numbers[at..].first_chunk().expect("rows are whole")
 }
 
 #[inline(always)]
-fn row_mut<const N: usize>(numbers: &mut [f64], at: usize) -> &mut [f64; N] {
+pub(crate) fn row_mut<const N: usize>(numbers: &mut [f64], at: usize) -> &mut [f64; N] {
     numbers[at..].first_chunk_mut().expect("rows are whole")
 }
 
 /// [`FaceRows`] cut to the faces of one row of cells.
 #[derive(Clone, Copy)]
-struct FaceSlices<'a, const N: usize> {
+pub(crate) struct FaceSlices<'a, const N: usize> {
     v_n: &'a [f64; N],
     v_t: &'a [f64; N],
     s_nn: &'a [f64; N],
@@ -100,18 +100,19 @@ struct FaceSlices<'a, const N: usize> {
 impl<'a, const N: usize> FaceSlices<'a, N> {
     #[inline(always)]
     fn cut(faces: &'a FaceRows, at: usize) -> Self {
-        Self {
-            v_n: row(&faces.v_n, at),
-            v_t: row(&faces.v_t, at),
-            s_nn: row(&faces.s_nn, at),
-            s_nt: row(&faces.s_nt, at),
-        }
+        Self::of([&faces.v_n, &faces.v_t, &faces.s_nn, &faces.s_nt], at)
+    }
+
+    /// Of rows of v_n, v_t, σ_nn, σ_nt.
+    #[inline(always)]
+    pub fn of([v_n, v_t, s_nn, s_nt]: [&'a [f64]; 4], at: usize) -> Self {
+        Self { v_n: row(v_n, at), v_t: row(v_t, at), s_nn: row(s_nn, at), s_nt: row(s_nt, at) }
     }
 }
 
 #[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
 #[inline(always)]
-fn update_row<const N: usize>(
+pub(crate) fn update_row<const N: usize>(
     old: [&[f64; N]; 6],
     west: FaceSlices<'_, N>,
     east: FaceSlices<'_, N>,

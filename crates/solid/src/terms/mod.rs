@@ -44,6 +44,11 @@ impl Terms {
         Self { list, acceleration }
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
     /// What the acceleration of all terms together makes over a time, m/s; `None` without any.
     pub fn velocity_gain(&self, time: f64) -> Option<[f64; 2]> {
         (self.acceleration != [0.0; 2]).then(|| self.acceleration.map(|a| a * time))
