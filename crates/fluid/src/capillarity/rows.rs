@@ -30,8 +30,13 @@ pub(crate) struct Interfaces<'a, const N: usize> {
     pub has_closure: bool,
 }
 
-/// Gas fractions of two cells that differ by less have no interface between them.
-const LEAST_STEP: f64 = 1e-6;
+/// Gas fractions of two cells that differ by less have no interface between them. With 1e-6 pressures do not balance beside the last
+/// step that counts, and currents about a ball at rest are twice as fast by R/U.
+const LEAST_STEP: f64 = 1e-9;
+
+/// The same in the paper's mixture, where traces count wherever they are: with 1e-9 and `"hllc-lm"` its bubbles oscillate 2 % too fast, and its
+/// drops gain height.
+const LEAST_STEP_OF_MIXTURE: f64 = 1e-6;
 
 /// How much a cell's curvature counts on its faces besides φ(1 − φ).
 const LEAST_WEIGHT: f64 = 1e-3;
@@ -177,7 +182,8 @@ impl CapillaryRows {
     fn find_faces<const N: usize>(&mut self, block: &Interfaces<'_, N>, pressure: &[f64], phi: &[f64]) {
         let Self { patch, known, found, .. } = self;
         found.clear();
-        let is_step = |k: usize, step: usize| (phi[k + step] - phi[k]).abs() > LEAST_STEP;
+        let least = if block.has_phases { LEAST_STEP } else { LEAST_STEP_OF_MIXTURE };
+        let is_step = |k: usize, step: usize| (phi[k + step] - phi[k]).abs() > least;
         let faces = faces::<N>().filter(|(k, step)| is_step(*k, *step) && !is_open(block, *k, *step));
         let mut faces = faces.peekable();
         if faces.peek().is_none() {

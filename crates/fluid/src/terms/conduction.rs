@@ -45,16 +45,16 @@ pub(crate) struct ConductionTerm {
     caloric: Caloric,
     resistivity: Resistivity,
     mixture: Mixture,
-    boils: bool,
+    changes_phase: bool,
 }
 
 impl ConductionTerm {
     /// `None` where a phase has no heat capacity.
     ///
-    /// - `boils`: whether phases are in equilibrium where they meet.
-    pub fn of(asked: Conduction, mixture: &Mixture, boils: bool) -> Option<Self> {
+    /// - `changes_phase`: whether liquid and vapour change into each other.
+    pub fn of(asked: Conduction, mixture: &Mixture, changes_phase: bool) -> Option<Self> {
         let resistivity = Resistivity::of(asked.gas, asked.liquid);
-        Some(Self { asked, caloric: Caloric::of(mixture)?, resistivity, mixture: *mixture, boils })
+        Some(Self { asked, caloric: Caloric::of(mixture)?, resistivity, mixture: *mixture, changes_phase })
     }
 
     /// Puts the fluxes that blocks have found together in the place of those of one step.

@@ -2,18 +2,19 @@
 
 use fluid::{
     Boundary, FarField, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Mixture, Phase,
-    PhaseState, PhaseViscosity, Region, RiemannSolver, Scales, Shape, SurfaceTension, ThinGas, Viscosity,
+    PhaseState, PhaseViscosity, Region, RiemannSolver, Scales, Shape, StiffenedGas, SurfaceTension, ThinGas,
+    Viscosity,
 };
-use mesh::Domain;
+use mesh::{Adaptation, Domain};
 
 use crate::helpers::*;
 
 const GAS_PRESSURE: f64 = 1e3;
 
-/// A quarter of a bubble with gas of 1 kPa, as Rayleigh's collapse begins.
+/// A quarter of a bubble as Rayleigh's collapse begins.
 ///
-/// - `cells`: per radius and in the domain along both axes.
-fn bubble(radius: f64, cells: [usize; 2], change: impl Fn(&mut FluidSetup)) -> FluidSolver<8> {
+/// - `cells`: per radius and in the domain along both axes; `gas`: its pressure, Pa.
+fn bubble(radius: f64, cells: [usize; 2], gas: f64, change: impl Fn(&mut FluidSetup)) -> FluidSolver<8> {
     let length = radius * cells[1] as f64 / cells[0] as f64;
     let domain = Domain { geometry: AXIAL, z: [0.0, length], r: [0.0, length] };
     let sides = [Boundary::Symmetry, Boundary::FarField, Boundary::Axis, Boundary::FarField];
@@ -30,7 +31,7 @@ fn bubble(radius: f64, cells: [usize; 2], change: impl Fn(&mut FluidSetup)) -> F
         pressure: InitialPressure::Rayleigh,
         regions: vec![Region {
             shape: Shape::Sphere { centre: [0.0; 2], radius },
-            state: state(Phase::Gas, 0.012, GAS_PRESSURE),
+            state: state(Phase::Gas, 0.012 * gas / 1e3, gas),
         }],
         pulses: vec![],
     };
@@ -47,16 +48,26 @@ fn collapse(fluid: &mut FluidSolver<8>, part: f64) {
     }
 }
 
-/// p Vᵞ of the gas over what it was, with the mean pressure of cells that hold more gas than liquid.
-fn heat_of_gas(fluid: &FluidSolver<8>, first_volume: f64) -> f64 {
+/// The mean pressure of the gas, Pa; traces of it aside.
+///
+/// Cells of half gas have a pressure of their own, half as much again on coarse grids. A mean over all cells with more than some part of gas jumps
+/// by 6 % whenever one of them gets there.
+fn mean_pressure(fluid: &FluidSolver<8>) -> f64 {
     let [mut volume, mut sum] = [0.0; 2];
-    each_cell(fluid, |[_, r], _, w| {
-        if w.phi > 0.5 {
-            volume += r * w.phi;
-            sum += r * w.phi * w.pressure;
+    for (slot, id) in fluid.mesh().tree().leaves().iter().enumerate() {
+        let phi = fluid.state().component(slot, 4);
+        for (cell, phi) in phi.iter().enumerate().filter(|(_, phi)| **phi > 1e-2) {
+            let gas = fluid.mesh().volume(*id, cell / 8) * phi;
+            volume += gas;
+            sum += gas * fluid.cell(slot, cell % 8, cell / 8).pressure;
         }
-    });
-    sum / volume / GAS_PRESSURE * (fluid.bubble().volume / first_volume).powf(1.4)
+    }
+    sum / volume
+}
+
+/// p Vᵞ of the gas over what it was.
+fn heat_of_gas(fluid: &FluidSolver<8>, first_volume: f64) -> f64 {
+    mean_pressure(fluid) / GAS_PRESSURE * (fluid.bubble().volume / first_volume).powf(1.4)
 }
 
 /// Friction takes a fifth of the energy of a bubble of 10 µm in a liquid three times as viscous as water, sixty times what its gas has at
@@ -64,7 +75,7 @@ fn heat_of_gas(fluid: &FluidSolver<8>, first_volume: f64) -> f64 {
 #[test]
 fn the_liquids_friction_does_not_heat_the_gas() {
     let heat = |shear: f64| {
-        let mut fluid = bubble(1e-5, [12, 40], |setup| {
+        let mut fluid = bubble(1e-5, [12, 40], GAS_PRESSURE, |setup| {
             let liquid = PhaseViscosity { shear, bulk: 0.0 };
             let gas = PhaseViscosity::default();
             setup.viscosity = (shear > 0.0).then_some(Viscosity { liquid, gas, thin_gas: ThinGas::Bounded });
@@ -79,15 +90,15 @@ fn the_liquids_friction_does_not_heat_the_gas() {
         viscous / plain
     );
     assert!(late > 1.02 * early, "{early} {late}");
-    // The grid's own error of the heat is 11 %, and differs with the course of the collapse: 6 %. Heat shared by volumes makes 20 %.
-    assert!((viscous / plain - 1.0).abs() < 0.1, "{viscous} {plain}");
+    // Two per cent of it are the grid's. Heat that is left where the waves put it makes 48 %.
+    assert!((viscous / plain - 1.0).abs() < 0.04, "{viscous} {plain}");
 }
 
 /// The liquid around a bubble of 1 µm is at −144 kPa. What its interface leaves behind has the gas's pressure, and does not run into it.
 #[test]
 fn gas_does_not_expand_into_liquid_in_tension() {
     let sigma = 0.0728;
-    let mut fluid = bubble(1e-6, [20, 64], |setup| {
+    let mut fluid = bubble(1e-6, [20, 64], GAS_PRESSURE, |setup| {
         setup.surface_tension =
             Some(SurfaceTension { coefficient: sigma, density: 1000.0, may_touch_walls: true });
     });
@@ -108,4 +119,99 @@ fn gas_does_not_expand_into_liquid_in_tension() {
     assert!(lowest < -5e4, "{lowest}");
     assert!(thickness < 0.6, "{thickness}");
     assert!(fixups.clips.expanded_cells < 50 && fixups.floored == 0, "{fixups:?}");
+}
+
+/// Gilmore's equation for the case's bubble: the smallest radius over the first one, the gas's largest pressure, and when.
+///
+/// p_gas − 2σ/R − 4μV/R on the bubble's wall; the liquid's isentrope is the program's.
+///
+/// - `terms`: σ and μ; `start`: of the gas, Pa.
+fn gilmore([sigma, mu]: [f64; 2], start: f64) -> [f64; 3] {
+    let (gamma, pi, far, density, first) = (LIQUID.gamma, 3.046e8, 1e5, 997.0, 1e-5);
+    let reference = far + pi;
+    let sound = (gamma * reference / density).sqrt();
+    let gas = |r: f64| start * (first / r).powf(4.2);
+    // V' with the rate of p_wall, of which −4μV'/R is a part.
+    let rate = |[r, v]: [f64; 2]| {
+        let p = gas(r) - 2.0 * sigma / r - 4.0 * mu * v / r;
+        let share = (p + pi) / reference;
+        let enthalpy = gamma / (gamma - 1.0) * reference / density * (share.powf(1.0 - 1.0 / gamma) - 1.0);
+        let c = (sound * sound + (gamma - 1.0) * enthalpy).sqrt();
+        let per = 1.0 / (density * share.powf(1.0 / gamma));
+        let change = -4.2 * gas(r) * v / r + 2.0 * sigma * v / (r * r) + 4.0 * mu * v * v / (r * r);
+        let m = v / c;
+        let forced = enthalpy * (1.0 + m) + r / c * per * change * (1.0 - m) - 1.5 * v * v * (1.0 - m / 3.0);
+        [v, forced / (r * (1.0 - m) + 4.0 * mu / c * per * (1.0 - m))]
+    };
+    let (mut y, mut time) = ([first, 0.0], 0.0);
+    while y[1] <= 0.0 {
+        let [_, a] = rate(y);
+        let dt = 5e-4 * (y[0] / (y[1].abs() + 1.0)).min((y[0] / a.abs()).sqrt());
+        let at = |share: f64, k: [f64; 2]| rate([y[0] + share * dt * k[0], y[1] + share * dt * k[1]]);
+        let k1 = rate(y);
+        let k2 = at(0.5, k1);
+        let k3 = at(0.5, k2);
+        let k4 = at(1.0, k3);
+        y = [0, 1].map(|c| y[c] + dt / 6.0 * (k1[c] + 2.0 * (k2[c] + k3[c]) + k4[c]));
+        time += dt;
+    }
+    [y[0] / first, gas(y[0]), time]
+}
+
+/// What the program makes of it on grids as `cases/validation/micro-bubble.toml` has them.
+///
+/// - returns: as [`gilmore`]; the pressure is the mean of all gas.
+fn peak(cells: usize, [sigma, mu]: [f64; 2], start: f64) -> [f64; 3] {
+    let all = cells * 64 / 10;
+    let mut fluid = bubble(1e-5, [cells, all], start, |setup| {
+        setup.liquid = StiffenedGas { gamma: 7.15, pi: 3.046e8 }.into();
+        setup.levels = (all / 16).ilog2() as u8;
+        setup.coarsest = [all >> setup.levels; 2];
+        setup.adaptation = Some(Adaptation { epsilon: 1e-3, every: 8, bounds: vec![], above: 0 });
+        setup.surface_tension = (sigma > 0.0).then_some(SurfaceTension {
+            coefficient: sigma,
+            density: 1e3,
+            may_touch_walls: true,
+        });
+        let (liquid, gas) = (PhaseViscosity { shear: mu, bulk: 0.0 }, PhaseViscosity::default());
+        setup.viscosity = (mu > 0.0).then_some(Viscosity { liquid, gas, thin_gas: ThinGas::Bounded });
+    });
+    let first = fluid.bubble().volume;
+    let (mut least, mut most, mut time) = (first, 0.0_f64, 0.0);
+    loop {
+        let (dt, made) = step_locally(&mut fluid);
+        fluid.adapt_if_due(dt, made);
+        let volume = fluid.bubble().volume;
+        if volume < least {
+            (least, time) = (volume, fluid.time());
+        }
+        if volume < 1e-2 * first {
+            most = most.max(mean_pressure(&fluid));
+        }
+        if volume > 1.5 * least {
+            return [(least / first).cbrt(), most, time];
+        }
+    }
+}
+
+/// 754 Pa without tension collapse to the pressure that 1 kPa with tension do: what a grid makes of the one it may be asked to make of the other.
+#[test]
+#[ignore = "minutes: docs/theory/surface-tension.md has its numbers"]
+fn study_of_bubbles_of_ten_micrometres() {
+    let cases = [([0.0, 0.0], 1e3), ([0.0, 1e-3], 1e3), ([0.0728, 0.0], 1e3), ([0.0, 0.0], 754.0)];
+    for cells in [20, 40, 80] {
+        let mut plain = [[1.0; 3]; 2];
+        for (number, (terms, start)) in cases.into_iter().enumerate() {
+            let found = [peak(cells, terms, start), gilmore(terms, start)];
+            if number == 0 {
+                plain = found;
+            }
+            let [ours, exact] = [0, 1].map(|k| {
+                let [radius, pressure, time] = found[k];
+                let [p, late] = [pressure / plain[k][1], time / plain[k][2]].map(|part| 100.0 * (part - 1.0));
+                format!("R {radius:.4}, {:.1} MPa, {p:+.1} %, {late:+.2} % late", pressure / 1e6)
+            });
+            eprintln!("{cells} cells, sigma and mu {terms:?}, {start} Pa: {ours}; Gilmore {exact}");
+        }
+    }
 }
