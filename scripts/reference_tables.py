@@ -32,7 +32,7 @@ TABLES = {
 def add_options(parser):
     parser.add_argument("--cells", type=int, nargs="+", help="cells per width of the pulse or the load")
     parser.add_argument("--far", action="store_true", help="all receivers, to 16 mm and 16 µs, instead of 2 mm and 3 µs")
-    parser.add_argument("--only", default="", metavar="TEXT", help="of grids: rows whose name holds this")
+    parser.add_argument("--only", default="", metavar="TEXT", help="of grids, materials and rest: rows whose name holds this")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a change of every case")
     parser.add_argument("--data", type=curves, default=str(EXACT), help="directory or archive of the exact solutions")
     parser.add_argument("--threads", type=int, default=1)

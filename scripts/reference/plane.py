@@ -56,11 +56,16 @@ def table(options):
                       + " | ".join(f"{100 * value:.2f} %" for value in found) + " |", flush=True)
 
 
+def chosen(options):
+    """Names and constants of the materials that --only leaves."""
+    return [(name, material) for name, material in MATERIALS.items() if options.only in name]
+
+
 def materials(options):
     """Amplitudes that come back and go on, over the incident one."""
     cells = (options.cells or [40])[0]
     print("| material | pressure | reflected (exact) | transmitted (exact) |\n|---|---|---|---|")
-    for name, material in MATERIALS.items():
+    for name, material in chosen(options):
         for pressure in (1e5, 5e7):
             c = sound(pressure)
             density, c1, c2 = material if material[1] else (1000.0, c, 0.5 * c)
@@ -115,7 +120,7 @@ def oblique(options):
 def rest(options):
     """A hundred thousand steps at rest under 5e7 Pa: the largest change of pressure and stress anywhere looked at."""
     print("| material | steps | largest change of p and σ, relative |\n|---|---|---|")
-    for name, material in MATERIALS.items():
+    for name, material in chosen(options):
         c = sound(5e7)
         density, c1, c2 = material if material[1] else (1000.0, c, 0.5 * c)
         cell, steps = 1e-4, 100_000
