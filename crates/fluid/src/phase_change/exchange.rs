@@ -8,7 +8,7 @@ use super::holding::{Changed, Holding, holds_both};
 use super::laws::{EvaporationLaw, PhaseChange};
 use super::rate::at_finite_rate;
 use super::saturation::Saturation;
-use super::surface::{area_density, borders_gas, front_density};
+use super::surface::{area_density, borders_gas};
 use crate::Mixture;
 use crate::state::conserved::{ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
 use crate::state::finished::{FinishedCell, finish_corrected};
@@ -126,19 +126,12 @@ impl Exchange {
         k: usize,
         stride: usize,
     ) -> Option<Changed> {
-        let evaporates = borders_gas(place.phi, k, stride);
         match self.asked.law {
             EvaporationLaw::Equilibrium => to_equilibrium(cell, &self.saturation)
-                .filter(|changed| changed.evaporated <= 0.0 || evaporates),
+                .filter(|changed| changed.evaporated <= 0.0 || borders_gas(place.phi, k, stride)),
             EvaporationLaw::HertzKnudsen { accommodation } => {
-                let own = area_density(place.phi, k, stride, place.inverse_h, holds_both);
-                let front = if evaporates {
-                    front_density(place.phi, k, stride, place.inverse_h, holds_both)
-                } else {
-                    0.0
-                };
-                let rates = [front, own].map(|area| accommodation * place.dt * area);
-                at_finite_rate(cell, rates, &self.saturation)
+                let area = area_density(place.phi, k, stride, place.inverse_h, holds_both);
+                at_finite_rate(cell, accommodation * place.dt * area, &self.saturation)
             }
         }
     }

@@ -45,16 +45,16 @@ pub(crate) struct ConductionTerm {
     caloric: Caloric,
     resistivity: Resistivity,
     mixture: Mixture,
-    changes_phase: bool,
+    boils: bool,
 }
 
 impl ConductionTerm {
     /// `None` where a phase has no heat capacity.
     ///
-    /// - `changes_phase`: whether liquid and vapour change into each other.
-    pub fn of(asked: Conduction, mixture: &Mixture, changes_phase: bool) -> Option<Self> {
+    /// - `boils`: whether phases are in equilibrium where they meet.
+    pub fn of(asked: Conduction, mixture: &Mixture, boils: bool) -> Option<Self> {
         let resistivity = Resistivity::of(asked.gas, asked.liquid);
-        Some(Self { asked, caloric: Caloric::of(mixture)?, resistivity, mixture: *mixture, changes_phase })
+        Some(Self { asked, caloric: Caloric::of(mixture)?, resistivity, mixture: *mixture, boils })
     }
 
     /// Puts the fluxes that blocks have found together in the place of those of one step.

@@ -24,7 +24,7 @@ use crate::state::primitive::PHI;
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
-use crate::{Boundary, FluidSetup, Mixture};
+use crate::{Boundary, EvaporationLaw, FluidSetup, Mixture};
 use conduction::ConductionTerm;
 use super_stepping::{Spreading, View};
 
@@ -278,9 +278,8 @@ impl Terms {
     /// Those that a setup asks for.
     pub fn of(setup: &FluidSetup) -> Self {
         let mixture = Mixture::new(setup.liquid, setup.gas);
-        let changes_phase = setup.phase_change.is_some();
-        let conduction =
-            setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture, changes_phase));
+        let boils = setup.phase_change.is_some_and(|asked| asked.law == EvaporationLaw::Equilibrium);
+        let conduction = setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture, boils));
         let (is_viscous, conducts) = (setup.viscosity.is_some(), conduction.is_some());
         let all: [Option<Box<dyn Term>>; 4] = [
             setup.gravity.map(|gravity| Box::new(gravity) as _),

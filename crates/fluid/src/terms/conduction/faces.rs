@@ -147,9 +147,9 @@ impl ConductionTerm {
 
     /// The conductances of the faces of a block and of its first ghosts: 1/(R_low + R_high) of what [`super::Resistivity`] says.
     ///
-    /// Where liquid evaporates it does so in the cell next to the gas, for all mixed cells of the interface. Between mixed cells whose heat is
-    /// mostly the liquid's the better conductor's λ leads the heat there, whatever the layers are: their liquid is one, and what evaporates on one
-    /// side of their gas and condenses on the other carries heat through that.
+    /// Where phases that meet are in equilibrium an interface has one temperature, whatever the layers are: what evaporates on one side of it and
+    /// condenses on the other carries the heat. Between mixed cells whose heat is mostly the liquid's the better conductor's λ stands
+    /// for that.
     ///
     /// - `is_bounded`: whether no face conducts more than the cell of less heat capacity bears in a step.
     pub(super) fn conductances(&self, block: &TermBlock<'_>, work: &mut Work<'_>, is_bounded: bool) {
@@ -177,7 +177,7 @@ impl ConductionTerm {
                 let below = self.resistivity.to_face(low, low_share, is_towards_gas);
                 let above = self.resistivity.to_face(high, high_share, !is_towards_gas);
                 let layers = 1.0 / (below + above);
-                let by_vapour = self.changes_phase
+                let by_vapour = self.boils
                     && [(low, low_share), (high, high_share)]
                         .into_iter()
                         .all(|(phi, gas_share)| holds_both(phi) && gas_share < 0.5);
