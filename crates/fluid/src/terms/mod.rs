@@ -6,6 +6,7 @@
 
 pub(crate) mod conduction;
 pub(crate) mod diffusion;
+mod finished_cells;
 pub(crate) mod gravity;
 pub(crate) mod heating;
 pub(crate) mod super_stepping;
@@ -17,14 +18,13 @@ use mesh::{FaceState, Side};
 use crate::boundary::cells_beside;
 use crate::capillarity::CapillaryRows;
 use crate::reconstruction::Rows;
-use crate::state::ConservedCell;
-use crate::state::conserved::{self, ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, RHO};
-use crate::state::finished::FinishedCell;
 use crate::state::primitive::PHI;
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
 use crate::step::update::Metric;
 use crate::{Boundary, EvaporationLaw, FluidSetup, Mixture};
+pub(crate) use finished_cells::FinishedCells;
+
 use conduction::ConductionTerm;
 use super_stepping::{Spreading, View};
 
@@ -124,41 +124,6 @@ pub(crate) fn for_cells_without_mid_step(block: &TermBlock<'_>, mut visit: impl 
     for k in stride + 1..phi.len() - stride - 1 {
         if (phi[k] > ONE_PHASE && phi[k] < 1.0 - ONE_PHASE) || is_beside_another(k) {
             visit(k);
-        }
-    }
-}
-
-/// The cells of a block at the end of its step.
-pub(crate) struct FinishedCells<'a> {
-    /// Cells along a side.
-    pub cells: usize,
-    pub metric: &'a Metric<'a>,
-    /// φ of the padded cells at the beginning of the step.
-    pub phi: &'a [f64],
-    /// Conserved components `[component][j][i]` without ghosts.
-    pub new: &'a mut [f64],
-    /// |v_z| + c and |v_r| + c of those cells, and the energy that the floor added.
-    pub speeds: [&'a mut [f64]; 3],
-    /// By how much the pressure of the padded cells' gas exceeds that of the cells by surface tension, Pa, at the beginning of the step.
-    pub excess: Option<&'a [f64]>,
-    pub mixture: &'a Mixture,
-}
-
-impl FinishedCells<'_> {
-    /// What is conserved in a cell and its φ, and its m_g.
-    pub fn get(&self, cell: usize) -> (ConservedCell, f64) {
-        let of = |component: usize| self.new[component * self.cells * self.cells + cell];
-        ([RHO, MOMENTUM_Z, MOMENTUM_R, ENERGY, conserved::PHI].map(of), of(GAS))
-    }
-
-    /// Puts another state in the place of a cell's.
-    pub fn set(&mut self, cell: usize, finished: FinishedCell) {
-        let cells = self.cells * self.cells;
-        for (component, value) in finished.conserved.into_iter().enumerate() {
-            self.new[component * cells + cell] = value;
-        }
-        for (row, value) in self.speeds.iter_mut().zip([finished.speed_z, finished.speed_r]) {
-            row[cell] = value;
         }
     }
 }

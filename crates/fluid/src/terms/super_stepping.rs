@@ -38,18 +38,24 @@ pub(crate) struct Frame {
     pub wall: Option<Vec<FaceState>>,
 }
 
+/// Which spreading it is, and the rows that it takes.
+pub(crate) struct Shape {
+    /// See [`View`].
+    pub kind: usize,
+    /// How many variables spread.
+    pub variables: usize,
+    /// How many rows of constants there are.
+    pub constants: usize,
+    /// The axes of the rows of fluxes (0: z, 1: r), which are indexed by the cell below the face.
+    pub axes: &'static [usize],
+}
+
 /// What spreads by fluxes that are linear in it.
 ///
 /// Rows are padded, one after the other: of variables, of constants, of fluxes.
 pub(crate) trait Spreading: Sync {
-    /// Which one it is, see [`View`].
-    fn kind(&self) -> usize;
-    /// How many variables spread.
-    fn variables(&self) -> usize;
-    /// How many rows of constants it takes.
-    fn constants(&self) -> usize;
-    /// The axes of its rows of fluxes (0: z, 1: r), which are indexed by the cell below the face.
-    fn axes(&self) -> &'static [usize];
+    /// Which one it is, and how many rows it takes.
+    fn shape(&self) -> Shape;
 
     /// No less than the largest diffusivity in cells of these densities and gas fractions, m²/s.
     fn diffusivity(&self, density: &[f64], phi: &[f64]) -> f64;

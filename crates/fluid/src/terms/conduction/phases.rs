@@ -3,7 +3,6 @@
 use super::ConductionTerm;
 use crate::phase_change::{area_density, holds_both};
 use crate::state::ConservedCell;
-use crate::state::conserved::{PHI, RHO};
 use crate::state::finished::FinishedCell;
 use crate::terms::FinishedCells;
 use crate::terms::heating::{heated, pressure_without};
@@ -16,16 +15,7 @@ impl ConductionTerm {
     ///
     /// - `fluxes`: of heat along z and r, W/m².
     pub(super) fn finish_phases(&self, cells: &mut FinishedCells<'_>, fluxes: [&[f64]; 2]) {
-        let n = cells.cells;
-        for cell in 0..n * n {
-            let (u, gas) = cells.get(cell);
-            if !(holds_both(u[PHI]) && gas > 0.0 && u[RHO] > gas) {
-                continue;
-            }
-            let k = cells.metric.origin + cell / n * cells.metric.stride + cell % n;
-            let Some(finished) = self.finished((u, gas), cells, fluxes, (k, cell / n)) else { continue };
-            cells.set(cell, finished);
-        }
+        cells.change_mixed(holds_both, |cells, state, at| self.finished(state, cells, fluxes, at));
     }
 
     /// A cell with its phases at one pressure again; `None` where it stays as it is.

@@ -3,7 +3,7 @@
 use super::ConductionTerm;
 use super::caloric::CellHeat;
 use super::faces::{Work, conduct};
-use crate::terms::super_stepping::{Frame, Spreading, View};
+use crate::terms::super_stepping::{Frame, Shape, Spreading, View};
 use crate::terms::{TermBlock, for_cells_without_mid_step};
 
 impl ConductionTerm {
@@ -12,22 +12,9 @@ impl ConductionTerm {
 }
 
 impl Spreading for ConductionTerm {
-    fn kind(&self) -> usize {
-        View::HEAT
-    }
-
-    /// T.
-    fn variables(&self) -> usize {
-        1
-    }
-
-    /// C, and the conductances along z and r.
-    fn constants(&self) -> usize {
-        3
-    }
-
-    fn axes(&self) -> &'static [usize] {
-        &Self::AXES
+    /// Variable: T. Constants: C, and the conductances along z and r.
+    fn shape(&self) -> Shape {
+        Shape { kind: View::HEAT, variables: 1, constants: 3, axes: &Self::AXES }
     }
 
     /// λ/C of gas, twice where liquid beside it conducts all there is; of liquid.

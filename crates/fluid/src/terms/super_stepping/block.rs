@@ -3,7 +3,7 @@
 use mesh::{GHOSTS, Mesh, Neighbour, Offset, Padded};
 
 use super::rkl2::Stage;
-use super::{Frame, Spreading};
+use super::{Frame, Shape, Spreading};
 use crate::terms::TermBlock;
 
 /// What stages keep of a block.
@@ -49,12 +49,13 @@ impl SpreadBlock {
     fn new(slot: usize, frame: Frame, of: &dyn Spreading) -> Self {
         let len = frame.inverse_r.len();
         let zeros = |rows: usize| vec![0.0; rows * len];
-        let (variables, fluxes) = (of.variables(), of.axes().len());
+        let Shape { variables, constants, axes, .. } = of.shape();
+        let fluxes = axes.len();
         Self {
             slot,
             frame,
             around: [None; 8],
-            constants: zeros(of.constants()),
+            constants: zeros(constants),
             start: zeros(variables),
             cells: zeros(variables),
             rates: zeros(variables),

@@ -78,7 +78,7 @@ pub(crate) fn spread_in<const N: usize>(
         );
         std::mem::swap(&mut last, &mut next);
     }
-    spread.of[of.kind()] = SpreadOf { numbers, blocks };
+    spread.of[of.shape().kind] = SpreadOf { numbers, blocks };
     count
 }
 

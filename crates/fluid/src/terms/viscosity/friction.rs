@@ -14,28 +14,19 @@ impl Viscosity {
     /// deformed alike friction in phase k has α_k η_k/Σ α η of it, η = 4μ/3 + κ. Mass, momentum and energy of the cell stay; the gas
     /// fraction changes, which says how the energy is divided.
     pub(super) fn finish_phases(&self, cells: &mut FinishedCells<'_>, work: &[f64]) {
-        let n = cells.cells;
-        for cell in 0..n * n {
-            let (u, gas) = cells.get(cell);
-            if !(is_mixed(u[PHI]) && gas > 0.0 && u[RHO] > gas) {
-                continue;
-            }
-            let k = cells.metric.origin + cell / n * cells.metric.stride + cell % n;
-            let heat = friction(cells, work, (k, cell / n));
-            let excess = cells.excess.map_or(0.0, |excess| excess[k]);
+        cells.change_mixed(is_mixed, |cells, (u, gas), at| {
+            let heat = friction(cells, work, at);
+            let excess = cells.excess.map_or(0.0, |excess| excess[at.0]);
             let mixture = cells.mixture;
-            let Some(pressure) = pressure_without((u, gas), heat, excess, mixture) else { continue };
+            let pressure = pressure_without((u, gas), heat, excess, mixture)?;
             let phases = PhaseEnergies::of(mixture, [u[RHO], pressure, u[PHI]], gas);
             let [of_gas, of_liquid] = [
                 u[PHI] * longitudinal([self.gas.shear, self.gas.bulk]),
                 (1.0 - u[PHI]) * longitudinal([self.liquid.shear, self.liquid.bulk]),
             ];
             let by_gas = if of_gas > 0.0 { heat * of_gas / (of_gas + of_liquid) } else { 0.0 };
-            let heat = [by_gas, heat - by_gas];
-            if let Some(finished) = heated((u, gas), &phases, heat, excess, mixture) {
-                cells.set(cell, finished);
-            }
-        }
+            heated((u, gas), &phases, [by_gas, heat - by_gas], excess, mixture)
+        });
     }
 }
 

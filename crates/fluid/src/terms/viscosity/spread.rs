@@ -5,7 +5,7 @@ use super::stress::{FaceStress, Motion, Parts, stresses};
 use super::velocities::{Sides, Velocities};
 use super::{PhaseViscosity, Viscosity, longitudinal, spared_dilatation};
 use crate::state::primitive::{PHI, RHO};
-use crate::terms::super_stepping::{Frame, Spreading, View};
+use crate::terms::super_stepping::{Frame, Shape, Spreading, View};
 use crate::terms::{TermBlock, for_cells_without_mid_step};
 
 impl Viscosity {
@@ -23,22 +23,9 @@ impl Viscosity {
 const BESIDE_AXIS: f64 = 0.5 / 0.43;
 
 impl Spreading for Viscosity {
-    fn kind(&self) -> usize {
-        View::MOMENTUM
-    }
-
-    /// v_z, v_r.
-    fn variables(&self) -> usize {
-        2
-    }
-
-    /// μ, κ, ρ, φ, and what the liquid is spared.
-    fn constants(&self) -> usize {
-        5
-    }
-
-    fn axes(&self) -> &'static [usize] {
-        &Self::AXES
+    /// Variables: v_z, v_r. Constants: μ, κ, ρ, φ, and what the liquid is spared.
+    fn shape(&self) -> Shape {
+        Shape { kind: View::MOMENTUM, variables: 2, constants: 5, axes: &Self::AXES }
     }
 
     /// (4μ/3 + κ)/ρ; of gas that of liquid over its density, which it may have on faces towards mixed cells.
