@@ -54,9 +54,7 @@ impl<const N: usize> Model<N> for Solid {
     ) -> BlockReport {
         let mut report = [BlockReport::default()];
         let tile = Tile::one(slot);
-        if self.ways.has_sweeps
-            && has_only_waves(step, tile)
-            && step_tile(step, tile, &mut work, &mut report)
+        if self.ways.has_sweeps && has_only_waves(step, tile) && step_tile(step, tile, &mut work, &mut report)
         {
             let [report] = report;
             return report;

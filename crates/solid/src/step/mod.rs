@@ -40,8 +40,9 @@ enum Stage {
 }
 
 /// Their names.
-pub(crate) const STAGES: &[&str] =
-    &["assemble", "predict", "boundary", "faces", "register", "update", "terms", "plastic", "report", "sweep"];
+pub(crate) const STAGES: &[&str] = &[
+    "assemble", "predict", "boundary", "faces", "register", "update", "terms", "plastic", "report", "sweep",
+];
 
 /// A block in a step.
 struct BlockStep<'a, const N: usize> {

@@ -148,7 +148,8 @@ impl AtFace {
 #[inline(always)]
 fn face_between(lower: &Reconstruction<'_>, upper: &Reconstruction<'_>, k: usize, z: [f64; 2]) -> FaceState {
     let at = |c: usize| {
-        let (half, differences) = ([lower, upper].map(|r| r.half[c][k]), [lower, upper].map(|r| r.differences[c][k]));
+        let (half, differences) =
+            ([lower, upper].map(|r| r.half[c][k]), [lower, upper].map(|r| r.differences[c][k]));
         AtFace::of(half, differences, lower.dispersion[c % 2] - 0.25)
     };
     let [v_n, v_t, s_nn, s_nt] = [at(0), at(1), at(2), at(3)];
@@ -229,12 +230,13 @@ mod tests {
         let e = Elasticity::new(WaveSpeeds { density: 1.1, c1: 1.7, c2: 0.9 });
         for k in 0..n {
             let more = |c: usize| cells.dispersion[c % 2] * (differences[c][k + 1] - differences[c][k]);
-            let [left, right] = [cells.face_state(k, 1.0), cells.face_state(k + 1, -1.0)].map(|state| FaceState {
-                v_n: state.v_n + more(0),
-                v_t: state.v_t + more(1),
-                sigma_nn: state.sigma_nn + more(2),
-                sigma_nt: state.sigma_nt + more(3),
-            });
+            let [left, right] =
+                [cells.face_state(k, 1.0), cells.face_state(k + 1, -1.0)].map(|state| FaceState {
+                    v_n: state.v_n + more(0),
+                    v_t: state.v_t + more(1),
+                    sigma_nn: state.sigma_nn + more(2),
+                    sigma_nt: state.sigma_nt + more(3),
+                });
             let wanted = star(left, right, e.z1, e.z2);
             let found = face_between(&cells.cut(0, n), &cells.cut(1, n), k, [e.z1, e.z2]);
             let numbers = |face: FaceState| [face.v_n, face.v_t, face.sigma_nn, face.sigma_nt];

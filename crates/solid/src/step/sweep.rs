@@ -194,16 +194,7 @@ fn r_faces_between(n: usize, s: &Sweep<'_>, cells: [(&Strip, usize); 2], faces: 
             .cut(at + GHOSTS, n)
     });
     let [v_n, v_t, s_nn, s_nt] = &mut faces.0;
-    faces_body(
-        n,
-        lower,
-        upper,
-        &s.elasticity,
-        &mut v_n[..n],
-        &mut v_t[..n],
-        &mut s_nn[..n],
-        &mut s_nt[..n],
-    );
+    faces_body(n, lower, upper, &s.elasticity, &mut v_n[..n], &mut v_t[..n], &mut s_nn[..n], &mut s_nt[..n]);
 }
 
 /// The new cells of a row.

@@ -17,9 +17,7 @@ pub(crate) fn has_only_waves<const N: usize>(ctx: &SolidStep<'_, N>, tile: Tile)
     let model = ctx.model;
     let is_elastic = |slot: usize| match &model.following {
         None => true,
-        Some(following) => {
-            model.is_untouched(ctx.mesh, slot) && following.of_block(slot).rates.is_zero
-        }
+        Some(following) => model.is_untouched(ctx.mesh, slot) && following.of_block(slot).rates.is_zero,
     };
     let is_plain = |slot: usize| ctx.interface.first_face(slot).is_none() && is_elastic(slot);
     model.terms.is_empty() && tile.slots().all(is_plain)
@@ -50,8 +48,7 @@ pub(crate) fn step_tile<const N: usize>(
         let block = BlockStep::of(ctx, slot, true);
         block.flow(scratch, new, report);
         timer.end(Stage::Plastic as usize);
-        report.yielded =
-            yielded_volume(ctx.mesh, slot, new, report.mises_squared, ctx.model.yield_squared());
+        report.yielded = yielded_volume(ctx.mesh, slot, new, report.mises_squared, ctx.model.yield_squared());
         report.inflow = boundary_inflow(ctx, slot, place, &scratch.sweep.rim);
         timer.end(Stage::Report as usize);
     }
