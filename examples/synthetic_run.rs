@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use cav::output::run_directory::{FLUID_FIELDS, FLUID_HISTORY, SOLID_FIELDS};
 use cav::output::{
-    Column, FieldSpec, HistoryFile, OutputError, QuadMesh, RunDirectory, SeriesWriter, Storage,
+    Column, FieldSpec, HistoryFile, OutputError, OwnedQuadMesh, RunDirectory, SeriesWriter, Storage,
 };
 
 /// Cells along one edge of a block.
@@ -161,7 +161,8 @@ fn append(
 ) -> Result<(), OutputError> {
     let slices: Vec<&[f64]> = values.iter().map(|field| &field[..]).collect();
     let start = Instant::now();
-    writer.append(time, &QuadMesh { points: &mesh.points, quads: &mesh.quads }, mesh_id.max(1), &slices)?;
+    let cells = OwnedQuadMesh { points: mesh.points.clone(), quads: mesh.quads.clone() };
+    writer.append(time, &cells, mesh_id.max(1), &slices)?;
     eprintln!("{what}: snapshot in {:.1} ms", 1e3 * start.elapsed().as_secs_f64());
     Ok(())
 }

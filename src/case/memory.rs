@@ -1,8 +1,7 @@
 //! How much memory a run takes, and whether the machine has it.
 //!
-//! Counted is what is there at the same time at the worst moment, a snapshot that is made while the one before is still being
-//! written: fields and registers of the solver, the values of both snapshots and the meshes that they are on. Against
-//! measured peaks see docs/reference/cases.md.
+//! Counted is what is there at the same time at the worst moment, while a snapshot is written: fields and registers of the solver, and
+//! the snapshot's values. Against measured peaks see docs/reference/cases.md.
 
 use fluid::{InitialPressure, RayleighField};
 use mesh::BLOCK;
@@ -17,12 +16,8 @@ const MEBI: f64 = (1 << 20) as f64;
 const NUMBER: f64 = size_of::<f64>() as f64;
 /// Numbers a cell of what is kept block by block besides fields: reports, tree.
 const OF_BLOCKS: f64 = 1.5;
-/// Numbers a cell in a mesh as it is written: 17 × 17 points of three coordinates a block, four corners a cell.
-const MESH: f64 = ((BLOCK + 1) * (BLOCK + 1) * 3) as f64 / (BLOCK * BLOCK) as f64 + 4.0;
-/// Numbers a cell in copies that are made in writing one: corners, offsets and levels of other types.
-const COPIES: f64 = 6.0;
-/// What grows has more than it needs: rows an eighth, lists up to twice, while they move both the old and the new.
-const SPARE: f64 = 1.2;
+/// What grows has more than it needs: rows an eighth, and what moves leaves holes behind.
+const SPARE: f64 = 1.25;
 /// Numbers a cell in a snapshot: density, pressure, velocity, gas fraction, |∇ρ|, level.
 const FLUID_VALUES: f64 = 8.0;
 /// The same of the solid: velocity, four stresses, von Mises stress, yield function, level.
@@ -73,13 +68,7 @@ impl Numbers {
         let present = 2.0 * fields + once + register + OF_BLOCKS;
         // Levels that step by themselves have a third field, and means of what passed between them.
         let local = if adapts && local_steps { fields + register } else { 0.0 };
-        (present + local + self.output(adapts)) * if adapts { SPARE } else { 1.0 }
-    }
-
-    /// Of these, those of snapshots.
-    fn output(self, adapts: bool) -> f64 {
-        let meshes = if adapts { 2.0 } else { 1.0 };
-        2.0 * self.values + meshes * MESH + COPIES
+        (present + local + self.values) * if adapts { SPARE } else { 1.0 }
     }
 }
 
@@ -102,7 +91,7 @@ impl Memory {
         Self {
             most: fixed + per_cell * grid.cell_count() as f64,
             at_start: fixed + per_cell * least_cells,
-            per_cell_of_output: NUMBER * numbers.output(grid.adaptation.is_some()),
+            per_cell_of_output: NUMBER * numbers.values,
         }
     }
 

@@ -4,23 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use super::{OutputError, QuadMesh, SeriesWriter};
-
-/// A mesh of quadrilaterals with its own data; see [`QuadMesh`].
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct OwnedQuadMesh {
-    /// Coordinates, x y z of one point after the other; the third is 0.
-    pub points: Vec<f64>,
-    /// Points of each cell, counted around it.
-    pub quads: Vec<[usize; 4]>,
-}
-
-impl OwnedQuadMesh {
-    /// As [`SeriesWriter::append`] takes it.
-    pub fn view(&self) -> QuadMesh<'_> {
-        QuadMesh { points: &self.points, quads: &self.quads }
-    }
-}
+use super::{CellMesh, OutputError, SeriesWriter};
 
 /// A snapshot with its own data.
 #[derive(Debug, Clone)]
@@ -28,7 +12,7 @@ pub struct Snapshot {
     /// Time, s.
     pub time: f64,
     /// The mesh.
-    pub mesh: Arc<OwnedQuadMesh>,
+    pub mesh: Arc<dyn CellMesh>,
     /// Equal to that of the snapshot before where the mesh is the same.
     pub mesh_id: u64,
     /// Values of each field, one cell after the other.
@@ -50,8 +34,10 @@ pub struct BackgroundWriter {
 #[derive(Debug)]
 enum Job {
     Write(Snapshot),
-    /// Whoever hands this over knows then that all before is written, and counts on it.
+    /// Whoever hands this over knows then that all before is written.
     Meet,
+    /// The same, and counts on it.
+    CountOn,
 }
 
 /// The thread, and the way to it.
@@ -85,6 +71,13 @@ impl BackgroundWriter {
     ///
     /// - errors: what went wrong with one of them.
     pub fn catch_up(&mut self) -> Result<(), OutputError> {
+        self.hand_over(Job::CountOn)
+    }
+
+    /// Waits until all snapshots so far are in the file, and none takes memory any more.
+    ///
+    /// - errors: what went wrong with one of them.
+    pub fn wait(&mut self) -> Result<(), OutputError> {
         self.hand_over(Job::Meet)
     }
 
@@ -140,12 +133,16 @@ impl Drop for BackgroundWriter {
 /// Writes what comes until nothing more can come.
 fn write_all(mut writer: SeriesWriter, jobs: &Receiver<Job>) -> Result<(), OutputError> {
     for job in jobs {
-        let Job::Write(snapshot) = job else {
-            writer.count_on_it();
-            continue;
+        let snapshot = match job {
+            Job::Write(snapshot) => snapshot,
+            Job::Meet => continue,
+            Job::CountOn => {
+                writer.count_on_it();
+                continue;
+            }
         };
         let values: Vec<&[f64]> = snapshot.values.iter().map(Vec::as_slice).collect();
-        writer.append(snapshot.time, &snapshot.mesh.view(), snapshot.mesh_id, &values)?;
+        writer.append(snapshot.time, &*snapshot.mesh, snapshot.mesh_id, &values)?;
     }
     writer.finish()
 }

@@ -7,6 +7,7 @@
 //! | module | writes |
 //! |---|---|
 //! | [`vtkhdf`] | `fluid.vtkhdf`, `solid.vtkhdf`: cell fields over time |
+//! | [`CellMesh`] | the meshes of these |
 //! | [`background`] | the same on a thread of its own |
 //! | [`history`] | `fluid.h5`, `solid.h5`: named series over time |
 //! | [`join`] | `history.h5`: both sides' histories under one roof |
@@ -19,6 +20,7 @@
 //! | [`run_state`] | what has become of a run, told from its directory |
 
 pub mod background;
+mod cell_mesh;
 pub mod checkpoint;
 pub mod error;
 mod hdf5_attributes;
@@ -36,7 +38,8 @@ pub mod summary;
 pub mod throttle;
 pub mod vtkhdf;
 
-pub use background::{BackgroundWriter, OwnedQuadMesh, Snapshot};
+pub use background::{BackgroundWriter, Snapshot};
+pub use cell_mesh::{BlockMesh, CellMesh, OwnedQuadMesh};
 pub use error::OutputError;
 pub use hdf5_attributes::root_attribute;
 pub use history::{BufferedColumn, Column, HistoryFile, SeriesId};
@@ -45,4 +48,4 @@ pub use progress::Progress;
 pub use progress_line::ProgressLine;
 pub use run_directory::RunDirectory;
 pub use run_state::RunState;
-pub use vtkhdf::{FieldSpec, QuadMesh, SeriesWriter, Storage};
+pub use vtkhdf::{FieldSpec, SeriesWriter, Storage};

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use hdf5::{File, Group};
 
 use super::hdf5_attributes::text;
-use super::{OutputError, hdf5_memory, safe_file};
-use layout::{LARGEST_CHUNK, append_rows, create_datasets, write_mesh, write_step_count};
+use super::{CellMesh, OutputError, hdf5_memory, safe_file};
+use layout::{LARGEST_CHUNK, append_made, append_rows, create_datasets, write_mesh, write_step_count};
 
 mod end;
 mod layout;
@@ -41,15 +41,6 @@ pub struct FieldSpec<'a> {
     pub description: &'a str,
     /// How it is stored.
     pub storage: Storage,
-}
-
-/// A mesh of quadrilaterals in the plane of a section: x is the axial coordinate z, y the radial coordinate r.
-#[derive(Debug, Clone, Copy)]
-pub struct QuadMesh<'a> {
-    /// Coordinates, x y z of one point after the other; the third is 0.
-    pub points: &'a [f64],
-    /// Points of each cell, counted around it.
-    pub quads: &'a [[usize; 4]],
 }
 
 /// A file of snapshots, open only while one is appended.
@@ -220,7 +211,7 @@ impl SeriesWriter {
     pub fn append(
         &mut self,
         time: f64,
-        mesh: &QuadMesh<'_>,
+        mesh: &dyn CellMesh,
         mesh_id: u64,
         values: &[&[f64]],
     ) -> Result<(), OutputError> {
@@ -228,7 +219,7 @@ impl SeriesWriter {
         let is_new_mesh = self.mesh_id != Some(mesh_id);
         let end = self.end.after(mesh, is_new_mesh);
         let values_len: usize = values.iter().map(|values| values.len()).sum();
-        let mesh_len = if is_new_mesh { mesh.points.len() + 8 * mesh.quads.len() } else { 0 };
+        let mesh_len = if is_new_mesh { 3 * mesh.points() + 8 * mesh.cells() } else { 0 };
         self.update(size_of::<f64>() * (values_len + mesh_len), |path| {
             let write = || -> hdf5::Result<()> {
                 let file = File::open_rw(path)?;
@@ -275,8 +266,8 @@ impl SeriesWriter {
         }
     }
 
-    fn check_lengths(&self, mesh: &QuadMesh<'_>, values: &[&[f64]]) -> Result<(), OutputError> {
-        let cells = mesh.quads.len();
+    fn check_lengths(&self, mesh: &dyn CellMesh, values: &[&[f64]]) -> Result<(), OutputError> {
+        let cells = mesh.cells();
         let check = |what: String, found, expected| {
             if found == expected {
                 return Ok(());
@@ -284,11 +275,6 @@ impl SeriesWriter {
             Err(OutputError::Length { path: self.path.clone(), what, found, expected })
         };
         check("the list of fields".to_owned(), values.len(), self.fields.len())?;
-        check("the last point".to_owned(), mesh.points.len() % 3, 0)?;
-        debug_assert!(
-            mesh.quads.iter().flatten().all(|&point| point < mesh.points.len() / 3),
-            "points exist"
-        );
         for (field, values) in self.fields.iter().zip(values) {
             check(format!("field {}", field.name), values.len(), cells * field.components)?;
         }
@@ -325,10 +311,10 @@ impl Field {
         let dataset = root.group("CellData")?.dataset(&self.name)?;
         match self.storage {
             Storage::F64 => append_rows(&dataset, values, row),
-            Storage::U8 => {
-                let rounded: Vec<u8> = values.iter().map(|value| value.round() as u8).collect();
-                append_rows(&dataset, &rounded, row)
-            }
+            Storage::U8 => append_made(&dataset, values.len() / self.components, row, |rows, piece| {
+                let values = &values[rows.start * self.components..rows.end * self.components];
+                piece.extend(values.iter().map(|value| value.round() as u8));
+            }),
         }
     }
 }

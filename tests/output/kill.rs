@@ -39,7 +39,7 @@ fn writer_to_be_killed() {
         let mesh = &meshes[step / 3 % 2];
         let values = values(mesh.quads.len(), step).into();
         let (time, mesh_id) = (0.5 * step as f64, step as u64 / 3);
-        writer.append(Snapshot { time, mesh: Arc::clone(mesh), mesh_id, values }).unwrap();
+        writer.append(Snapshot { time, mesh: mesh.clone(), mesh_id, values }).unwrap();
     }
 }
 

@@ -10,7 +10,7 @@ fn append(writer: &mut SeriesWriter, mesh: &OwnedQuadMesh, mesh_id: u64) -> Resu
     let step = writer.steps();
     let values = values(mesh.quads.len(), step);
     let slices: Vec<&[f64]> = values.iter().map(|field| &field[..]).collect();
-    writer.append(0.5 * step as f64, &mesh.view(), mesh_id, &slices)
+    writer.append(0.5 * step as f64, mesh, mesh_id, &slices)
 }
 
 fn step_count(root: &Group) -> i64 {
@@ -167,10 +167,10 @@ fn wrong_lengths_are_refused_and_leave_the_file_as_it_was() {
     let mut writer = SeriesWriter::create(&path, &FIELDS, 1, &[]).unwrap();
     append(&mut writer, &mesh, 0).unwrap();
     let before = std::fs::read(&path).unwrap();
-    let short = writer.append(1.0, &mesh.view(), 0, &[&[1.0; 4], &[1.0; 4], &[1.0; 4]]);
+    let short = writer.append(1.0, &mesh, 0, &[&[1.0; 4], &[1.0; 4], &[1.0; 4]]);
     let message = short.unwrap_err().to_string();
     assert!(message.contains("field velocity") && message.contains("12"), "{message}");
-    assert!(writer.append(1.0, &mesh.view(), 0, &[&[1.0; 4]]).is_err());
+    assert!(writer.append(1.0, &mesh, 0, &[&[1.0; 4]]).is_err());
     assert_eq!(std::fs::read(&path).unwrap(), before);
     assert_eq!(writer.steps(), 1);
 }

@@ -3,7 +3,7 @@
 use hdf5::Group;
 
 use super::layout::set_rows;
-use super::{End, Offsets, QuadMesh};
+use super::{CellMesh, End, Offsets};
 
 /// Datasets of the group `Steps` with one row per snapshot; those of `CellDataOffsets` come besides.
 const STEP_DATASETS: [&str; 6] =
@@ -11,16 +11,16 @@ const STEP_DATASETS: [&str; 6] =
 
 impl End {
     /// The end after one more snapshot.
-    pub(super) fn after(&self, mesh: &QuadMesh<'_>, is_new_mesh: bool) -> Self {
+    pub(super) fn after(&self, mesh: &dyn CellMesh, is_new_mesh: bool) -> Self {
         let mut end = *self;
         end.steps += 1;
-        end.field_rows += mesh.quads.len();
+        end.field_rows += mesh.cells();
         if is_new_mesh {
             end.last = self.next;
             end.next.meshes += 1;
-            end.next.points += mesh.points.len() / 3;
-            end.next.cells += mesh.quads.len();
-            end.next.connectivity += 4 * mesh.quads.len();
+            end.next.points += mesh.points();
+            end.next.cells += mesh.cells();
+            end.next.connectivity += 4 * mesh.cells();
         }
         end
     }

@@ -1,5 +1,6 @@
 //! The groups and datasets of the file, and rows appended to them.
 
+use std::ops::Range;
 use std::path::Path;
 
 use hdf5::types::FixedAscii;
@@ -7,7 +8,7 @@ use hdf5::{Dataset, File, Group, H5Type};
 use ndarray::ArrayView2;
 
 use super::super::hdf5_attributes::{set_text, set_texts};
-use super::{End, FieldSpec, QuadMesh, Storage};
+use super::{CellMesh, End, FieldSpec, Storage};
 
 /// Cells (or points) per chunk, 64 KiB of a scalar field.
 const CHUNK_ROWS: usize = 8192;
@@ -99,17 +100,45 @@ pub(super) fn append_rows<T: H5Type>(dataset: &Dataset, values: &[T], row: usize
     set_rows(dataset, row + values.len() / width)?;
     let mut start = row;
     for piece in values.chunks(PIECE_ROWS * width) {
-        let end = start + piece.len() / width;
-        match columns {
-            None => dataset.write_slice(piece, start..end)?,
-            Some(columns) => {
-                let piece = ArrayView2::from_shape((end - start, columns), piece)?;
-                dataset.write_slice(piece, ndarray::s![start..end, ..])?;
-            }
-        }
-        start = end;
+        write_piece(dataset, columns, piece, start)?;
+        start += piece.len() / width;
     }
     Ok(())
+}
+
+/// [`append_rows`] of so many rows that are made piece by piece: `make` adds the numbers of some of them to a list.
+pub(super) fn append_made<T: H5Type>(
+    dataset: &Dataset,
+    rows: usize,
+    row: usize,
+    mut make: impl FnMut(Range<usize>, &mut Vec<T>),
+) -> hdf5::Result<()> {
+    let columns = dataset.shape().get(1).copied();
+    set_rows(dataset, row + rows)?;
+    let mut piece = Vec::new();
+    for start in (0..rows).step_by(PIECE_ROWS) {
+        piece.clear();
+        make(start..(start + PIECE_ROWS).min(rows), &mut piece);
+        write_piece(dataset, columns, &piece, row + start)?;
+    }
+    Ok(())
+}
+
+/// Writes some rows into a dataset of so many columns that has room for them.
+fn write_piece<T: H5Type>(
+    dataset: &Dataset,
+    columns: Option<usize>,
+    piece: &[T],
+    start: usize,
+) -> hdf5::Result<()> {
+    match columns {
+        None => dataset.write_slice(piece, start..start + piece.len()),
+        Some(columns) => {
+            let end = start + piece.len() / columns.max(1);
+            let piece = ArrayView2::from_shape((end - start, columns), piece)?;
+            dataset.write_slice(piece, ndarray::s![start..end, ..])
+        }
+    }
 }
 
 /// Cuts a dataset down to `rows` rows.
@@ -121,19 +150,25 @@ pub(super) fn set_rows(dataset: &Dataset, rows: usize) -> hdf5::Result<()> {
 }
 
 /// Writes a mesh at the place that `end` says is the last one's.
-pub(super) fn write_mesh(root: &Group, mesh: &QuadMesh<'_>, end: &End) -> hdf5::Result<()> {
-    let cells = mesh.quads.len();
+pub(super) fn write_mesh(root: &Group, mesh: &dyn CellMesh, end: &End) -> hdf5::Result<()> {
+    let (points, cells) = (mesh.points(), mesh.cells());
     let start = end.last;
-    append_rows(&root.dataset("NumberOfPoints")?, &[(mesh.points.len() / 3) as i64], start.meshes)?;
+    append_rows(&root.dataset("NumberOfPoints")?, &[points as i64], start.meshes)?;
     append_rows(&root.dataset("NumberOfCells")?, &[cells as i64], start.meshes)?;
     append_rows(&root.dataset("NumberOfConnectivityIds")?, &[4 * cells as i64], start.meshes)?;
-    append_rows(&root.dataset("Points")?, mesh.points, start.points)?;
-    let connectivity: Vec<i64> = mesh.quads.iter().flatten().map(|&point| point as i64).collect();
-    append_rows(&root.dataset("Connectivity")?, &connectivity, start.connectivity)?;
+    append_made(&root.dataset("Points")?, points, start.points, |points, piece| {
+        points.for_each(|point| piece.extend(mesh.point(point)));
+    })?;
+    append_made(&root.dataset("Connectivity")?, 4 * cells, start.connectivity, |corners, piece| {
+        piece.extend(corners.map(|corner| mesh.corners(corner / 4)[corner % 4] as i64));
+    })?;
     // Each mesh has one offset more than cells, so those of the earlier meshes fill one row more apiece.
-    let offsets: Vec<i64> = (0..=cells).map(|cell| 4 * cell as i64).collect();
-    append_rows(&root.dataset("Offsets")?, &offsets, start.cells + start.meshes)?;
-    append_rows(&root.dataset("Types")?, &vec![VTK_QUAD; cells], start.cells)
+    append_made(&root.dataset("Offsets")?, cells + 1, start.cells + start.meshes, |offsets, piece| {
+        piece.extend(offsets.map(|cell| 4 * cell as i64));
+    })?;
+    append_made(&root.dataset("Types")?, cells, start.cells, |cells, piece| {
+        piece.extend(cells.map(|_| VTK_QUAD));
+    })
 }
 
 /// Says how many snapshots readers may look for.

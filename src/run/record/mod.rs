@@ -40,35 +40,17 @@ mod wall_heat;
 mod wall_peak;
 mod wall_shear;
 
-use mesh::{BLOCK, Limiter, Mesh, Misfit};
+use mesh::{BLOCK, BlockId, Limiter, Mesh, Misfit};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::case::{Case, Probe};
-use crate::output::{Column, HistoryFile, OutputError, OwnedQuadMesh, SeriesId};
+use crate::output::{BlockMesh, Column, HistoryFile, OutputError, SeriesId};
 
-/// Points and quadrilaterals of all cells of a mesh: (BLOCK + 1)² points a block, cells in the order of snapshots.
-pub fn cell_geometry(mesh: &Mesh<BLOCK>) -> OwnedQuadMesh {
-    let row = BLOCK + 1;
-    let mut points = Vec::with_capacity(mesh.blocks() * row * row * 3);
-    let mut quads = Vec::with_capacity(mesh.cells());
-    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
-        let [h_z, h_r] = mesh.widths(id.level);
-        let [z, r] = mesh.origin(*id);
-        for j in 0..row {
-            for i in 0..row {
-                points.extend([z + i as f64 * h_z, r + j as f64 * h_r, 0.0]);
-            }
-        }
-        let first = slot * row * row;
-        for j in 0..BLOCK {
-            for i in 0..BLOCK {
-                let low = first + j * row + i;
-                quads.push([low, low + 1, low + row + 1, low + row]);
-            }
-        }
-    }
-    OwnedQuadMesh { points, quads }
+/// The blocks of a mesh, cells in the order of snapshots.
+pub fn cell_geometry(mesh: &Mesh<BLOCK>) -> BlockMesh<BLOCK> {
+    let of_block = |id: &BlockId| [mesh.origin(*id), mesh.widths(id.level)];
+    BlockMesh { blocks: mesh.tree().leaves().iter().map(of_block).collect() }
 }
 
 /// How many cells there were.

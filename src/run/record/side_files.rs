@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::case::Case;
 use crate::output::{
-    BackgroundWriter, FieldSpec, HistoryFile, OutputError, OwnedQuadMesh, RunDirectory, SeriesWriter,
+    BackgroundWriter, BlockMesh, CellMesh, FieldSpec, HistoryFile, OutputError, RunDirectory, SeriesWriter,
     Snapshot, Storage, safe_file,
 };
 use crate::run::record::{attributes, cell_geometry};
@@ -55,7 +55,7 @@ pub struct SideFiles<S: 'static> {
     /// The generation of the last one's mesh.
     mesh_id: Option<u64>,
     /// That mesh.
-    geometry: Option<Arc<OwnedQuadMesh>>,
+    geometry: Option<Arc<BlockMesh<BLOCK>>>,
 }
 
 /// How far the files of a side are.
@@ -147,11 +147,14 @@ impl<S> SideFiles<S> {
     ) -> Result<(), OutputError> {
         let Some(snapshots) = &mut self.snapshots else { return Ok(()) };
         let start = Instant::now();
+        // Two at a time would be more than the state of the cells.
+        snapshots.wait()?;
         let mesh_id = mesh.generation();
         let is_same = self.mesh_id == Some(mesh_id);
         let known = self.geometry.take().filter(|_| is_same);
         let geometry = known.unwrap_or_else(|| Arc::new(cell_geometry(mesh)));
         self.geometry = Some(Arc::clone(&geometry));
+        let geometry: Arc<dyn CellMesh> = geometry;
         let mut taken = take();
         let values = self.fields.iter().map(|field| std::mem::take((field.values)(&mut taken))).collect();
         snapshots.append(Snapshot { time, mesh: geometry, mesh_id, values })?;

@@ -237,6 +237,13 @@ impl<const N: usize> FluidSolver<N> {
     /// All fields, cell by cell.
     pub fn snapshot(&self) -> Snapshot {
         let mut snapshot = Snapshot::default();
+        // Room at once: lists that grow side by side leave holes behind, of as much memory again.
+        let cells = self.mesh().cells();
+        snapshot.velocity.reserve_exact(3 * cells);
+        let Snapshot { density, pressure, gas_fraction, schlieren, level, .. } = &mut snapshot;
+        for values in [density, pressure, gas_fraction, schlieren, level] {
+            values.reserve_exact(cells);
+        }
         for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
             let [h_z, h_r] = self.mesh().widths(id.level);
             self.with_scratch(|scratch| {

@@ -32,6 +32,8 @@ impl AlignedRow {
     /// Makes it `len` numbers long. What they are then is not said: memory at hand is used again as it is.
     pub fn resize(&mut self, len: usize) {
         if len == 0 || self.offset + len > self.data.len() {
+            // What it had goes first, so that both are never there together.
+            self.data = Vec::new();
             // An eighth more, so that a row that grows little by little need not move each time.
             *self = Self::zeros(len + len / 8, self.first);
         }

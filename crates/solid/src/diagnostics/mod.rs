@@ -99,6 +99,14 @@ impl<const N: usize> SolidSolver<N> {
     /// All fields, cell by cell.
     pub fn snapshot(&self) -> Snapshot {
         let mut snapshot = Snapshot::default();
+        // Room at once: lists that grow side by side leave holes behind, of as much memory again.
+        let cells = self.mesh().cells();
+        snapshot.velocity.reserve_exact(3 * cells);
+        let Snapshot { stress_zz, stress_zr, stress_rr, stress_phiphi, level, .. } = &mut snapshot;
+        let stresses = [stress_zz, stress_zr, stress_rr, stress_phiphi];
+        stresses.into_iter().chain([level]).for_each(|values| values.reserve_exact(cells));
+        snapshot.von_mises.reserve_exact(cells);
+        snapshot.yield_function.reserve_exact(cells);
         for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
             for j in 0..N {
                 for i in 0..N {

@@ -6,6 +6,7 @@ pub(crate) mod report;
 pub(crate) mod rows;
 pub(crate) mod update;
 
+mod mises;
 mod rim;
 mod scratch;
 mod stages;

@@ -66,9 +66,3 @@ impl<const N: usize> BlockScratch<N> {
         }
     }
 }
-
-/// The components of one block of a field.
-pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COUNT] {
-    let mut rows = block.chunks_exact_mut(N * N);
-    std::array::from_fn(|_| rows.next().expect("a block has that many components"))
-}

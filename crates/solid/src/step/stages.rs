@@ -3,7 +3,7 @@
 use mesh::{Frame, Padded, Tile, dispersion_share, limited_differences};
 
 use super::BlockStep;
-use super::scratch::{BlockScratch, split_block};
+use super::scratch::BlockScratch;
 use crate::boundary::Boundaries;
 use crate::boundary::outer_states::MidStep;
 use crate::components::following::Following;
@@ -13,7 +13,7 @@ use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R, V_Z};
 use crate::step::reflux::register_stars;
 use crate::step::report::{BlockReport, boundary_inflow, yielded_volume};
 use crate::step::rows::{self, Elasticity, Reconstruction};
-use crate::step::update::{Metric, update};
+use crate::step::update::{Metric, split_block, update};
 
 impl Solid {
     /// For the faces normal to an axis (0: z, 1: r) of cells of these widths, in a step of length `dt`.

@@ -9,11 +9,10 @@ use mesh::{GHOSTS, Tile, fetch_lines, maximum};
 use crate::boundary::outer_states::MidStep;
 use crate::reconstruction::predictor::{Predictor, predict_from};
 use crate::state::component::COUNT;
-use crate::step::plastic::largest_mises;
+use crate::step::mises::largest_mises;
 use crate::step::rim::Rim;
 use crate::step::rows::{Elasticity, Reconstruction, Rows, faces_body};
-use crate::step::scratch::split_block;
-use crate::step::update::{FaceSlices, row, row_mut, update_row};
+use crate::step::update::{FaceSlices, row, row_mut, split_block, update_row};
 
 /// Rows that are made at a time. Together they are whole cache lines: rows have four numbers more than such.
 const ROWS: usize = 2;

@@ -8,7 +8,7 @@ use crate::boundary::outer_states::MidStep;
 use crate::physics::SolidStep;
 use crate::reconstruction::predictor::Predictor;
 use crate::state::component::COUNT;
-use crate::step::plastic::LEAST;
+use crate::step::mises::LEAST;
 use crate::step::reflux::register_stars;
 use crate::step::report::{BlockReport, boundary_inflow, yielded_volume};
 

@@ -3,6 +3,7 @@
 use mesh::maximum;
 
 use crate::material::yield_criterion::von_mises_squared;
+use crate::state::component::COUNT;
 use crate::step::rows::{Elasticity, FaceRows, Rows};
 
 /// What the update needs to know of a block's geometry.
@@ -77,6 +78,12 @@ pub(crate) fn update<const N: usize>(
     maximum(&largest)
 }
 
+/// The components of one block of a field.
+pub(crate) fn split_block<const N: usize>(block: &mut [f64]) -> [&mut [f64]; COUNT] {
+    let mut rows = block.chunks_exact_mut(N * N);
+    std::array::from_fn(|_| rows.next().expect("a block has that many components"))
+}
+
 /// N numbers from `at` on, so that the compiler knows how many.
 #[inline(always)]
 pub(crate) fn row<const N: usize>(numbers: &[f64], at: usize) -> &[f64; N] {
@@ -129,6 +136,7 @@ pub(crate) fn update_row<const N: usize>(
     s_pp: &mut [f64; N],
     largest: &mut [f64; N],
 ) {
+    let two_mu = 2.0 * e.mu;
     for k in 0..N {
         let mean = |high: f64, low: f64| 0.5 * dt_over_r * (high + low);
         let axial = dt_z * (east.v_n[k] - west.v_n[k]);
@@ -144,10 +152,11 @@ pub(crate) fn update_row<const N: usize>(
 
         v_z[k] = old[0][k] + e.inverse_density * force_z;
         v_r[k] = old[1][k] + e.inverse_density * force_r;
-        let zz = old[2][k] + (e.p_modulus * axial + e.lambda * (radial + hoop));
+        let dilatation = e.lambda * ((axial + radial) + hoop);
+        let zz = old[2][k] + (dilatation + two_mu * axial);
         let zr = old[3][k] + e.mu * shear;
-        let rr = old[4][k] + (e.p_modulus * radial + e.lambda * (axial + hoop));
-        let pp = old[5][k] + (e.p_modulus * hoop + e.lambda * (axial + radial));
+        let rr = old[4][k] + (dilatation + two_mu * radial);
+        let pp = old[5][k] + (dilatation + two_mu * hoop);
         s_zz[k] = zz;
         s_zr[k] = zr;
         s_rr[k] = rr;
