@@ -11,13 +11,19 @@ use super::scene::{Content, Scene};
 
 /// Pixels of the longer side of the domain.
 const LONGER: f64 = 800.0;
-/// Pixels beside it: left and right, above and below.
-const BESIDE: [usize; 2] = [140, 40];
-const OVER: [usize; 2] = [60, 80];
+/// Pixels around it.
+const MARGIN: Margin = Margin { left: 140, right: 40, above: 60, below: 80 };
 /// Pixels of a dot of the letters, 8 by 8 dots each.
 const DOT: usize = 2;
 /// Half of a probe's cross.
 const CROSS: i64 = 7;
+
+struct Margin {
+    left: usize,
+    right: usize,
+    above: usize,
+    below: usize,
+}
 
 type Colour = [u8; 3];
 const PAPER: Colour = [255, 255, 255];
@@ -94,11 +100,11 @@ struct Place<'a> {
 
 impl Place<'_> {
     fn x(&self, r: f64) -> i64 {
-        BESIDE[0] as i64 + ((r - self.scene.r[0]) * self.scale).round() as i64
+        MARGIN.left as i64 + ((r - self.scene.r[0]) * self.scale).round() as i64
     }
 
     fn y(&self, z: f64) -> i64 {
-        OVER[0] as i64 + ((self.scene.z[1] - z) * self.scale).round() as i64
+        MARGIN.above as i64 + ((self.scene.z[1] - z) * self.scale).round() as i64
     }
 }
 
@@ -119,12 +125,12 @@ fn draw(scene: &Scene<'_>) -> Picture {
     let [tall, wide] = [scene.z, scene.r].map(|[low, high]| high - low);
     let scale = LONGER / tall.max(wide);
     let [tall, wide] = [tall, wide].map(|length| (length * scale).round().max(1.0) as usize);
-    let mut picture = Picture::of(wide + BESIDE[0] + BESIDE[1], tall + OVER[0] + OVER[1]);
+    let mut picture = Picture::of(MARGIN.left + wide + MARGIN.right, MARGIN.above + tall + MARGIN.below);
     let place = Place { scene, scale };
     for j in 0..tall {
         for i in 0..wide {
             let point = [scene.z[1] - (j as f64 + 0.5) / scale, scene.r[0] + (i as f64 + 0.5) / scale];
-            picture.put((BESIDE[0] + i) as i64, (OVER[0] + j) as i64, colour(scene.content(point)));
+            picture.put((MARGIN.left + i) as i64, (MARGIN.above + j) as i64, colour(scene.content(point)));
         }
     }
     grids(&mut picture, &place);
@@ -168,16 +174,16 @@ fn marks(picture: &mut Picture, place: &Place<'_>) {
 /// Title, ranges, legend.
 fn words(picture: &mut Picture, place: &Place<'_>) {
     let scene = place.scene;
-    picture.write(&scene.title(), [BESIDE[0] as i64, 20]);
+    picture.write(&scene.title(), [MARGIN.left as i64, 20]);
     for z in scene.z.into_iter().chain(scene.wall()) {
         let text = si(z, "m");
-        picture.write(&text, [BESIDE[0] as i64 - 12 - text_width(&text), place.y(z) - 8]);
+        picture.write(&text, [MARGIN.left as i64 - 12 - text_width(&text), place.y(z) - 8]);
     }
     let bottom = place.y(scene.z[0]) + 12;
     let [low, high] = scene.r.map(|r| si(r, "m"));
     picture.write(&low, [place.x(scene.r[0]), bottom]);
     picture.write(&high, [place.x(scene.r[1]) - text_width(&high), bottom]);
-    let mut x = BESIDE[0] as i64;
+    let mut x = MARGIN.left as i64;
     for (content, name) in LEGEND {
         picture.bar([x, bottom + 32], [20, 20], INK);
         picture.bar([x + 1, bottom + 33], [18, 18], colour(content));
