@@ -76,8 +76,7 @@ impl Field {
         let len = self.block_len();
         let all = self.as_slice();
         let following = &all[(end * len).min(all.len())..((end + end - start) * len).min(all.len())];
-        let share = following.len() / parts;
-        fetch_from_afar(&following[part * share..(part + 1) * share]);
+        fetch_from_afar(part_of(following, part, parts));
     }
 }
 
@@ -103,14 +102,13 @@ pub fn fetch_lines(numbers: &[f64]) {
 pub fn fetch_lines(_: &[f64]) {}
 
 /// Asks for the lines of a part of some numbers, without waiting for any.
-#[cfg(target_arch = "x86_64")]
 pub fn fetch(block: &[f64], part: usize, parts: usize) {
-    let len = block.len() / parts;
-    for number in block[part * len..(part + 1) * len].iter().step_by(LINE) {
-        safe_arch::prefetch_t0(number);
-    }
+    fetch_lines(part_of(block, part, parts));
 }
 
-/// Other machines are left to look ahead for themselves.
-#[cfg(not(target_arch = "x86_64"))]
-pub fn fetch(_: &[f64], _: usize, _: usize) {}
+/// One of so many parts of equal length.
+#[inline(always)]
+fn part_of(numbers: &[f64], part: usize, parts: usize) -> &[f64] {
+    let len = numbers.len() / parts;
+    &numbers[part * len..(part + 1) * len]
+}
