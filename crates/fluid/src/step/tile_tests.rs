@@ -51,12 +51,7 @@ fn stepped(
     let mut fours = 0;
     for _ in 0..10 {
         if local_steps {
-            let base = fluid.mesh().coarsest_base();
-            let dt = fluid.local_step_limit(0.45, base);
-            fluid.begin_step(dt, base);
-            while !fluid.clock().is_over() {
-                fluid.sub_step(0.45).expect("a step");
-            }
+            fluid.step_locally_at(0.45).expect("a step");
         } else {
             fluid.step_at(0.45).expect("a step");
         }

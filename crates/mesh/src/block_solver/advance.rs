@@ -20,6 +20,20 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         self.step(self.time_step_limit(cfl))
     }
 
+    /// A step of the length that the Courant number allows the coarsest level that steps by itself, in which finer ones make steps of
+    /// their own; returns its length, s.
+    ///
+    /// - errors: as [`BlockSolver::step`].
+    pub fn step_locally_at(&mut self, cfl: f64) -> Result<f64, M::Error> {
+        let base = self.mesh.coarsest_base();
+        let dt = self.local_step_limit(cfl, base);
+        self.begin_step(dt, base);
+        while !self.clock().is_over() {
+            self.sub_step(cfl)?;
+        }
+        Ok(dt)
+    }
+
     /// Begins a step of length `dt` in which levels finer than `base` make steps of their own.
     pub fn begin_step(&mut self, dt: f64, base: u8) {
         let watched = self.interface.blocks().iter().chain(self.model.watched());

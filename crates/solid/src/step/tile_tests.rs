@@ -51,12 +51,7 @@ fn stepped(choice: &Choice, ways: Ways) -> (SolidSolver<N>, [usize; 2]) {
     let mut fours = 0;
     for _ in 0..10 {
         if choice.local_steps {
-            let base = solid.mesh().coarsest_base();
-            let dt = solid.local_step_limit(0.45, base);
-            solid.begin_step(dt, base);
-            while !solid.clock().is_over() {
-                solid.sub_step(0.45).expect("a step");
-            }
+            solid.step_locally_at(0.45).expect("a step");
         } else {
             solid.step_at(0.45).expect("a step");
         }
