@@ -23,38 +23,32 @@ pub(crate) struct Predictor<'a> {
     pub half_dt: f64,
 }
 
+/// What the predictor writes: rows of one length, the cells in the order of theirs.
+pub(crate) struct Predicted<'a> {
+    /// Differences of the components [`ALONG_Z`] and [`ALONG_R`].
+    pub s_z: [&'a mut [f64]; 4],
+    pub s_r: [&'a mut [f64]; 4],
+    /// The state at mid-step.
+    pub half: [&'a mut [f64]; 6],
+}
+
 /// Limited differences and the state at mid-step, in all cells but the outermost layer.
 ///
 /// MUSCL-Hancock: [`mesh::limited_differences`] of the components that need it, then the predictor, paper eqs. (24),
 /// (25). The differences are made and used in registers.
 ///
-/// - `w`: the cells. `s_z`, `s_r`: differences of the components [`ALONG_Z`] and [`ALONG_R`]; `half`: the state at
-///   mid-step; all padded rows, written.
+/// - `w`: the cells. `out`: as they are, padded.
 /// - tested by: equality with the limiter and, to round-off, the rates, cell by cell.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(crate) fn predict(
-    w: Rows<'_>,
-    p: Predictor<'_>,
-    elasticity: &Elasticity,
-    s_z: [&mut [f64]; 4],
-    s_r: [&mut [f64]; 4],
-    half: [&mut [f64]; 6],
-) {
+pub(crate) fn predict(w: Rows<'_>, p: Predictor<'_>, elasticity: &Elasticity, out: Predicted<'_>) {
     // The first and the last cell of these rows have neighbours, if not their own; all lines are whole.
     let first = p.stride;
     let n = w[0].len() - 2 * first;
-    let [z0, z1, z2, z3] = s_z;
-    let [r0, r1, r2, r3] = s_r;
-    let [h0, h1, h2, h3, h4, h5] = half;
-    predict_from(
-        first,
-        n,
-        w,
-        p,
-        *elasticity,
-        [&mut z0[first..], &mut z1[first..], &mut z2[first..], &mut z3[first..]],
-        [&mut r0[first..], &mut r1[first..], &mut r2[first..], &mut r3[first..]],
-        [
+    let Predicted { s_z: [z0, z1, z2, z3], s_r: [r0, r1, r2, r3], half: [h0, h1, h2, h3, h4, h5] } = out;
+    let out = Predicted {
+        s_z: [&mut z0[first..], &mut z1[first..], &mut z2[first..], &mut z3[first..]],
+        s_r: [&mut r0[first..], &mut r1[first..], &mut r2[first..], &mut r3[first..]],
+        half: [
             &mut h0[first..],
             &mut h1[first..],
             &mut h2[first..],
@@ -62,11 +56,11 @@ pub(crate) fn predict(
             &mut h4[first..],
             &mut h5[first..],
         ],
-    );
+    };
+    predict_from(first, n, w, p, *elasticity, out);
 }
 
 /// [`predict`] of `n` cells from number `first` on, which all have neighbours; what is written begins with that cell.
-#[expect(clippy::too_many_arguments, reason = "rows of a block and what is written")]
 #[inline(always)]
 pub(crate) fn predict_from(
     first: usize,
@@ -74,19 +68,16 @@ pub(crate) fn predict_from(
     w: Rows<'_>,
     p: Predictor<'_>,
     e: Elasticity,
-    s_z: [&mut [f64]; 4],
-    s_r: [&mut [f64]; 4],
-    half: [&mut [f64]; 6],
+    out: Predicted<'_>,
 ) {
     match p.limiter {
-        Limiter::Mc => body(first, n, |a, b| Limiter::Mc.difference(a, b), w, p, e, s_z, s_r, half),
-        Limiter::Minmod => body(first, n, |a, b| Limiter::Minmod.difference(a, b), w, p, e, s_z, s_r, half),
-        Limiter::Eno => body(first, n, |a, b| Limiter::Eno.difference(a, b), w, p, e, s_z, s_r, half),
-        Limiter::None => body(first, n, |a, b| Limiter::None.difference(a, b), w, p, e, s_z, s_r, half),
+        Limiter::Mc => body(first, n, |a, b| Limiter::Mc.difference(a, b), w, p, e, out),
+        Limiter::Minmod => body(first, n, |a, b| Limiter::Minmod.difference(a, b), w, p, e, out),
+        Limiter::Eno => body(first, n, |a, b| Limiter::Eno.difference(a, b), w, p, e, out),
+        Limiter::None => body(first, n, |a, b| Limiter::None.difference(a, b), w, p, e, out),
     }
 }
 
-#[expect(clippy::too_many_arguments, reason = "as above")]
 #[inline(always)]
 fn body(
     first: usize,
@@ -95,13 +86,9 @@ fn body(
     w: Rows<'_>,
     p: Predictor<'_>,
     e: Elasticity,
-    s_z: [&mut [f64]; 4],
-    s_r: [&mut [f64]; 4],
-    half: [&mut [f64]; 6],
+    out: Predicted<'_>,
 ) {
-    let [z0, z1, z2, z3] = s_z;
-    let [r0, r1, r2, r3] = s_r;
-    let [h0, h1, h2, h3, h4, h5] = half;
+    let Predicted { s_z: [z0, z1, z2, z3], s_r: [r0, r1, r2, r3], half: [h0, h1, h2, h3, h4, h5] } = out;
     cells(
         n,
         limit,
@@ -248,9 +235,11 @@ mod tests {
                 w.each_ref().map(|row| &row[..]),
                 Predictor { limiter, stride, inverse_h: [3.0, 5.0], inverse_r: &inverse_r, half_dt: 0.1 },
                 &e,
-                s_z.each_mut().map(|row| &mut row[..]),
-                s_r.each_mut().map(|row| &mut row[..]),
-                half.each_mut().map(|row| &mut row[..]),
+                Predicted {
+                    s_z: s_z.each_mut().map(|row| &mut row[..]),
+                    s_r: s_r.each_mut().map(|row| &mut row[..]),
+                    half: half.each_mut().map(|row| &mut row[..]),
+                },
             );
             for k in stride + 1..len - stride - 1 {
                 let here: [f64; 6] = std::array::from_fn(|c| w[c][k]);

@@ -8,7 +8,7 @@ use crate::boundary::Boundaries;
 use crate::boundary::outer_states::MidStep;
 use crate::components::following::Following;
 use crate::physics::{Solid, SolidStep};
-use crate::reconstruction::predictor::{ALONG_R, ALONG_Z, Predictor, predict};
+use crate::reconstruction::predictor::{ALONG_R, ALONG_Z, Predicted, Predictor, predict};
 use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, V_R, V_Z};
 use crate::step::reflux::register_stars;
 use crate::step::report::{BlockReport, boundary_inflow, yielded_volume};
@@ -96,14 +96,8 @@ impl<'a, const N: usize> BlockStep<'a, N> {
         };
         let [z0, z1, z2, z3, _, _] = scratch.s_z.split_mut::<COUNT>();
         let [r0, r1, _, r3, r4, _] = scratch.s_r.split_mut::<COUNT>();
-        predict(
-            scratch.cells.split(),
-            predictor,
-            &self.ctx.model.elasticity,
-            [z0, z1, z2, z3],
-            [r0, r1, r3, r4],
-            scratch.half.split_mut(),
-        );
+        let out = Predicted { s_z: [z0, z1, z2, z3], s_r: [r0, r1, r3, r4], half: scratch.half.split_mut() };
+        predict(scratch.cells.split(), predictor, &self.ctx.model.elasticity, out);
         if let Some(gain) = self.ctx.model.terms.velocity_gain(0.5 * self.ctx.dt) {
             for (component, gain) in [V_Z, V_R].into_iter().zip(gain) {
                 scratch.half.component_mut(component).iter_mut().for_each(|v| *v += gain);

@@ -7,7 +7,7 @@
 use mesh::{GHOSTS, Tile, fetch_lines, maximum};
 
 use crate::boundary::outer_states::MidStep;
-use crate::reconstruction::predictor::{Predictor, predict_from};
+use crate::reconstruction::predictor::{Predicted, Predictor, predict_from};
 use crate::state::component::COUNT;
 use crate::step::mises::largest_mises;
 use crate::step::rim::Rim;
@@ -153,16 +153,8 @@ fn predict_strip(first: usize, len: usize, cells: Rows<'_>, s: &Sweep<'_>, strip
     let [z0, z1, z2, z3] = along_z;
     let [r0, r1, r2, r3] = along_r;
     let [h0, h1, h2, h3, h4, h5] = half;
-    predict_from(
-        first,
-        len,
-        cells,
-        s.predictor,
-        s.elasticity,
-        [z0, z1, z2, z3],
-        [r0, r1, r2, r3],
-        [h0, h1, h2, h3, h4, h5],
-    );
+    let out = Predicted { s_z: [z0, z1, z2, z3], s_r: [r0, r1, r2, r3], half: [h0, h1, h2, h3, h4, h5] };
+    predict_from(first, len, cells, s.predictor, s.elasticity, out);
 }
 
 /// Star states on the faces along z.
