@@ -3,6 +3,10 @@
 // Long ones tell what they have measured.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+#[path = "reliability/apart.rs"]
+mod apart;
+#[path = "reliability/both_sides.rs"]
+mod both_sides;
 #[path = "reliability/cases.rs"]
 mod cases;
 #[path = "reliability/compare.rs"]

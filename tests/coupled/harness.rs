@@ -125,21 +125,20 @@ impl Pair {
     pub fn step(&mut self, dt: f64) {
         let Self { fluid, solid, meeting, star, trace, register } = self;
         let faces = fluid.interface().faces();
-        fluid
-            .write_trace(dt, mesh::every_slot, |row, face, value| trace[row as usize * faces + face] = value);
+        CoupledSolver::write_trace(fluid, dt, |row, face, value| trace[row as usize * faces + face] = value);
         let domain = solid.mesh().domain();
         let axisymmetric = domain.geometry == Geometry::Axisymmetric;
         let own = (solid.mesh().generation(), || solid.interface_edges());
         meeting.begin((&*trace, faces), solid.time(), own, domain.r[0], axisymmetric);
         let (rows, count) = meeting.own_trace();
-        solid.write_trace(dt, mesh::every_slot, |row, face, value| rows[row as usize * count + face] = value);
+        CoupledSolver::write_trace(solid, dt, |row, face, value| rows[row as usize * count + face] = value);
         let step = ShortStep { begin: solid.time(), dt };
         meeting.meet(Participant::Solid, step, *star, |_| true).expect("two states");
         meeting.own_means(|face, state| solid.interface_mut().set(face, state.into()));
         meeting.write_register(register);
         fluid.interface_mut().set_rows(WallRegister::of(register, faces).rows());
-        solid.step(dt).expect("the solid's step");
-        fluid.step(dt).expect("the fluid's step");
+        solid.whole_step(dt).expect("the solid's step");
+        fluid.whole_step(dt).expect("the fluid's step");
     }
 
     /// Steps until `end` of which each is a long one of one side and `ratio` short ones of the other.

@@ -38,25 +38,77 @@ pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
     /// Which side of the interface it is.
     const OWN: Participant;
 
+    /// [`BlockSolver::start`]. What steps is compiled here, once for each solver, and not in every program that drives a side.
+    fn start_group(&mut self, limit: f64) -> GroupStep;
+
+    /// [`BlockSolver::run`].
+    fn run_part(&mut self, step: GroupStep, part: Part) -> Result<(), RunError>;
+
+    /// [`BlockSolver::finish`].
+    fn finish_step(&mut self) -> Result<(), RunError>;
+
+    /// [`BlockSolver::step`].
+    fn whole_step(&mut self, dt: f64) -> Result<(), RunError>;
+
+    /// [`BlockSolver::adapt`].
+    fn adapt_grid(&mut self, dt: f64, steps: u32) -> bool;
+
     /// Writes the traces on the faces of those blocks that are `due`, before a step of length `dt`.
-    fn write_trace_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, put: impl FnMut(TraceRow, usize, f64));
+    fn write_trace_of(
+        &self,
+        dt: f64,
+        is_due: &dyn Fn(usize) -> bool,
+        put: &mut dyn FnMut(TraceRow, usize, f64),
+    );
 
     /// Writes the traces on all faces, before a long step of length `dt`.
-    fn write_trace(&self, dt: f64, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(dt, mesh::every_slot, put);
+    fn write_trace(&self, dt: f64, mut put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(dt, &mesh::every_slot, &mut put);
     }
 
     /// Writes the traces on the faces of the levels that are about to step.
-    fn write_group_trace(&self, step: GroupStep, put: impl FnMut(TraceRow, usize, f64)) {
-        self.write_trace_of(step.dt, |slot| self.makes(step, slot), put);
+    fn write_group_trace(&self, step: GroupStep, mut put: impl FnMut(TraceRow, usize, f64)) {
+        self.write_trace_of(step.dt, &|slot| self.makes(step, slot), &mut put);
     }
+}
+
+/// What [`CoupledSolver`] asks of a solver's blocks, as a [`BlockSolver`] has it.
+macro_rules! steps_of_its_blocks {
+    () => {
+        fn start_group(&mut self, limit: f64) -> GroupStep {
+            self.start(limit)
+        }
+
+        fn run_part(&mut self, step: GroupStep, part: Part) -> Result<(), RunError> {
+            Ok(self.run(step, part)?)
+        }
+
+        fn finish_step(&mut self) -> Result<(), RunError> {
+            Ok(self.finish()?)
+        }
+
+        fn whole_step(&mut self, dt: f64) -> Result<(), RunError> {
+            Ok(self.step(dt)?)
+        }
+
+        fn adapt_grid(&mut self, dt: f64, steps: u32) -> bool {
+            self.adapt(dt, steps)
+        }
+    };
 }
 
 impl CoupledSolver for FluidSolver<BLOCK> {
     type Physics = Fluid;
     const OWN: Participant = Participant::Fluid;
 
-    fn write_trace_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, put: impl FnMut(TraceRow, usize, f64)) {
+    steps_of_its_blocks!();
+
+    fn write_trace_of(
+        &self,
+        dt: f64,
+        is_due: &dyn Fn(usize) -> bool,
+        put: &mut dyn FnMut(TraceRow, usize, f64),
+    ) {
         FluidSolver::write_trace(self, dt, is_due, put);
     }
 }
@@ -65,7 +117,14 @@ impl CoupledSolver for SolidSolver<BLOCK> {
     type Physics = Solid;
     const OWN: Participant = Participant::Solid;
 
-    fn write_trace_of(&self, dt: f64, is_due: impl Fn(usize) -> bool, put: impl FnMut(TraceRow, usize, f64)) {
+    steps_of_its_blocks!();
+
+    fn write_trace_of(
+        &self,
+        dt: f64,
+        is_due: &dyn Fn(usize) -> bool,
+        put: &mut dyn FnMut(TraceRow, usize, f64),
+    ) {
         SolidSolver::write_trace(self, dt, is_due, put);
     }
 }
@@ -152,8 +211,8 @@ impl StepRule {
 pub fn begin_long<M: CoupledSolver>(medium: &mut M, dt: f64, rule: &StepRule) -> Result<GroupStep, RunError> {
     let base = rule.long(medium).base;
     medium.begin_step(dt, base);
-    let step = medium.start(f64::INFINITY);
-    medium.run(step, Part::AwayFromInterface).map_err(Into::into)?;
+    let step = medium.start_group(f64::INFINITY);
+    medium.run_part(step, Part::AwayFromInterface)?;
     Ok(step)
 }
 
@@ -164,7 +223,7 @@ pub fn end_long<M: CoupledSolver>(
     rule: &StepRule,
     after: impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
-    medium.run(step, Part::AtInterface).map_err(Into::into)?;
+    medium.run_part(step, Part::AtInterface)?;
     // No level that is still to step has faces on the interface.
     step_to_end(medium, rule, |_, _| (), after)
 }
@@ -179,9 +238,9 @@ pub fn step_alone<M: CoupledSolver>(
 ) -> Result<(), RunError> {
     let base = rule.alone(medium).base;
     medium.begin_step(dt, base);
-    let step = medium.start(f64::INFINITY);
+    let step = medium.start_group(f64::INFINITY);
     before(medium, step);
-    medium.run(step, Part::All).map_err(Into::into)?;
+    medium.run_part(step, Part::All)?;
     step_to_end(medium, rule, before, after)
 }
 
@@ -194,9 +253,9 @@ fn step_to_end<M: CoupledSolver>(
     loop {
         while medium.clock().due().is_some() {
             let limit = rule.unless_collapsed(medium.due_limit(rule.cfl), medium)?;
-            let step = medium.start(limit);
+            let step = medium.start_group(limit);
             before(medium, step);
-            medium.run(step, Part::All).map_err(Into::into)?;
+            medium.run_part(step, Part::All)?;
         }
         if end_sub_step(medium, &mut after)? {
             return Ok(());
@@ -210,7 +269,7 @@ fn end_sub_step<M: CoupledSolver>(
     after: &mut impl FnMut(&M, f64) -> Result<(), RunError>,
 ) -> Result<bool, RunError> {
     let dt = medium.clock().length(medium.clock().finest());
-    medium.finish().map_err(Into::into)?;
+    medium.finish_step()?;
     after(medium, dt)?;
     Ok(medium.clock().is_over())
 }
@@ -244,7 +303,7 @@ pub fn short_steps<M: CoupledSolver>(
             // The whole is the other side's: how many steps of the coarsest level it holds follows from that level's limit.
             let limit = if group == 0 { rule.alone(medium).limit } else { medium.due_limit(rule.cfl) };
             let limit = rule.unless_collapsed(limit, medium)?;
-            let step = medium.start(limit);
+            let step = medium.start_group(limit);
             let (rows, faces) = meeting.own_trace();
             medium.write_group_trace(step, |row, face, value| rows[row as usize * faces + face] = value);
             let is_due = |face: usize| medium.group_of_face(face) == group;
@@ -261,7 +320,7 @@ pub fn short_steps<M: CoupledSolver>(
                 answer(medium, meeting)?;
                 is_answered = true;
             }
-            medium.run(step, Part::All).map_err(Into::into)?;
+            medium.run_part(step, Part::All)?;
         }
         if end_sub_step(medium, &mut after)? {
             return Ok(());

@@ -148,8 +148,8 @@ impl AtFace {
 #[inline(always)]
 fn face_between(lower: &Reconstruction<'_>, upper: &Reconstruction<'_>, k: usize, z: [f64; 2]) -> FaceState {
     let at = |c: usize| {
-        let (half, differences) =
-            ([lower, upper].map(|r| r.half[c][k]), [lower, upper].map(|r| r.differences[c][k]));
+        let half = [lower.half[c][k], upper.half[c][k]];
+        let differences = [lower.differences[c][k], upper.differences[c][k]];
         AtFace::of(half, differences, lower.dispersion[c % 2] - 0.25)
     };
     let [v_n, v_t, s_nn, s_nt] = [at(0), at(1), at(2), at(3)];

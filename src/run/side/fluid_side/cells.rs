@@ -8,7 +8,7 @@ use mesh::{GroupStep, Part};
 use super::{FluidSide, Pending};
 use crate::run::RunError;
 use crate::run::schedule::Plan;
-use crate::run::side::coupled_solver;
+use crate::run::side::coupled_solver::{self, CoupledSolver as _};
 
 impl FluidSide {
     /// Begins a step of one of the paper's schemes.
@@ -55,7 +55,7 @@ impl FluidSide {
         if let Some(cells) = &self.cells {
             cells.set_wall(&mut self.own.solver);
         }
-        self.own.solver.step(plan.dt)?;
+        self.own.solver.whole_step(plan.dt)?;
         self.own.clock.computing += start.elapsed();
         self.recorded(plan)
     }
@@ -96,7 +96,7 @@ impl FluidSide {
         if let Some(cells) = &self.cells {
             cells.set_wall(&mut self.own.solver);
         }
-        self.own.solver.run(step, Part::AtInterface)?;
+        self.own.solver.run_part(step, Part::AtInterface)?;
         self.own.clock.computing += start.elapsed();
         Ok(())
     }
@@ -119,7 +119,7 @@ impl FluidSide {
         link.send(header, |_| {})?;
         self.pending = Some(Pending::Made);
         let start = Instant::now();
-        self.own.solver.finish()?;
+        self.own.solver.finish_step()?;
         self.own.clock.computing += start.elapsed();
         self.recorded(plan)
     }

@@ -9,7 +9,7 @@ use super::SolidSide;
 use crate::run::RunError;
 use crate::run::process::stop::Stop;
 use crate::run::schedule::Plan;
-use crate::run::side::coupled_solver;
+use crate::run::side::coupled_solver::{self, CoupledSolver as _};
 
 impl SolidSide {
     /// Makes a step under the pressures that have been read, paper eqs. (32), (37), or the one that has been tried, and
@@ -24,8 +24,8 @@ impl SolidSide {
         let adapts = self.adapts(plan.dt);
         let start = Instant::now();
         match self.trial.take() {
-            Some(_) => self.own.solver.finish()?,
-            None => self.own.solver.step(plan.dt)?,
+            Some(_) => self.own.solver.finish_step()?,
+            None => self.own.solver.whole_step(plan.dt)?,
         }
         self.own.clock.computing += start.elapsed();
         self.recorded(plan)?;
@@ -41,7 +41,7 @@ impl SolidSide {
             None => coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?,
         };
         self.trial = Some(step);
-        self.own.solver.run(step, Part::AtInterface)?;
+        self.own.solver.run_part(step, Part::AtInterface)?;
         self.own.clock.computing += start.elapsed();
         self.answer_with_cells(link, (self.own.solver.steps(), self.own.solver.time()), stop)
     }

@@ -1,90 +1,20 @@
 //! Runs in two processes: the same numbers as in one, and what happens when something goes wrong.
 
-#![allow(clippy::unwrap_used)]
-
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-#[path = "reliability/cases.rs"]
-#[allow(dead_code, reason = "not all of its cases are run here")]
-mod cases;
-mod fixture;
-#[path = "reliability/processes.rs"]
-#[allow(dead_code, reason = "not all of it is needed here")]
-mod processes;
-
-use processes::{processes_of, segments, text, wait_until};
+use crate::cases;
+use crate::compare::{datasets, summary};
+use crate::processes::{Workshop, processes_of, segments, signal, text, wait_until};
 
 /// A bubble over steel, adaptive on three levels, with one snapshot before the end.
-fn small() -> String {
-    cases::coupled().replace("snapshot_every = 1.3e-6", "snapshots = [1e-5]")
-}
-
-struct Workshop {
-    directory: tempfile::TempDir,
-}
-
-impl Workshop {
-    fn new() -> Self {
-        let directory = tempfile::tempdir().expect("a temporary directory");
-        fs::write(directory.path().join("case.toml"), small()).expect("the case is written");
-        Self { directory }
-    }
-
-    fn case(&self) -> PathBuf {
-        self.directory.path().join("case.toml")
-    }
-
-    fn out(&self, name: &str) -> PathBuf {
-        self.directory.path().join(name)
-    }
-
-    /// `cav COMMAND case.toml --out NAME ...`.
-    fn cav(&self, command: &str, out: &str, more: &[&str]) -> Command {
-        let mut cav = Command::new(env!("CARGO_BIN_EXE_cav"));
-        cav.arg(command).arg(self.case()).arg("--out").arg(self.out(out)).args(more);
-        cav.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        cav
-    }
-
-    fn run(&self, out: &str, more: &[&str]) -> Output {
-        self.cav("run", out, more).output().expect("cav starts")
-    }
-}
-
-fn summary(directory: &Path) -> serde_json::Value {
-    let text = fs::read_to_string(directory.join("summary.json")).expect("there is a summary");
-    serde_json::from_str(&text).expect("it is JSON")
-}
-
-/// All datasets of a history with their numbers as bits.
-fn datasets(path: &Path) -> Vec<(String, Vec<u64>)> {
-    fn walk(group: &hdf5::Group, found: &mut Vec<(String, Vec<u64>)>) {
-        for dataset in group.datasets().expect("datasets") {
-            let values = dataset.read_raw::<f64>().expect("numbers");
-            found.push((dataset.name(), values.iter().map(|v| v.to_bits()).collect()));
-        }
-        for inner in group.groups().expect("groups") {
-            walk(&inner, found);
-        }
-    }
-    let file = hdf5::File::open(path).expect("the history opens");
-    let mut found = Vec::new();
-    walk(&file, &mut found);
-    found.sort();
-    found
-}
-
-/// Kills or signals by number; there is no process group to hit by accident.
-fn signal(pid: u32, signal: &str) {
-    let status = Command::new("kill").args([signal, &pid.to_string()]).status().expect("kill runs");
-    assert!(status.success(), "kill {signal} {pid}");
+fn workshop() -> Workshop {
+    Workshop::with(&cases::coupled().replace("snapshot_every = 1.3e-6", "snapshots = [1e-5]"))
 }
 
 fn running(workshop: &Workshop, out: &str, child: &mut Child, sides: usize) -> Vec<(u32, String)> {
-    let path = workshop.out(out);
+    let path = workshop.file(out);
     wait_until("both sides step", Duration::from_secs(30), || {
         assert!(child.try_wait().expect("a look").is_none(), "the run ended early");
         path.join("history.h5").exists()
@@ -97,8 +27,8 @@ fn running(workshop: &Workshop, out: &str, child: &mut Child, sides: usize) -> V
 /// A run long enough to be disturbed.
 const LONG: [&str; 2] = ["--set", "time.end=1e-2"];
 
-// One test after the other: they share the machine's two cores and its shared memory.
 #[test]
+#[ignore = "`apart` runs it in a process of its own"]
 fn two_processes() {
     same_numbers_in_one_process_and_in_two();
     runs_side_by_side_do_not_meet();
@@ -115,18 +45,18 @@ fn two_processes() {
     nothing_is_left_in_shared_memory();
 }
 
-#[path = "../examples/spring_mass_wall.rs"]
+#[path = "../../examples/spring_mass_wall.rs"]
 #[allow(dead_code, reason = "its main is not called here")]
 mod spring_mass_wall;
 
 /// The example's wall in this process, the fluid in one of its own.
 fn another_program_takes_the_wall() {
-    let workshop = Workshop::new();
+    let workshop = workshop();
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/spring-mass-wall.toml");
     let name = format!("wall-{}", std::process::id());
     let cav = |command: &str| {
         let mut cav = Command::new(env!("CARGO_BIN_EXE_cav"));
-        cav.arg(command).arg(&case).arg("-q").arg("--out").arg(workshop.out("fluid"));
+        cav.arg(command).arg(&case).arg("-q").arg("--out").arg(workshop.file("fluid"));
         cav
     };
     let refused = cav("run").output().expect("starts");
@@ -137,12 +67,12 @@ fn another_program_takes_the_wall() {
     assert!(fluid.wait().expect("ends").success());
     let here = spring_mass_wall::run(&case, None).expect("in one process");
     assert_eq!(there.map(f64::to_bits), here.map(f64::to_bits));
-    let summary = summary(&workshop.out("fluid"));
+    let summary = summary(&workshop.file("fluid"));
     assert!(summary["completed"] == true && summary["wall_pressure_peak"].as_f64().unwrap() > 1.1e5);
 }
 
 fn same_numbers_in_one_process_and_in_two() {
-    let workshop = Workshop::new();
+    let workshop = workshop();
     let runs: [(&str, &[&str]); 4] = [
         ("two", &[]),
         ("two-one-thread", &["--threads", "1"]),
@@ -167,14 +97,14 @@ fn same_numbers_in_one_process_and_in_two() {
         [&[][..], &weak, &explicit, &strong, &strong_solid, &common, &local, &soft, &thick, &soft_thick];
     for scheme in schemes {
         for (name, flags) in runs {
-            let output = workshop.run(name, &[flags, scheme, &["--force", "-q"]].concat());
+            let output = workshop.cav(name, &[flags, scheme, &["--force", "-q"]].concat()).output().unwrap();
             assert!(output.status.success(), "{name}: {}", text(&output));
         }
-        let reference = datasets(&workshop.out("two/history.h5"));
+        let reference = datasets(&workshop.file("two/history.h5"));
         assert!(reference.len() > 40, "{} datasets", reference.len());
-        assert!(reference.iter().any(|(name, values)| name == "/bubble/volume" && values.len() > 20));
+        assert!(reference["/bubble/volume"].1.len() > 20);
         for (name, _) in &runs[1..] {
-            let other = datasets(&workshop.out(name).join("history.h5"));
+            let other = datasets(&workshop.file(name).join("history.h5"));
             assert_eq!(reference.len(), other.len(), "{name}");
             for (a, b) in reference.iter().zip(&other) {
                 assert!(a == b, "{name}: {} differs from {}", b.0, a.0);
@@ -184,39 +114,39 @@ fn same_numbers_in_one_process_and_in_two() {
 }
 
 fn runs_side_by_side_do_not_meet() {
-    let workshop = Workshop::new();
-    let mut first = workshop.cav("run", "first", &["-q"]).spawn().expect("starts");
-    let second = workshop.run("second", &["-q", "--set", "fluid.ambient.pressure=2e7"]);
+    let workshop = workshop();
+    let mut first = workshop.cav("first", &["-q"]).spawn().expect("starts");
+    let second = workshop.cav("second", &["-q", "--set", "fluid.ambient.pressure=2e7"]).output().unwrap();
     assert!(second.status.success(), "{}", text(&second));
     assert!(first.wait().expect("ends").success());
     let peaks =
-        ["first", "second"].map(|name| summary(&workshop.out(name))["wall_pressure_peak"].as_f64().unwrap());
+        ["first", "second"].map(|name| summary(&workshop.file(name))["wall_pressure_peak"].as_f64().unwrap());
     assert!(peaks[0] > 1.5 * peaks[1], "{peaks:?}");
 }
 
 fn by_hand_in_two_terminals() {
-    let workshop = Workshop::new();
+    let workshop = workshop();
     let id = format!("by-hand-{}", std::process::id());
-    let solid = workshop.cav("solid", "hand", &["--run", &id]).spawn().expect("starts");
+    let solid = workshop.side("solid", "hand", &id, &[]).spawn().expect("starts");
     std::thread::sleep(Duration::from_millis(300));
-    let fluid = workshop.cav("fluid", "hand", &["--run", &id]).output().expect("starts");
+    let fluid = workshop.side("fluid", "hand", &id, &[]).output().expect("starts");
     let solid = solid.wait_with_output().expect("ends");
     assert!(fluid.status.success(), "{}", text(&fluid));
     assert!(solid.status.success(), "{}", text(&solid));
-    let summary = summary(&workshop.out("hand"));
+    let summary = summary(&workshop.file("hand"));
     assert_eq!(summary["completed"], true);
     assert!(summary["von_mises_peak"].is_number() && summary["wall_pressure_peak"].is_number());
-    assert!(workshop.run("reference", &["-q"]).status.success());
-    let (hand, launched) = (workshop.out("hand/history.h5"), workshop.out("reference/history.h5"));
+    assert!(workshop.cav("reference", &["-q"]).output().unwrap().status.success());
+    let (hand, launched) = (workshop.file("hand/history.h5"), workshop.file("reference/history.h5"));
     assert!(datasets(&hand) == datasets(&launched), "by hand and launched differ");
 }
 
 fn another_case_is_refused() {
-    let workshop = Workshop::new();
+    let workshop = workshop();
     let id = format!("refused-{}", std::process::id());
-    let more = ["--run", &id, "--set", "fluid.liquid.gamma=7.0"];
-    let solid = workshop.cav("solid", "refused", &more).spawn().expect("starts");
-    let fluid = workshop.cav("fluid", "refused", &["--run", &id]).output().expect("starts");
+    let more = ["--set", "fluid.liquid.gamma=7.0"];
+    let solid = workshop.side("solid", "refused", &id, &more).spawn().expect("starts");
+    let fluid = workshop.side("fluid", "refused", &id, &[]).output().expect("starts");
     let solid = solid.wait_with_output().expect("ends");
     for output in [&fluid, &solid] {
         assert_eq!(output.status.code(), Some(4), "{}", text(output));
@@ -230,18 +160,17 @@ fn another_case_is_refused() {
 }
 
 fn an_absent_peer_is_named() {
-    let workshop = Workshop::new();
+    let workshop = workshop();
     let id = format!("absent-{}", std::process::id());
-    let output =
-        workshop.cav("fluid", "absent", &["--run", &id, "--set", "coupling.connect_timeout=0.5"]).output();
-    let output = output.expect("starts");
+    let more = ["--set", "coupling.connect_timeout=0.5"];
+    let output = workshop.side("fluid", "absent", &id, &more).output().expect("starts");
     assert_eq!(output.status.code(), Some(4));
     assert!(text(&output).contains("solid"), "{}", text(&output));
 }
 
 fn a_killed_side_ends_the_other(victim: &str) {
-    let workshop = Workshop::new();
-    let mut run = workshop.cav("run", "killed", &LONG).spawn().expect("starts");
+    let workshop = workshop();
+    let mut run = workshop.cav("killed", &LONG).spawn().expect("starts");
     let sides = running(&workshop, "killed", &mut run, 2);
     let (pid, _) = sides.iter().find(|(_, name)| name == victim).expect("it runs");
     signal(*pid, "-KILL");
@@ -250,55 +179,57 @@ fn a_killed_side_ends_the_other(victim: &str) {
     assert!(killed.elapsed() < Duration::from_secs(5), "took {:?}", killed.elapsed());
     assert_eq!(output.status.code(), Some(4), "{}", text(&output));
     assert!(text(&output).contains(&format!("the {victim} (process {pid}) was killed")), "{}", text(&output));
-    assert!(processes_of(&workshop.out("killed")).is_empty());
+    assert!(processes_of(&workshop.file("killed")).is_empty());
     // Readable up to then, and not called complete.
-    let history = datasets(&workshop.out("killed/history.h5"));
-    assert!(history.iter().any(|(name, values)| name == "/time" && !values.is_empty()));
-    hdf5::File::open(workshop.out("killed/fluid.vtkhdf")).expect("the snapshots open");
-    assert_eq!(summary(&workshop.out("killed"))["completed"], false);
+    let history = datasets(&workshop.file("killed/history.h5"));
+    assert!(!history["/time"].1.is_empty());
+    hdf5::File::open(workshop.file("killed/fluid.vtkhdf")).expect("the snapshots open");
+    assert_eq!(summary(&workshop.file("killed"))["completed"], false);
     // The same command runs again at once; the unfinished run is kept aside.
-    let again = workshop.run("killed", &["-q"]);
+    let again = workshop.cav("killed", &["-q"]).output().unwrap();
     assert!(again.status.success(), "{}", text(&again));
-    assert!(workshop.out("killed.1").exists());
+    assert!(workshop.file("killed.1").exists());
 }
 
 fn a_killed_launcher_ends_both() {
-    let workshop = Workshop::new();
-    let mut run = workshop.cav("run", "orphans", &LONG).spawn().expect("starts");
+    let workshop = workshop();
+    let mut run = workshop.cav("orphans", &LONG).spawn().expect("starts");
     running(&workshop, "orphans", &mut run, 2);
     run.kill().expect("killed");
     run.wait().expect("ends");
-    wait_until("the sides end", Duration::from_secs(5), || processes_of(&workshop.out("orphans")).is_empty());
+    wait_until("the sides end", Duration::from_secs(5), || {
+        processes_of(&workshop.file("orphans")).is_empty()
+    });
     // The joint history consists of links then.
-    let history = hdf5::File::open(workshop.out("orphans/history.h5")).expect("the history opens");
+    let history = hdf5::File::open(workshop.file("orphans/history.h5")).expect("the history opens");
     for name in ["/time", "/solid/time", "/bubble/volume"] {
         assert!(history.dataset(name).expect("it is there").size() > 0, "{name}");
     }
 }
 
 fn an_interrupt_stops_both_sides(kind: &str, code: i32) {
-    let workshop = Workshop::new();
-    let mut run = workshop.cav("run", "stopped", &LONG).spawn().expect("starts");
+    let workshop = workshop();
+    let mut run = workshop.cav("stopped", &LONG).spawn().expect("starts");
     running(&workshop, "stopped", &mut run, 2);
     signal(run.id(), kind);
     let output = run.wait_with_output().expect("ends");
     assert_eq!(output.status.code(), Some(code), "{}", text(&output));
-    assert!(processes_of(&workshop.out("stopped")).is_empty());
-    let summary = summary(&workshop.out("stopped"));
+    assert!(processes_of(&workshop.file("stopped")).is_empty());
+    let summary = summary(&workshop.file("stopped"));
     assert_eq!(summary["completed"], false);
     // Both sides stopped at the same time, the solid after more steps.
-    let history = datasets(&workshop.out("stopped/history.h5"));
-    let times = |wanted: &str| history.iter().find(|(name, _)| name == wanted).expect("times").1.clone();
+    let history = datasets(&workshop.file("stopped/history.h5"));
+    let times = |name: &str| &history[name].1;
     assert_eq!(times("/time").last(), times("/solid/time").last());
     assert!(times("/time").len() < times("/solid/time").len());
     assert_eq!(Some(times("/time").len() as u64), summary["steps"].as_u64().map(|steps| steps + 1));
 }
 
 fn a_numerical_failure_is_told() {
-    let workshop = Workshop::new();
+    let workshop = workshop();
     // Liquid at a hundred times its speed of sound against the wall.
     let more = ["--set", "fluid.ambient.velocity=[-1e5, 0.0]"];
-    let output = workshop.run("failed", &[&more[..], &LONG].concat());
+    let output = workshop.cav("failed", &[&more[..], &LONG].concat()).output().unwrap();
     assert_eq!(output.status.code(), Some(3), "{}", text(&output));
     assert!(
         ["not physical", "not finite", "is no state", "collapsed"]
@@ -307,7 +238,7 @@ fn a_numerical_failure_is_told() {
         "{}",
         text(&output)
     );
-    assert_eq!(summary(&workshop.out("failed"))["completed"], false);
+    assert_eq!(summary(&workshop.file("failed"))["completed"], false);
 }
 
 fn nothing_is_left_in_shared_memory() {
