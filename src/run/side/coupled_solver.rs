@@ -72,62 +72,47 @@ pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
     }
 }
 
-/// What [`CoupledSolver`] asks of a solver's blocks, as a [`BlockSolver`] has it.
-macro_rules! steps_of_its_blocks {
-    () => {
-        fn start_group(&mut self, limit: f64) -> GroupStep {
-            self.start(limit)
-        }
+/// What is compiled for both solvers.
+macro_rules! coupled_solver {
+    ($solver:ident, $physics:ident) => {
+        impl CoupledSolver for $solver<BLOCK> {
+            type Physics = $physics;
+            const OWN: Participant = Participant::$physics;
 
-        fn run_part(&mut self, step: GroupStep, part: Part) -> Result<(), RunError> {
-            Ok(self.run(step, part)?)
-        }
+            fn start_group(&mut self, limit: f64) -> GroupStep {
+                self.start(limit)
+            }
 
-        fn finish_step(&mut self) -> Result<(), RunError> {
-            Ok(self.finish()?)
-        }
+            fn run_part(&mut self, step: GroupStep, part: Part) -> Result<(), RunError> {
+                Ok(self.run(step, part)?)
+            }
 
-        fn whole_step(&mut self, dt: f64) -> Result<(), RunError> {
-            Ok(self.step(dt)?)
-        }
+            fn finish_step(&mut self) -> Result<(), RunError> {
+                Ok(self.finish()?)
+            }
 
-        fn adapt_grid(&mut self, dt: f64, steps: u32) -> bool {
-            self.adapt(dt, steps)
+            fn whole_step(&mut self, dt: f64) -> Result<(), RunError> {
+                Ok(self.step(dt)?)
+            }
+
+            fn adapt_grid(&mut self, dt: f64, steps: u32) -> bool {
+                self.adapt(dt, steps)
+            }
+
+            fn write_trace_of(
+                &self,
+                dt: f64,
+                is_due: &dyn Fn(usize) -> bool,
+                put: &mut dyn FnMut(TraceRow, usize, f64),
+            ) {
+                $solver::write_trace(self, dt, is_due, put);
+            }
         }
     };
 }
 
-impl CoupledSolver for FluidSolver<BLOCK> {
-    type Physics = Fluid;
-    const OWN: Participant = Participant::Fluid;
-
-    steps_of_its_blocks!();
-
-    fn write_trace_of(
-        &self,
-        dt: f64,
-        is_due: &dyn Fn(usize) -> bool,
-        put: &mut dyn FnMut(TraceRow, usize, f64),
-    ) {
-        FluidSolver::write_trace(self, dt, is_due, put);
-    }
-}
-
-impl CoupledSolver for SolidSolver<BLOCK> {
-    type Physics = Solid;
-    const OWN: Participant = Participant::Solid;
-
-    steps_of_its_blocks!();
-
-    fn write_trace_of(
-        &self,
-        dt: f64,
-        is_due: &dyn Fn(usize) -> bool,
-        put: &mut dyn FnMut(TraceRow, usize, f64),
-    ) {
-        SolidSolver::write_trace(self, dt, is_due, put);
-    }
-}
+coupled_solver!(FluidSolver, Fluid);
+coupled_solver!(SolidSolver, Solid);
 
 /// How a side's steps may be, and which of its levels step by themselves.
 #[derive(Clone, Copy, Debug)]
