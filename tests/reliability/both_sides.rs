@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::cases;
 use crate::compare::{datasets, summary};
-use crate::processes::{Workshop, processes_of, segments, signal, text, wait_until};
+use crate::processes::{Workshop, alone, processes_of, segments, signal, text, wait_until};
 
 /// A bubble over steel, adaptive on three levels, with one snapshot before the end.
 fn workshop() -> Workshop {
@@ -30,6 +30,7 @@ const LONG: [&str; 2] = ["--set", "time.end=1e-2"];
 #[test]
 #[ignore = "`apart` runs it in a process of its own"]
 fn two_processes() {
+    let _turn = alone();
     same_numbers_in_one_process_and_in_two();
     runs_side_by_side_do_not_meet();
     by_hand_in_two_terminals();
@@ -173,7 +174,7 @@ fn a_killed_side_ends_the_other(victim: &str) {
     let mut run = workshop.cav("killed", &LONG).spawn().expect("starts");
     let sides = running(&workshop, "killed", &mut run, 2);
     let (pid, _) = sides.iter().find(|(_, name)| name == victim).expect("it runs");
-    signal(*pid, "-KILL");
+    assert!(signal(*pid, "-KILL"));
     let killed = Instant::now();
     let output = run.wait_with_output().expect("ends");
     assert!(killed.elapsed() < Duration::from_secs(5), "took {:?}", killed.elapsed());
@@ -211,7 +212,7 @@ fn an_interrupt_stops_both_sides(kind: &str, code: i32) {
     let workshop = workshop();
     let mut run = workshop.cav("stopped", &LONG).spawn().expect("starts");
     running(&workshop, "stopped", &mut run, 2);
-    signal(run.id(), kind);
+    assert!(signal(run.id(), kind));
     let output = run.wait_with_output().expect("ends");
     assert_eq!(output.status.code(), Some(code), "{}", text(&output));
     assert!(processes_of(&workshop.file("stopped")).is_empty());

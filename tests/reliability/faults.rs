@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use crate::cases::coupled;
 use crate::compare::{assert_same, summary};
 use crate::processes::{
-    Workshop, assert_tidy, checkpoints, process_of, processes_of, segments, signal, text, until_checkpoint,
-    wait_until,
+    Workshop, alone, assert_tidy, checkpoints, process_of, processes_of, segments, signal, text,
+    until_checkpoint, wait_until,
 };
 
 /// Work for half as long again, since a collapse costs more than what comes before it: six kills come within two and a half seconds.
@@ -40,6 +40,7 @@ const ENDLESS: [&str; 4] = ["--set", "time.end=1e-2", "--set", "time.snapshot_ev
 #[test]
 #[ignore = "`apart` runs it in a process of its own"]
 fn what_happens_to_runs() {
+    let _turn = alone();
     let workshop = Workshop::with(&coupled());
     workshop.done("whole", &[&longer()[..], &["-q"]].concat());
     in_other_processes_under_other_numbers_of_threads(&workshop);

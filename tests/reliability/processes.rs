@@ -116,9 +116,9 @@ pub fn wait_until(what: &str, limit: Duration, mut done: impl FnMut() -> bool) {
     }
 }
 
-/// Signals one process by its number; it may be gone by then.
-pub fn signal(pid: u32, signal: &str) {
-    Command::new("kill").args([signal, &pid.to_string()]).stderr(Stdio::null()).status().unwrap();
+/// Signals one process by its number, and says whether it was there; it may be gone by then.
+pub fn signal(pid: u32, signal: &str) -> bool {
+    Command::new("kill").args([signal, &pid.to_string()]).stderr(Stdio::null()).status().unwrap().success()
 }
 
 /// Waits until a run has kept a checkpoint that has both parts.

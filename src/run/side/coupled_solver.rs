@@ -50,9 +50,6 @@ pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
     /// [`BlockSolver::step`].
     fn whole_step(&mut self, dt: f64) -> Result<(), RunError>;
 
-    /// [`BlockSolver::adapt`].
-    fn adapt_grid(&mut self, dt: f64, steps: u32) -> bool;
-
     /// Writes the traces on the faces of those blocks that are `due`, before a step of length `dt`.
     fn write_trace_of(
         &self,
@@ -93,10 +90,6 @@ macro_rules! coupled_solver {
 
             fn whole_step(&mut self, dt: f64) -> Result<(), RunError> {
                 Ok(self.step(dt)?)
-            }
-
-            fn adapt_grid(&mut self, dt: f64, steps: u32) -> bool {
-                self.adapt(dt, steps)
             }
 
             fn write_trace_of(

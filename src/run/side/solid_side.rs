@@ -24,7 +24,7 @@ use crate::run::record::timed::Timed;
 use crate::run::schedule::Plan;
 use crate::run::setup::solid_and_displacement;
 use crate::run::side::InRun;
-use crate::run::side::coupled_solver::{self, CoupledSolver as _};
+use crate::run::side::coupled_solver;
 use crate::run::side::load::Load;
 use crate::run::wall::WallLeaver;
 
@@ -227,7 +227,7 @@ impl SolidSide {
         }
         let start = Instant::now();
         let steps = self.steps_in(dt);
-        if self.own.solver.adapt_grid(dt, steps) {
+        if self.own.solver.adapt(dt, steps) {
             self.own.edges = self.own.solver.interface_edges();
         }
         let elapsed = start.elapsed();

@@ -148,6 +148,7 @@ impl AtFace {
 #[inline(always)]
 fn face_between(lower: &Reconstruction<'_>, upper: &Reconstruction<'_>, k: usize, z: [f64; 2]) -> FaceState {
     let at = |c: usize| {
+        // `map` of both stays a call where a crate is several units of code: faces then take ten times as long.
         let half = [lower.half[c][k], upper.half[c][k]];
         let differences = [lower.differences[c][k], upper.differences[c][k]];
         AtFace::of(half, differences, lower.dispersion[c % 2] - 0.25)
