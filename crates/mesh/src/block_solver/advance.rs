@@ -6,6 +6,9 @@
 use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Scratches, Step};
 use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part, for_each_tile, for_some_blocks};
 
+/// As many blocks are corrected in the time that it takes to wake a thread for some of them.
+const FEW_CORRECTED: usize = 16;
+
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Advances all cells by `dt`. With another medium beyond the interface its states must have been set.
     ///
@@ -74,7 +77,18 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// - errors: as [`BlockSolver::step`].
     pub fn run(&mut self, step: GroupStep, part: Part) -> Result<(), M::Error> {
         let Self {
-            model, mesh, state, next, levels, reports, interface, workers, progress, prepared, ..
+            model,
+            mesh,
+            state,
+            next,
+            levels,
+            reports,
+            interface,
+            workers,
+            progress,
+            prepared,
+            due_tiles,
+            ..
         } = self;
         let (clock, target, registers) = levels.target(step.group, next);
         let register = registers.own_mut();
@@ -84,8 +98,9 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let is_due = |slot: usize| part.has(interface.first_face(slot).is_some()) && in_group(slot);
         let pending = &mut reports.pending;
         let lens = [target.block_len(), register.values().block_len()];
-        let tiles = mesh.tree().tiles();
-        for_each_tile(tiles, target, register.values_mut(), pending, |tile, new, fluxes, reports| {
+        due_tiles.clear();
+        due_tiles.extend(mesh.tree().tiles().iter().filter(|tile| tile.slots().any(is_due)));
+        for_each_tile(due_tiles, target, register.values_mut(), pending, |tile, new, fluxes, reports| {
             if tile.slots().all(is_due) {
                 workers.with(|worker| model.step_tile(&context, tile, worker.begin(new, fluxes), reports));
                 return;
@@ -103,7 +118,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         if !M::RETRIES || is_whole {
             check(model, mesh, target, pending, (progress.time + step.dt, progress.steps + 1))?;
         }
-        let due = (0..mesh.blocks()).filter(|slot| is_due(*slot)).count();
+        let due: usize = due_tiles.iter().map(|tile| tile.slots().filter(|slot| is_due(*slot)).count()).sum();
         progress.cell_updates += (due * N * N) as u64;
         levels.gather(mesh, step.group);
         model.reports_changed(reports);
@@ -149,7 +164,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let (time, dt, marks) = (progress.time, clock.length(group), &NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
         let is_due = |slot: usize| clock.group_of(mesh, slot) == group && FluxRegister::is_due(mesh, slot);
-        for_some_blocks(target, &mut reports.pending, is_due, |slot, new, report| {
+        for_some_blocks(target, &mut reports.pending, FEW_CORRECTED, is_due, |slot, new, report| {
             let finer = registers.finer_side(clock, mesh.tree().leaves()[slot].level);
             model.correct(&context, finer, slot, new, report);
         });

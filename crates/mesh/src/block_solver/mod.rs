@@ -17,7 +17,8 @@ pub use model::{BlockWork, Marks, Model, Place, Scratches, Step};
 pub use saved::SavedBlocks;
 
 use crate::{
-    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side, StageTimer,
+    Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side,
+    StageTimer, Tile,
 };
 
 /// Cells, time, and how they advance: everything of a solver but the physics, which is its [`Model`].
@@ -36,6 +37,8 @@ pub struct BlockSolver<M: Model<N>, const N: usize> {
     progress: Progress,
     workers: ScratchPool<Worker<M::Scratch>>,
     prepared: M::Prepared,
+    /// Those of the part of a step that is being made, kept for their memory.
+    due_tiles: Vec<Tile>,
 }
 
 /// No cell falls back.
@@ -110,6 +113,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             progress: Progress::default(),
             workers: ScratchPool::new(|| Worker { scratch: scratch(), timer: StageTimer::default() }),
             prepared: M::Prepared::default(),
+            due_tiles: Vec::new(),
             model,
             mesh,
             state,

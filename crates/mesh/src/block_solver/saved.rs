@@ -42,6 +42,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             progress,
             workers: _,
             prepared: _,
+            due_tiles: _,
         } = self;
         SavedBlocks {
             leaves: Cow::Borrowed(mesh.tree().leaves()),

@@ -12,7 +12,7 @@ const BLOCKS_AT_ONCE: usize = 4;
 /// Runs `work(tile, blocks, blocks of second, reports)` for tiles of two fields, in parallel on the current rayon pool. The result cannot
 /// depend on the number of threads: each tile has its own part of the fields and its own reports.
 ///
-/// - `tiles`: in the order of their slots.
+/// - `tiles`: those that there is work for, in the order of their slots. Few of them are worked on by the thread that calls.
 pub fn for_each_tile<R: Send>(
     tiles: &[Tile],
     field: &mut Field,
@@ -49,8 +49,10 @@ impl<'a, R: Send> Parts<'a, R> {
     }
 
     fn share_out(self, tiles: &[Tile], work: &(impl Fn(Tile, &mut [f64], &mut [f64], &mut [R]) + Sync)) {
-        let (Some(one), Some(last)) = (tiles.first(), tiles.last()) else { return };
-        if tiles.len() == 1 || last.slots().end - one.first() <= BLOCKS_AT_ONCE {
+        let is_little = || {
+            tiles.len() <= BLOCKS_AT_ONCE && tiles.iter().map(Tile::blocks).sum::<usize>() <= BLOCKS_AT_ONCE
+        };
+        if tiles.len() == 1 || is_little() {
             let mut rest = self;
             for tile in tiles {
                 let [_, from] = rest.split(tile.first());
@@ -87,20 +89,32 @@ pub fn for_each_block<R: Send>(
 }
 
 /// Runs `work(slot, block, report)` for the blocks of a field for which `is_due(slot)` holds, as
-/// [`for_each_block`].
+/// [`for_each_block`]. If they are fewer than `few`, on the thread that calls.
 pub fn for_some_blocks<R: Send>(
     field: &mut Field,
     reports: &mut [R],
+    few: usize,
     is_due: impl Fn(usize) -> bool + Sync,
     work: impl Fn(usize, &mut [f64], &mut R) + Sync,
 ) {
     let len = field.block_len();
+    if is_few(reports.len(), few, &is_due) {
+        for slot in (0..reports.len()).filter(|slot| is_due(*slot)) {
+            work(slot, field.block_mut(slot), &mut reports[slot]);
+        }
+        return;
+    }
     (field.as_mut_slice().par_chunks_mut(len))
         .zip(reports.par_iter_mut())
         .enumerate()
         .with_min_len(BLOCKS_AT_ONCE)
         .filter(|(slot, _)| is_due(*slot))
         .for_each(|(slot, (block, report))| work(slot, block, report));
+}
+
+/// Whether fewer than `few` of so many blocks are due: to wake other threads would take longer than to work on them.
+pub(crate) fn is_few(blocks: usize, few: usize, is_due: impl Fn(usize) -> bool) -> bool {
+    (0..blocks).filter(|slot| is_due(*slot)).take(few).count() < few
 }
 
 /// One scratch object per worker thread, so that a step allocates nothing.

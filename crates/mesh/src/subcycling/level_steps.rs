@@ -2,7 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::{CorrectedFace, Field, FluxRegister, GroupStep, LevelClock, Mesh, Neighbour, Side};
+use crate::{
+    CorrectedFace, Field, FluxRegister, GroupStep, LevelClock, Mesh, Neighbour, Side, for_some_blocks,
+};
+
+/// As many blocks are gathered in the time that it takes to wake a thread for some of them.
+const FEW_GATHERED: usize = 32;
 
 /// Clock and storage of local time steps (subcycling), and what passes between levels.
 ///
@@ -169,11 +174,7 @@ impl<const N: usize> LevelSteps<N> {
         };
         let Registers { own, means } = &mut self.registers;
         let means = means.values_mut();
-        let len = means.block_len();
-        means.as_mut_slice().par_chunks_mut(len).enumerate().with_min_len(16).for_each(|(slot, means)| {
-            if !is_due(slot) {
-                return;
-            }
+        for_some_blocks(means, &mut vec![(); mesh.blocks()], FEW_GATHERED, is_due, |slot, means, ()| {
             for (mean, value) in means.iter_mut().zip(own.values().block(slot)) {
                 // By differences, so that the mean of what stays the same is the same to the last bit.
                 *mean = if weight == 1.0 { *value } else { *mean + weight * (*value - *mean) };
