@@ -2,7 +2,6 @@
 
     cargo run --release -- WORDS     is `cav WORDS`
     cargo test ...                   looks whether there are such tests: the test command runs all that are not ignored
-    cargo bench --bench NAME         looks whether the test command tries it
 """
 
 from __future__ import annotations
@@ -10,7 +9,6 @@ from __future__ import annotations
 import os
 import re
 import sys
-import tomllib
 from pathlib import Path
 from typing import NamedTuple
 
@@ -58,13 +56,8 @@ def asked(words: list[str]) -> list[Test]:
 def main(words: list[str]) -> None:
     if words[:3] == ["run", "--release", "--"]:
         os.execvp("cav", ["cav", *words[3:]])
-    if words[:2] == ["bench", "--bench"]:
-        benches = tomllib.loads((ROOT / "Cargo.toml").read_text())["bench"]
-        if not any(bench["name"] == words[2] and bench.get("test") for bench in benches):
-            sys.exit(f"cargo {' '.join(words)}: the test command does not try it")
-        return
     if words[:1] != ["test"]:
-        sys.exit(f"cargo {' '.join(words)}: of cargo's commands pages have only `run --release --`, `test` and `bench --bench` run")
+        sys.exit(f"cargo {' '.join(words)}: of cargo's commands pages have only `run --release --` and `test` run")
     found = asked(words[1:])
     if not found:
         sys.exit(f"cargo {' '.join(words)}: there is no such test")

@@ -14,7 +14,7 @@ LOOKED_UP = ("reference/", "notebooks/", "architecture.md")
 """Pages without measurements of their own."""
 NUMBER = re.compile(r"[≈<±+−*(-]*\s*\d")
 SAYS = {
-    "command": re.compile(r"^\s*(?:\.venv/bin/python|python|cav|cargo) |`[^`\n]*(?:cav (?:run|check)|cargo (?:run|test|bench)|scripts/|tests/|benches/|cases/[\w/-]+\.toml)"
+    "command": re.compile(r"^\s*(?:\.venv/bin/python|python3?|cav|cargo) |`[^`\n]*(?:cav (?:run|check)|cargo (?:run|test|bench)|scripts/|tests/|benches/|cases/[\w/-]+\.toml)"
                           r"|#how-they-were-made", re.M),
     "version": re.compile(r"\b\d+\.\d+\.\d+\b"),
     "date": re.compile(r"\b20\d\d-\d\d-\d\d\b"),

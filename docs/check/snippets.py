@@ -15,7 +15,7 @@ over one: `cases/pit-near-steel.toml`, or what `base=PATH` after the word `toml`
     -->
 
 `scripts/` and `tests/long/` are copies, `.venv/bin/python` is the Python that runs this, `target/release/cav` the program of the tests, and
-`cargo` is cargo.py beside this file: nothing is compiled again.
+`cargo` is cargo.py beside this file: nothing is compiled again. `sbatch` and `scancel` are slurm.py.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def run_shell(block: Block) -> None:
 
 
 def is_run(block: Block) -> bool:
-    return "no-run" not in block.words and block.language not in NOT_RUN and not DONE_BY.fullmatch(block.comment)
+    return block.language not in NOT_RUN and not DONE_BY.fullmatch(block.comment)
 
 
 def run(page: Page, place: Path) -> None:

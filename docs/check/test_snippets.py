@@ -29,6 +29,8 @@ def environment(tmp_path: Path) -> dict[str, str]:
     (programs / "cav").symlink_to(os.environ["CAV_BINARY"])
     program(programs / "pycav", sys.executable, "-m", "pycav")
     program(programs / "cargo", sys.executable, str(HERE / "cargo.py"))
+    for name in ("sbatch", "scancel"):
+        program(programs / name, sys.executable, str(HERE / "slurm.py"), name)
     path = [str(programs), str(Path(sys.executable).parent), os.environ["PATH"]]
     return {**os.environ, "PATH": os.pathsep.join(path), "MPLBACKEND": "Agg"}
 
@@ -44,8 +46,8 @@ def test_the_code_of_a_page_runs(page: Page, environment: dict[str, str], tmp_pa
 
 def test_what_shortens_or_replaces_a_block_stands_right_before_it() -> None:
     for page in book():
-        said = len(re.findall(r"<!-- (?:run-as|done-by|no-run):", page.text))
-        meant = sum(bool(re.match(r"<!-- (?:run-as|done-by|no-run):", block.comment)) for block in page.blocks)
+        said = len(re.findall(r"<!-- (?:run-as|done-by):", page.text))
+        meant = sum(bool(re.match(r"<!-- (?:run-as|done-by):", block.comment)) for block in page.blocks)
         assert said == meant, page.name
         for block in page.blocks:
             if RUN_AS.fullmatch(block.comment):

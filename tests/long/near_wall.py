@@ -6,10 +6,12 @@ The tables are in docs/verification/near-wall.md.
     python3 tests/long/near_wall.py                                      all of it: 992 runs, about a day of one processor
     python3 tests/long/near_wall.py --cells 26 --walls rigid             a part
     python3 tests/long/near_wall.py --stand-offs 0 0.5 1 1.5 --table     only the table of what is there
+    python3 tests/long/near_wall.py --load --stand-offs 1.5 1.25 1.1     the load on a rigid wall with 51, 102 and 205 cells per radius
 
 A bubble of 10 mm and 2118 Pa, its centre d/R radii above the wall, in water of 1e5 to 5e7 Pa, through the second collapse: to 2.9
-Rayleigh times, 2.5 collapse times of the slowest. All choices are the program's defaults. What is complete in --out is not run again. Needs h5py and
-target/release/cav (or --cav).
+Rayleigh times, 2.5 collapse times of the slowest. All choices are the program's defaults. The load is that of water of 5e7 Pa until 1.5
+Rayleigh times, with time steps of the levels' own and so two levels more at the wall. What is complete in --out is not run again. Needs h5py
+and target/release/cav (or --cav).
 """
 
 import argparse
@@ -27,7 +29,7 @@ PRESSURES = [1e5, 5e5, 5e6, 5e7]
 WALLS = ["rigid", "structural-steel", "aluminium", "pmma"]
 STAND_OFFS = [round(0.1 * k, 1) for k in range(31)]
 # Cells per radius, and the levels that make them of 4 x 4 cells on 5 radii.
-LEVELS = {26: 5, 51: 6, 102: 7}
+LEVELS = {13: 4, 26: 5, 51: 6, 102: 7, 205: 8}
 
 CASE = """geometry = "axisymmetric"
 time.end = {end!r}
@@ -65,6 +67,16 @@ scheme = "riemann"
 RIGID = """[coupling]
 scheme = "rigid"
 """
+# A disc of a tenth of the radius.
+SENSORS = """[[sensor]]
+name = "short"
+radius = 1e-3
+rise_time = 1e-9
+[[sensor]]
+name = "long"
+radius = 1e-3
+rise_time = 5e-7
+"""
 # Fix-ups that change the state of a cell; the others bound a reconstruction.
 MENDED = ["redone", "floored", "lifted_phases", "expanded_cells"]
 
@@ -73,10 +85,11 @@ def rayleigh_time(pressure):
     return 0.914681 * RADIUS * (1000.0 / (pressure - GAS)) ** 0.5
 
 
-def text(pressure, wall, stand_off, cells, until):
-    end = until * rayleigh_time(pressure)
+def text(options, pressure, wall, stand_off, cells):
+    end = options.until * rayleigh_time(pressure)
     case = CASE.format(end=end, levels=LEVELS[cells], pressure=pressure, centre=stand_off * RADIUS)
-    return case + (RIGID if wall == "rigid" else SOLID.format(levels=LEVELS[cells], wall=wall))
+    case += RIGID if wall == "rigid" else SOLID.format(levels=LEVELS[cells], wall=wall)
+    return f"time.local_steps = true\n{case}{SENSORS}" if options.load else case
 
 
 def gas_mass_drift(directory):
@@ -90,9 +103,9 @@ def gas_mass_drift(directory):
 
 def solve(options, pressure, wall, stand_off, cells):
     """What a run left: its summary and exit code, from what is there if it is of this very case."""
-    name = f"{wall}-{pressure:.0e}-{stand_off}-{cells}"
+    name = f"{'load-' if options.load else ''}{wall}-{pressure:.0e}-{stand_off}-{cells}"
     kept, path, directory = (options.out / f"{name}{end}" for end in (".json", ".toml", ""))
-    case = text(pressure, wall, stand_off, cells, options.until)
+    case = text(options, pressure, wall, stand_off, cells)
     if kept.exists() and path.exists() and path.read_text() == case:
         return json.loads(kept.read_text())
     if options.table:
@@ -127,19 +140,46 @@ def row(pressure, wall, cells, found):
             f"| {drift:.0e} | {seconds:.0f} s |")
 
 
+def load(stand_off, cells, summary):
+    """A line of the table of loads."""
+    short, long = (summary["sensors"][name] for name in ("short", "long"))
+    pressures = [summary["wall_pressure_peak_first"], short["pressure_peak"], long["pressure_peak"]]
+    in_mpa = " | ".join(f"{1e-6 * pressure:.0f} MPa" for pressure in pressures)
+    return f"| {stand_off:g} | {cells} | {in_mpa} | {summary['wall_impulse_first']:.0f} Pa s | {1e3 * long['impulse']:.2f} mN s |"
+
+
+def loads(options):
+    """Runs what the table of loads is made of; the worst exit code."""
+    print("| d/R | cells per radius | peak of the first load, axis | disc of 0.1 R, 1 ns | the same, 0.5 µs | its impulse on the axis | all on the disc |\n"
+          "|---|---|---|---|---|---|---|")
+    worst = 0
+    for stand_off in options.stand_offs:
+        for cells in options.cells:
+            found = solve(options, 5e7, "rigid", stand_off, cells)
+            if found is not None:
+                worst = max(worst, found["code"])
+                print(f"| {stand_off:g} | {cells} | exit code {found['code']} |" if found["code"] else load(stand_off, cells, found["summary"]), flush=True)
+    return worst
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cav", type=Path, default=ROOT / "target/release/cav", help="the program")
     parser.add_argument("--out", type=Path, default=Path("near-wall"), help="directory of the runs")
-    parser.add_argument("--cells", type=int, nargs="+", default=[26, 51], choices=LEVELS, help="per radius")
+    parser.add_argument("--load", action="store_true", help="the load on a rigid wall under 5e7 Pa")
+    parser.add_argument("--cells", type=int, nargs="+", choices=LEVELS, help="per radius")
     parser.add_argument("--pressures", type=float, nargs="+", default=PRESSURES, help="of the water, Pa")
     parser.add_argument("--walls", nargs="+", default=WALLS, help="rigid, or materials of the library")
     parser.add_argument("--stand-offs", type=float, nargs="+", default=STAND_OFFS, help="d/R")
-    parser.add_argument("--until", type=float, default=2.9, help="end in Rayleigh times")
+    parser.add_argument("--until", type=float, help="end in Rayleigh times")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--table", action="store_true", help="run nothing")
     options = parser.parse_args()
+    options.cells = options.cells or ([51, 102, 205] if options.load else [26, 51])
+    options.until = options.until or (1.5 if options.load else 2.9)
     options.out.mkdir(parents=True, exist_ok=True)
+    if options.load:
+        return 1 if loads(options) else 0
     print("| wall | pressure, Pa | cells per radius | end | redone, most of a run (of its updates) | floored (energy) | expanded | lifted phases "
           "| gas mass, change | time |\n|---|---|---|---|---|---|---|---|---|---|")
     worst = 0
