@@ -95,7 +95,6 @@ pub(crate) fn fill<const N: usize>(
     for_some_blocks(
         field,
         &mut vec![(); mesh.blocks()],
-        0,
         |_| true,
         |slot, block, ()| {
             let id = mesh.tree().leaves()[slot];

@@ -4,10 +4,8 @@
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
 use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Scratches, Step};
-use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part, for_each_tile, for_some_blocks};
-
-/// As many blocks are corrected in the time that it takes to wake a thread for some of them.
-const FEW_CORRECTED: usize = 16;
+use crate::kernels::parallel::{for_each_tile, for_some_blocks_lightly};
+use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part};
 
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Advances all cells by `dt`. With another medium beyond the interface its states must have been set.
@@ -164,7 +162,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let (time, dt, marks) = (progress.time, clock.length(group), &NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
         let is_due = |slot: usize| clock.group_of(mesh, slot) == group && FluxRegister::is_due(mesh, slot);
-        for_some_blocks(target, &mut reports.pending, FEW_CORRECTED, is_due, |slot, new, report| {
+        for_some_blocks_lightly(target, &mut reports.pending, is_due, |slot, new, report| {
             let finer = registers.finer_side(clock, mesh.tree().leaves()[slot].level);
             model.correct(&context, finer, slot, new, report);
         });

@@ -9,6 +9,9 @@ use crate::{Field, Tile};
 /// Blocks that a thread takes at once.
 const BLOCKS_AT_ONCE: usize = 4;
 
+/// So many are worth it to wake a thread for light work.
+const FEW_BLOCKS: usize = 16;
+
 /// Runs `work(tile, blocks, blocks of second, reports)` for tiles of two fields, in parallel on the current rayon pool. The result cannot
 /// depend on the number of threads: each tile has its own part of the fields and its own reports.
 ///
@@ -89,21 +92,14 @@ pub fn for_each_block<R: Send>(
 }
 
 /// Runs `work(slot, block, report)` for the blocks of a field for which `is_due(slot)` holds, as
-/// [`for_each_block`]. If they are fewer than `few`, on the thread that calls.
+/// [`for_each_block`].
 pub fn for_some_blocks<R: Send>(
     field: &mut Field,
     reports: &mut [R],
-    few: usize,
     is_due: impl Fn(usize) -> bool + Sync,
     work: impl Fn(usize, &mut [f64], &mut R) + Sync,
 ) {
     let len = field.block_len();
-    if is_few(reports.len(), few, &is_due) {
-        for slot in (0..reports.len()).filter(|slot| is_due(*slot)) {
-            work(slot, field.block_mut(slot), &mut reports[slot]);
-        }
-        return;
-    }
     (field.as_mut_slice().par_chunks_mut(len))
         .zip(reports.par_iter_mut())
         .enumerate()
@@ -112,9 +108,21 @@ pub fn for_some_blocks<R: Send>(
         .for_each(|(slot, (block, report))| work(slot, block, report));
 }
 
-/// Whether fewer than `few` of so many blocks are due: to wake other threads would take longer than to work on them.
-pub(crate) fn is_few(blocks: usize, few: usize, is_due: impl Fn(usize) -> bool) -> bool {
-    (0..blocks).filter(|slot| is_due(*slot)).take(few).count() < few
+/// [`for_some_blocks`] of work that takes about a microsecond: a few blocks are done by the thread that calls before another one is awake.
+pub(crate) fn for_some_blocks_lightly<R: Send>(
+    field: &mut Field,
+    reports: &mut [R],
+    is_due: impl Fn(usize) -> bool + Sync,
+    work: impl Fn(usize, &mut [f64], &mut R) + Sync,
+) {
+    let due = (0..reports.len()).filter(|slot| is_due(*slot));
+    if due.take(FEW_BLOCKS).count() == FEW_BLOCKS {
+        for_some_blocks(field, reports, is_due, work);
+        return;
+    }
+    for (slot, report) in reports.iter_mut().enumerate().filter(|(slot, _)| is_due(*slot)) {
+        work(slot, field.block_mut(slot), report);
+    }
 }
 
 /// One scratch object per worker thread, so that a step allocates nothing.

@@ -2,12 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::{
-    CorrectedFace, Field, FluxRegister, GroupStep, LevelClock, Mesh, Neighbour, Side, for_some_blocks,
-};
-
-/// As many blocks are gathered in the time that it takes to wake a thread for some of them.
-const FEW_GATHERED: usize = 32;
+use crate::kernels::parallel::for_some_blocks_lightly;
+use crate::{CorrectedFace, Field, FluxRegister, GroupStep, LevelClock, Mesh, Neighbour, Side};
 
 /// Clock and storage of local time steps (subcycling), and what passes between levels.
 ///
@@ -174,7 +170,7 @@ impl<const N: usize> LevelSteps<N> {
         };
         let Registers { own, means } = &mut self.registers;
         let means = means.values_mut();
-        for_some_blocks(means, &mut vec![(); mesh.blocks()], FEW_GATHERED, is_due, |slot, means, ()| {
+        for_some_blocks_lightly(means, &mut vec![(); mesh.blocks()], is_due, |slot, means, ()| {
             for (mean, value) in means.iter_mut().zip(own.values().block(slot)) {
                 // By differences, so that the mean of what stays the same is the same to the last bit.
                 *mean = if weight == 1.0 { *value } else { *mean + weight * (*value - *mean) };

@@ -73,7 +73,6 @@ fn fill<const N: usize>(
     for_some_blocks(
         &mut state,
         &mut reports,
-        0,
         |_| true,
         |slot, block, ()| {
             let id = mesh.tree().leaves()[slot];
