@@ -168,15 +168,19 @@ def main():
     parser.add_argument("--out", type=Path, default=Path("near-wall"), help="directory of the runs")
     parser.add_argument("--load", action="store_true", help="the load on a rigid wall under 5e7 Pa")
     parser.add_argument("--cells", type=int, nargs="+", choices=LEVELS, help="per radius")
-    parser.add_argument("--pressures", type=float, nargs="+", default=PRESSURES, help="of the water, Pa")
-    parser.add_argument("--walls", nargs="+", default=WALLS, help="rigid, or materials of the library")
+    parser.add_argument("--pressures", type=float, nargs="+", help="of the water, Pa")
+    parser.add_argument("--walls", nargs="+", help="rigid, or materials of the library")
     parser.add_argument("--stand-offs", type=float, nargs="+", default=STAND_OFFS, help="d/R")
     parser.add_argument("--until", type=float, help="end in Rayleigh times")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--table", action="store_true", help="run nothing")
     options = parser.parse_args()
-    options.cells = options.cells or ([51, 102, 205] if options.load else [26, 51])
-    options.until = options.until or (1.5 if options.load else 2.9)
+    if options.load and (options.walls or options.pressures):
+        parser.error("--load is of a rigid wall under 5e7 Pa: it takes neither --walls nor --pressures")
+    defaults = {"cells": [51, 102, 205], "until": 1.5} if options.load else {"cells": [26, 51], "until": 2.9}
+    for name, value in {**defaults, "walls": WALLS, "pressures": PRESSURES}.items():
+        if getattr(options, name) is None:
+            setattr(options, name, value)
     options.out.mkdir(parents=True, exist_ok=True)
     if options.load:
         return 1 if loads(options) else 0
