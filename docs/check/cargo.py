@@ -1,7 +1,8 @@
 """What `cargo` is for the commands of pages: nothing is compiled again.
 
     cargo run --release -- WORDS     is `cav WORDS`
-    cargo test ...                   looks whether there are such tests: the test command runs all that are not ignored
+    cargo test ...                   looks whether there are such tests: the test command runs all that are not ignored,
+                                     `.ci/run` short forms of those that are
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
 ATTRIBUTES = r"(?:[ \t]*(?:#\[[^\]]*\]|//[^\n]*)\n)*"
+STUDIES = "cargo test --tests -- --ignored"
 TEST = re.compile(rf"({ATTRIBUTES})[ \t]*fn (\w+)\(\)")
 
 
@@ -61,6 +63,8 @@ def main(words: list[str]) -> None:
     found = asked(words[1:])
     if not found:
         sys.exit(f"cargo {' '.join(words)}: there is no such test")
+    if any(test.is_ignored for test in found) and STUDIES not in (ROOT / ".ci/run").read_text(encoding="utf-8"):
+        sys.exit(f"cargo {' '.join(words)}: .ci/run no longer has `{STUDIES}`, which tries what the test command leaves out")
     print("\n".join(test.name for test in found))
 
 

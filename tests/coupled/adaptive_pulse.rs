@@ -83,7 +83,10 @@ fn difference<const K: usize>(a: &[[f64; K]], b: &[[f64; K]], inner: usize) -> f
 #[test]
 #[ignore = "a minute on a quiet machine"]
 fn a_pulse_on_steel_loses_little_to_adaptation() {
-    let (finer, uniform, adaptive) = (run(5, false), run(4, false), run(4, true));
+    // `CAV_STUDIES=short` tries the command of a study on grids half as fine, where blocks at the front are a larger share.
+    let is_short = std::env::var("CAV_STUDIES").is_ok_and(|how| how == "short");
+    let (levels, most) = if is_short { (3, 0.5) } else { (4, 1.0 / 3.0) };
+    let (finer, uniform, adaptive) = (run(levels + 1, false), run(levels, false), run(levels, true));
     let shares = [INNER, SAMPLES].map(|inner| {
         [
             difference(&adaptive.fluid, &uniform.fluid, inner)
@@ -100,5 +103,5 @@ fn a_pulse_on_steel_loses_little_to_adaptation() {
         adaptive.seconds, uniform.seconds, adaptive.steps, uniform.steps
     );
     assert_eq!(adaptive.steps, uniform.steps, "the same steps");
-    assert!(fluid < 0.1 && solid < 0.1 && updates < 1.0 / 3.0);
+    assert!(fluid < 0.1 && solid < 0.1 && updates < most);
 }

@@ -137,7 +137,7 @@ fn a_long_coupled_run_holds_no_more_and_more() {
     let pids = ["fluid", "solid"].map(|side| victim_of(&mut run, &out, side).unwrap());
     let mut seen = Vec::new();
     while run.try_wait().unwrap().is_none() {
-        std::thread::sleep(Duration::from_millis(500));
+        std::thread::sleep(Duration::from_millis((steps / 400).clamp(20, 500)));
         seen.extend(held(pids).map(|held| (begin.elapsed().as_secs_f64(), held)));
     }
     let output = run.wait_with_output().unwrap();
@@ -149,6 +149,7 @@ fn a_long_coupled_run_holds_no_more_and_more() {
     }
     // The last samples may be of a process that is ending.
     seen.truncate(seen.len().saturating_sub(4));
+    assert!(seen.len() >= 20, "{} samples of what the run holds are too few", seen.len());
     seen.iter()
         .step_by(seen.len().div_ceil(12).max(1))
         .for_each(|(time, held)| println!("{time:6.1} s  {held:?}"));

@@ -17,6 +17,11 @@ pub const KINDS: [Kind; 2] = [SHARP, MIXTURE];
 pub const SHARP: Kind = (Model::FiveEquation, Sharpening::Thinc);
 pub const MIXTURE: Kind = (Model::SaurelAbgrall, Sharpening::None);
 
+/// The rows of a study of minutes: all, or the first of them under `CAV_STUDIES=short`, which tries its command.
+pub fn rows<T>(all: &[T]) -> &[T] {
+    if std::env::var("CAV_STUDIES").is_ok_and(|how| how == "short") { &all[..1] } else { all }
+}
+
 pub const PERIODIC: [Boundary; 4] = [Boundary::Periodic; 4];
 pub const WALLS: [Boundary; 4] = [Boundary::Wall; 4];
 /// Axis, and walls elsewhere.

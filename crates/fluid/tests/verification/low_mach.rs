@@ -56,7 +56,7 @@ fn a_collapse_at_one_bar_keeps_its_time() {
 #[ignore = "minutes: a table"]
 fn a_table_of_collapses_at_one_bar() {
     let on_the_way = [(0.6, 0.831_14), (0.9, 0.512_94), (0.99, 0.255_27)];
-    for cells in [10, 20, 40] {
+    for &cells in rows(&[10, 20, 40]) {
         for riemann in [RiemannSolver::Hllc, RiemannSolver::HllcLowMach] {
             let mut fluid = bubble(riemann, cells);
             let start = fluid.bubble().equivalent_radius;

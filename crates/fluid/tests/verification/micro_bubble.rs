@@ -199,9 +199,9 @@ fn peak(cells: usize, [sigma, mu]: [f64; 2], start: f64) -> [f64; 3] {
 #[ignore = "minutes: docs/theory/surface-tension.md has its numbers"]
 fn study_of_bubbles_of_ten_micrometres() {
     let cases = [([0.0, 0.0], 1e3), ([0.0, 1e-3], 1e3), ([0.0728, 0.0], 1e3), ([0.0, 0.0], 754.0)];
-    for cells in [20, 40, 80] {
+    for &cells in rows(&[20, 40, 80]) {
         let mut plain = [[1.0; 3]; 2];
-        for (number, (terms, start)) in cases.into_iter().enumerate() {
+        for (number, &(terms, start)) in rows(&cases).iter().enumerate() {
             let found = [peak(cells, terms, start), gilmore(terms, start)];
             if number == 0 {
                 plain = found;

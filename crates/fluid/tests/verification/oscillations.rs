@@ -187,13 +187,13 @@ fn a_drop_has_lambs_frequency_and_a_viscous_bubble_prosperettis() {
 #[test]
 #[ignore = "a study of minutes: docs/theory/surface-tension.md has its numbers"]
 fn study_of_oscillations() {
-    for (name, kind) in [("sharp", SHARP), ("mixture", MIXTURE)] {
+    for &(name, kind) in rows(&[("sharp", SHARP), ("mixture", MIXTURE)]) {
         for inside in BOTH {
-            for viscosity in [0.0, VISCOSITY] {
+            for &viscosity in rows(&[0.0, VISCOSITY]) {
                 let exact = if viscosity > 0.0 { prosperetti(inside, viscosity) } else { [1.0, 0.0] };
                 for riemann in [RiemannSolver::Hllc, RiemannSolver::HllcLowMach] {
                     let is_default = kind == SHARP && riemann == RiemannSolver::Hllc;
-                    for &cells in if is_default { &[10, 20, 40][..] } else { &[10, 20] } {
+                    for &cells in rows(if is_default { &[10, 20, 40] } else { &[10, 20] }) {
                         let [frequency, damping] = oscillation(kind, inside, cells, riemann, viscosity);
                         eprintln!(
                             "{name} {inside:?} {viscosity} {riemann:?} {cells}: {frequency:.4}, {damping:+.4}, exact {exact:.4?}"

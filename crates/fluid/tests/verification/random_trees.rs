@@ -243,7 +243,11 @@ fn thousands_of_small_random_trees() {
 #[ignore = "minutes"]
 fn many_random_trees() {
     for kind in KINDS {
-        all_hold((kind, LARGE), 1000..1200, [1000, 2000]);
-        all_hold((kind, SMALL), 10_000..30_000, [12, 12]);
+        for large in rows(&[1000..1002, 1002..1200]) {
+            all_hold((kind, LARGE), large.clone(), [1000, 2000]);
+        }
+        for small in rows(&[10_000..10_020, 10_020..30_000]) {
+            all_hold((kind, SMALL), small.clone(), [12, 12]);
+        }
     }
 }

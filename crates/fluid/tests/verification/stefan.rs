@@ -244,13 +244,13 @@ fn vapour_beside_a_hot_wall_grows_as_stefan_says() {
 #[test]
 #[ignore = "minutes"]
 fn study_of_stefans_problem() {
-    for density in [6.0, 30.0] {
-        for law in [
+    for &density in rows(&[6.0, 30.0]) {
+        for &law in rows(&[
             EvaporationLaw::Equilibrium,
             EvaporationLaw::HertzKnudsen { accommodation: 1.0 },
             EvaporationLaw::HertzKnudsen { accommodation: 0.1 },
-        ] {
-            for (cells, bound) in [(32, 0.03), (64, 0.01)] {
+        ]) {
+            for &(cells, bound) in rows(&[(32, 0.03), (64, 0.01)]) {
                 let [grown, _] = stefan(cells, law, 873.0, density);
                 assert!(grown.abs() < bound, "{grown}");
             }

@@ -241,7 +241,7 @@ fn a_plane_front_of_superheated_liquid_boils_as_it_should() {
 #[ignore = "minutes"]
 fn study_of_superheated_fronts() {
     for law in [EvaporationLaw::Equilibrium, EvaporationLaw::HertzKnudsen { accommodation: 1.0 }] {
-        for cells in [32, 64, 128] {
+        for &cells in rows(&[32, 64, 128]) {
             plane(cells, law, 1.0);
         }
     }
@@ -250,7 +250,7 @@ fn study_of_superheated_fronts() {
 #[test]
 #[ignore = "minutes"]
 fn study_of_scrivens_bubbles() {
-    for (cells, most) in [(16, 0.04), (32, 0.02)] {
+    for &(cells, most) in rows(&[(16, 0.04), (32, 0.02)]) {
         let wrong = scriven(cells, EvaporationLaw::Equilibrium, 1.0);
         assert!(wrong.abs() < most, "{wrong}");
     }

@@ -83,10 +83,10 @@ fn aside(geometry: Geometry, cells: usize) -> [f64; 2] {
 #[test]
 #[ignore = "a study of minutes: docs/theory/surface-tension.md has its numbers"]
 fn study_of_balls_at_rest() {
-    for (name, kind) in [("sharp", SHARP), ("mixture", MIXTURE)] {
+    for &(name, kind) in rows(&[("sharp", SHARP), ("mixture", MIXTURE)]) {
         for geometry in [AXIAL, PLANAR] {
             for inside in [Phase::Gas, Phase::Liquid] {
-                for cells in [12, 16, 20, 32, 40] {
+                for &cells in rows(&[12, 16, 20, 32, 40]) {
                     let mut fluid =
                         ball(kind, geometry, inside, (cells, 2.0), aside(geometry, cells), |_| ());
                     let mut line = format!("{name} {geometry:?} {inside:?} {cells}:");
