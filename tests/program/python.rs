@@ -20,7 +20,9 @@ pub fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
         let is_of_package = ["CARGO_PKG_", "CARGO_BIN_", "CARGO_MANIFEST_", "CARGO_CRATE_", "CARGO_PRIMARY_"]
             .iter()
             .any(|start| text.starts_with(start));
-        if is_of_package || matches!(&*text, "LD_LIBRARY_PATH" | "CARGO" | "PYTHONPATH" | "PYTHONHOME") {
+        let misleads = ["LD_LIBRARY_PATH", "CARGO", "PYTHONPATH", "PYTHONHOME"].contains(&&*text);
+        // As images of containers have it: hundreds of interpreters would compile all that they import, each anew.
+        if is_of_package || misleads || text == "PYTHONDONTWRITEBYTECODE" {
             command.env_remove(&name);
         }
     }
@@ -78,7 +80,7 @@ fn environment(package: &Path, books: &Path) -> PathBuf {
         scope.spawn(|| pip(&["wheel", "--no-deps", "--wheel-dir", directory, "."]));
         let needed = needed(&package.join("pyproject.toml"));
         let books = books.to_str().expect("a path in UTF-8");
-        // Python compiles what it imports itself: a tenth of what is here.
+        // Python compiles what it imports itself, when it does so first: a tenth of what is here.
         pip(&[
             &["install", "--no-compile", "-r", books],
             &*needed.iter().map(String::as_str).collect::<Vec<_>>(),
