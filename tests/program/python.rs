@@ -20,9 +20,12 @@ pub fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
         let is_of_package = ["CARGO_PKG_", "CARGO_BIN_", "CARGO_MANIFEST_", "CARGO_CRATE_", "CARGO_PRIMARY_"]
             .iter()
             .any(|start| text.starts_with(start));
-        let misleads = ["LD_LIBRARY_PATH", "CARGO", "PYTHONPATH", "PYTHONHOME"].contains(&&*text);
-        // As images of containers have it: hundreds of interpreters would compile all that they import, each anew.
-        if is_of_package || misleads || text == "PYTHONDONTWRITEBYTECODE" {
+        let misleads = matches!(
+            &*text,
+            // The last one, as images of containers set it: hundreds of interpreters would each compile all that they import.
+            "LD_LIBRARY_PATH" | "CARGO" | "PYTHONPATH" | "PYTHONHOME" | "PYTHONDONTWRITEBYTECODE"
+        );
+        if is_of_package || misleads {
             command.env_remove(&name);
         }
     }
