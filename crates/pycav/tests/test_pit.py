@@ -9,12 +9,11 @@ import xarray
 from matplotlib.figure import Figure
 
 import pycav
+from pycav._numbers import rounded, si
 from pycav._report.damage import damage, work_on_solid
-from pycav.sweeps.measures import measures
-from pycav.plot import style
-from pycav.plot.style import rounded
 from pycav.plot.surface import Profile
 from pycav.result import open_run
+from pycav.sweeps.measures import measures
 
 CELLS = 128
 
@@ -177,7 +176,7 @@ def test_a_report_tells_the_damage_in_units_of_an_engineer(pitted, tmp_path):
     assert rows["plastic zone, strains above 0.2 %"][0] == f"{1e3 * summary['plastic_zone_depth_2e-3']:.3g} mm deep"
     work, times = (pitted.histories[f"solid/{name}"].to_numpy() for name in ("plastic_work", "time"))
     first, last = times[np.flatnonzero(work)[0]], times[np.flatnonzero(work == work[-1])[0]]
-    assert rows["flows from, to"][0] == f"{style.si(first, 's')}, {style.si(last, 's')}" and "yields from, to" not in rows
+    assert rows["flows from, to"][0] == f"{si(first, 's')}, {si(last, 's')}" and "yields from, to" not in rows
     assert rows["pit, depth"][0] == f"{1e6 * summary['pit_depth']:.3g} µm"
     assert rows["pit, volume"][0] == f"{1e9 * summary['pit_volume']:.3g} mm³"
     # Of a load that is not like the pulse the pulse's numbers say nothing.

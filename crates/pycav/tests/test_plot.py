@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import pycav
-from pycav.plot import flow, style
+from pycav._numbers import prefix
+from pycav.plot import flow
 
 WINDOW = (-0.04, 0.04, 0.03)
 
@@ -287,7 +288,7 @@ def test_the_run_turned_about_its_axis(result):
     (1e3, (1e-3, "k")), (0.0, (1.0, "")),
 ])
 def test_si_prefixes(value, shown):
-    scale, letter = style.prefix(value)
+    scale, letter = prefix(value)
     assert (pytest.approx(scale), letter) == shown
 
 

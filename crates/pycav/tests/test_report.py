@@ -22,7 +22,7 @@ from pycav._report.damage import LIKE
 from pycav._report.health import health, jumps, mismatch
 from pycav._report.numbers import key_numbers
 from pycav._report.scales import about, logarithmic, power
-from pycav.plot.style import rounded, si
+from pycav._numbers import rounded, si
 
 
 class Page(HTMLParser):

@@ -74,6 +74,10 @@ def test_summary_table_and_case(result):
     numbers = result.key_numbers
     assert numbers.loc["wall_pressure_peak", "value"] == result.histories["wall/pressure_axis"].max()
     assert list(numbers.columns) == ["value", "unit", "time"]
+    shown, html = repr(numbers), numbers._repr_html_()
+    megapascals = f"{numbers.loc['wall_pressure_peak', 'value'] * 1e-6:.4g} MPa"
+    assert megapascals in shown and megapascals in html and " µs" in shown and "NaN" not in shown and "e-0" not in shown
+    assert "value" in repr(numbers[numbers["unit"] == "Pa"]) and type(numbers.head()) is type(numbers["value"].to_frame())
     table = result.table
     peak = numbers.loc["von_mises_peak", "value"]
     assert peak == result.histories["solid/von_mises_max"].max()

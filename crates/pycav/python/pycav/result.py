@@ -294,13 +294,10 @@ class Result:
 
     @property
     def key_numbers(self) -> pandas.DataFrame:
-        """The peaks of the summary with their times: columns `value`, `unit`, `time` (s)."""
-        import pandas
+        """The peaks of the summary with their times: columns `value`, `unit`, `time` (s). Printed they are in MPa and µs."""
+        from ._key_numbers import KeyNumbers
 
-        known = [row for row in KEY_NUMBERS if self.summary.get(row[0]) is not None
-                 and not (row[0] == "yielded_volume_peak" and self.summary.get("yield_strength") is None)]
-        rows = {name: (self.summary[name], unit, self.summary.get(time)) for name, unit, time in known}
-        return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "unit", "time"])
+        return KeyNumbers.of(self.summary)
 
     @property
     def radius(self) -> float | None:
@@ -324,19 +321,6 @@ class Result:
     def __repr__(self) -> str:
         state = "completed" if self.summary.get("completed") else "not completed"
         return f"<pycav.Result {str(self.directory)!r}, {state}>"
-
-
-KEY_NUMBERS = [
-    ("wall_pressure_peak", "Pa", "wall_pressure_peak_time"),
-    ("wall_pressure_peak_interface", "Pa", "wall_pressure_peak_interface_time"),
-    ("wall_pressure_peak_anywhere", "Pa", "wall_pressure_peak_anywhere_time"),
-    ("wall_pressure_mean_peak", "Pa", "wall_pressure_mean_peak_time"),
-    ("wall_impulse", "Pa s", "wall_impulse_time"),
-    ("von_mises_peak", "Pa", "von_mises_peak_time"),
-    ("yielded_volume_peak", "m3", ""),
-    ("min_equivalent_radius", "m", "collapse_time"),
-    ("jet_velocity_peak", "m/s", "jet_velocity_peak_time"),
-]
 
 
 def open_run(run_dir: str | os.PathLike[str] | Result) -> Result:

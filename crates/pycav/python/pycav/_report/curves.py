@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..mesh import Floats
-from ..plot.style import prefix, rounded
+from .._numbers import prefix, rounded
 from ..plot.surface import DISPLACEMENT, Profile
 from ..result import Result
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..plot.style import percent, rounded, si
+from .._numbers import percent, rounded, si
 from ..plot.surface import has_pit
 from ..result import Result
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..mesh import Floats
 from ..plot.plastic import FIELD as STRAIN
-from ..plot.style import prefix
+from .._numbers import prefix
 from ..plot.waves import gradient
 from ..result import Result, Snapshot
 from . import scales

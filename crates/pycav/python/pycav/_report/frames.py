@@ -13,7 +13,7 @@ from PIL import Image
 
 from ..mesh import Box, Floats, Raster
 from ..plot.plastic import FIELD as STRAIN
-from ..plot.style import prefix, rounded
+from .._numbers import prefix, rounded
 from ..result import Result, Snapshot
 from .fields import Quantity, quantities
 from .scales import Scale, Steps

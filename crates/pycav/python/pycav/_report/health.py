@@ -10,7 +10,7 @@ import numpy as np
 
 from .._convergence import study_of
 from ..mesh import Floats
-from ..plot.style import percent, rounded, si
+from .._numbers import percent, rounded, si
 from ..plot.surface import STILL, has_pit
 from ..result import Result
 from .scales import RAISED

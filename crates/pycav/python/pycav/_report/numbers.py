@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from .._convergence import Convergence, study_of
-from ..plot.style import rounded, si
+from .._numbers import rounded, si
 from ..plot.surface import has_pit
 from ..result import Result
 

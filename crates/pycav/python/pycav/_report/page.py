@@ -11,7 +11,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from ..plot.style import percent, si
+from .._numbers import percent, si
 from ..result import Result
 from .curves import charts, packed, profile
 from .damage import damage

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import Floats
-from ..plot.style import number
+from .._numbers import number
 
 Steps = NDArray[np.uint8]
 

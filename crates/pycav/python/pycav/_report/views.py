@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh import Box, Mesh
-from ..plot.style import si
+from .._numbers import si
 from ..result import Result
 
 ACROSS, ABOVE, BELOW = 4.0, 4.5, 3.0

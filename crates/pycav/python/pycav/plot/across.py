@@ -13,7 +13,8 @@ from matplotlib.ticker import FuncFormatter
 from ..mesh import Floats
 from ..result import Snapshot
 from .section import Run, Section, Window, bar
-from .style import BLUE, INK, ORANGE, legend, number, prefix, signed_powers, styled
+from .._numbers import number, prefix
+from .style import BLUE, INK, ORANGE, legend, signed_powers, styled
 
 MEGA = 1e-6
 

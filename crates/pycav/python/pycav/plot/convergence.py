@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from .style import BLUE, INK, ORANGE, WIDTH, legend, number, percent, styled, ticks
+from .._numbers import number, percent
+from .style import BLUE, INK, ORANGE, WIDTH, legend, styled, ticks
 
 if TYPE_CHECKING:
     from .._convergence import Convergence

@@ -15,7 +15,8 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ..mesh import Floats
-from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, legend, number, part_of, prefix, rounded, styled, ticks
+from .._numbers import number, prefix, rounded
+from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, legend, part_of, styled, ticks
 
 STEEP, MOVES = 0.05, 0.1
 """Where a pit is marked: depth over radius, and `surface_still`."""

@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 from ..mesh import Floats, Raster
 from ..result import Snapshot, Snapshots, open_run
 from .section import MOST, Run, Section, Window, bar
-from .style import BLUE, INK, ORANGE, logarithmic, part_of, prefix, styled
+from .._numbers import prefix
+from .style import BLUE, INK, ORANGE, logarithmic, part_of, styled
 
 
 @styled

@@ -10,7 +10,8 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ..mesh import Floats
-from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, number, part_of, prefix, rounded, styled, ticks
+from .._numbers import number, prefix, rounded
+from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, part_of, styled, ticks
 
 SHOWN = [
     ("wall_pressure_peak", "wall pressure, largest", "Pa"), ("wall_impulse", "impulse on the wall", "Pa s"),

@@ -14,7 +14,8 @@ from ..result import Result, open_run
 from ..theory import Bubble
 from .across import along
 from .section import Run
-from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, prefix, styled, ticks
+from .._numbers import prefix
+from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, styled, ticks
 
 
 @styled

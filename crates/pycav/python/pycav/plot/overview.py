@@ -15,7 +15,8 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from ..mesh import Box, Floats, Raster
 from ..result import Snapshot
 from .section import MOST, Run, Section
-from .style import BLUE, GREY, INK, WHITE, number, si, styled
+from .._numbers import number, si
+from .style import BLUE, GREY, INK, WHITE, styled
 from .waves import gradient
 
 WIDEST, TALLEST = 7.0, 8.2  # inches

@@ -14,7 +14,8 @@ from matplotlib.ticker import FuncFormatter
 from ..mesh import Floats, Raster
 from .plastic import LABEL, LINES, colours, strain_of
 from .section import Run, Section, bar
-from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, number, prefix, si, styled
+from .._numbers import number, prefix, si
+from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, styled
 from .surface import Profile, has_pit
 
 LEFT, RIGHT, FOOT, HEAD, GAP, UPPER = 0.7, 0.2, 0.95, 0.3, 0.14, 1.9  # inches about and of the panels

@@ -15,7 +15,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from ..mesh import Box, Floats, Raster
 from ..result import Result, Snapshot, open_run
-from .style import GREY, INK, ORANGE, WHITE, WIDTH, number, prefix, si
+from .._numbers import number, prefix, si
+from .style import GREY, INK, ORANGE, WHITE, WIDTH
 
 MOST = 1400  # pixels of a raster along a side
 

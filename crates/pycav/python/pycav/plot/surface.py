@@ -11,7 +11,7 @@ import numpy as np
 from ..mesh import Floats
 from ..result import Result, open_run
 from .section import Run
-from .style import percent, rounded
+from .._numbers import percent, rounded
 
 FAR = 0.1
 """Share of the extent in r, the outermost, whose mean level is that far away (docs/reference/output-summary.md, *The surface of the solid*)."""

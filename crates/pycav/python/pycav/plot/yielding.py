@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 from ..mesh import Floats
 from .section import Run, Section, Window, bar
-from .style import INK, WHITE, number, styled
+from .._numbers import number
+from .style import INK, WHITE, styled
 
 MEGA = 1e-6
 
