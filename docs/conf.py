@@ -11,7 +11,7 @@ author = "the authors of cav"
 copyright = author
 html_title = "cav"
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "mathml", "docstrings", "outside", "sections"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "mathml", "docstrings", "outside", "pictures", "sections"]
 exclude_patterns = ["_build", "_ext", "_static", "check", "images", "requirements.txt"]
 source_suffix = {".md": "myst-nb"}
 
