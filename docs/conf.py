@@ -11,7 +11,7 @@ author = "the authors of cav"
 copyright = author
 html_title = "cav"
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "mathml", "docstrings", "outside", "sections"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "mathml", "docstrings", "outside", "pictures", "sections"]
 exclude_patterns = ["_build", "_ext", "_static", "check", "images", "requirements.txt"]
 source_suffix = {".md": "myst-nb"}
 
@@ -32,9 +32,10 @@ nb_output_stderr = "remove-warn"
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
 autodoc_preserve_defaults = True
-# Types that are names for something long are shown as they are written.
+# Types that are names for something long are shown as they are written, but for names that only the package's own files know.
 autodoc_type_aliases = {
-    name: name for name in ("ArrayLike", "NDArray", "Array", "Floats", "InitialState", "Run", "Window")}
+    **{name: name for name in ("ArrayLike", "NDArray", "InitialState", "Run", "Window")},
+    **{name: "NDArray[np.float64]" for name in ("Array", "Floats")}}
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 88
 default_role = "code"

@@ -1,4 +1,4 @@
-"""Docstrings as the package writes them.
+"""Docstrings and types as the package writes them.
 
 Code is what is indented after a paragraph, as in Markdown; bars are those of a magnitude; pages of the book are named by their files.
 """
@@ -7,8 +7,11 @@ from __future__ import annotations
 
 import re
 
+import pycav
+from pycav._native import Native
 from sphinx.application import Sphinx
 from sphinx.ext.napoleon import Config, NumpyDocstring
+from sphinx.util.inspect import TypeAliasForwardRef
 
 SECTIONS = Config(napoleon_google_docstring=False)
 PAGE = re.compile(r"docs/([\w/-]+)\.md")
@@ -47,6 +50,20 @@ def _process(app: Sphinx, what: str, name: str, obj: object, options: object, li
     lines[:] = as_rst(lines)
 
 
+def _types(app: Sphinx) -> None:
+    """Shows the attributes of what is wrapped with the types that they have for a caller: `float`, not `Native[float]`."""
+    for name in pycav.__all__:
+        shown = getattr(pycav, name)
+        for owner in getattr(shown, "__mro__", ()):
+            for attribute, found in vars(owner).items():
+                if isinstance(found, Native):
+                    held = re.sub(r"^Native\[(.*)\]$", r"\1", owner.__annotations__[attribute])
+                    shown.__annotations__[attribute] = app.config.autodoc_type_aliases.get(held, held)
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
+    # Within other types, as in `dict[str, Array]`, Sphinx 8 shows how it writes a name down itself.
+    TypeAliasForwardRef.__repr__ = lambda self: self.name  # type: ignore[method-assign]
+    app.connect("builder-inited", _types)
     app.connect("autodoc-process-docstring", _process)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

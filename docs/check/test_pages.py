@@ -1,7 +1,9 @@
-"""Pages stay short, sentences too, and tables say how they were made."""
+"""Pages stay short, sentences too, tables say how they were made, and the Python reference has every name."""
 
+import inspect
 import re
 
+import pycav
 import pytest
 
 import measured
@@ -12,6 +14,21 @@ PAGES = looked_at()
 
 # Words of how the program came about, which are nobody's business who reads about what it does.
 PROCESS = re.compile(r"\b(TODO|FIXME|XXX|acceptance criteri\w*|this session|issue #?\d+|pull request|founder|helpers?)\b", re.I)
+
+DIRECTIVE = re.compile(r"^\.\. (currentmodule|auto(?:module|class|function|exception|data)):: ([\w.]+)$", re.M)
+
+
+def in_the_reference() -> set[str]:
+    """The names of the package, from `pycav` on, whose docstrings the reference shows."""
+    found = set()
+    for path in (DOCS / "reference/python").glob("*.md"):
+        module = ""
+        for directive, name in DIRECTIVE.findall(path.read_text(encoding="utf-8")):
+            if directive.endswith("module"):
+                module = name
+            if directive != "currentmodule":
+                found.add(name if name.startswith("pycav.") else f"{module}.{name}")
+    return found
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -41,3 +58,9 @@ def test_sentences_are_told_apart() -> None:
     assert split("One ends (here). Two is by Celik et al. and goes on. `Three` has 1.5 words.") == [
         "One ends (here).", "Two is by Celik et al. and goes on.", "`Three` has 1.5 words."]
     assert length("p = 3 MPa, – and no more.") == 6
+
+
+def test_the_reference_has_every_public_name_of_the_package() -> None:
+    plots = [name for name, value in vars(pycav.plot).items() if inspect.isfunction(value) and not name.startswith("_")]
+    public = {f"pycav.{name}" for name in pycav.__all__} | {f"pycav.plot.{name}" for name in plots}
+    assert plots and not (missing := sorted(public - in_the_reference())), f"docs/reference/python lacks {', '.join(missing)}"

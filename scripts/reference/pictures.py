@@ -30,7 +30,7 @@ def draw(options):
 
 
 def snapshot(options, result):
-    figure = Figure(figsize=(10, 5), layout="constrained")
+    figure = Figure(figsize=(7.2, 3.6), layout="constrained")
     axes = figure.subplots(1, 2, sharey=True)
     for medium, column, name, rest in (("fluid", "p_Pa", "pressure", 1e5), ("solid", "sigma_zz_Pa", "stress_zz", -1e5)):
         exact = read(options.data / f"D/steel/snap2d_{medium}.csv")
@@ -45,7 +45,7 @@ def snapshot(options, result):
                                     cmap="RdBu_r", vmin=-60, vmax=60, shading="gouraud")
     for axis, title in zip(axes, ("cav", "exact")):
         axis.axhline(0.0, color="black", linewidth=0.8)
-        axis.set(title=title, xlabel="r, mm", aspect="equal")
+        axis.set(title=f"{title}, t = {TIME * 1e6:g} µs", xlabel="r, mm", xticks=range(0, 8, 2), aspect="equal")
     axes[0].set_ylabel("z, mm")
     figure.colorbar(shown, ax=axes, label="p' above, −σ_zz' below, Pa", shrink=0.7)
     figure.savefig(IMAGES / "verification_snapshot.png", dpi=110)

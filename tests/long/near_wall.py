@@ -125,6 +125,15 @@ def solve(options, pressure, wall, stand_off, cells):
     return found
 
 
+def power(value):
+    """A number as the page has it: 1.2·10⁻⁵ of 1.2e-05."""
+    if float(value) == 0.0:
+        return "0"
+    factor, _, exponent = value.partition("e")
+    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"10{raised}" if factor == "1" else f"{factor}·10{raised}"
+
+
 def row(pressure, wall, cells, found):
     """A line of the table: all stand-offs of a wall, a pressure and a resolution."""
     runs = len(found)
@@ -135,9 +144,10 @@ def row(pressure, wall, cells, found):
     updates = max((s["fixups"]["redone"] / s["cell_updates"]["fluid"] for s in ended), default=0.0)
     drift = max((f.get("gas_mass_drift") or 0.0 for _, f in found if not f["code"]), default=0.0)
     seconds = sum(s["wall_seconds"] for s in ended)
-    return (f"| {wall} | {pressure:.0e} | {cells} | {runs - len(failed)} of {runs}{': not ' if failed else ''}{', '.join(failed)} "
-            f"| {most['redone']} ({updates:.1e}) | {most['floored']} ({share:.1e}) | {most['expanded_cells']} | {most['lifted_phases']} "
-            f"| {drift:.0e} | {seconds:.0f} s |")
+    rare = f"; floored {most['floored']}, energy {power(f'{share:.1e}')}" if most["floored"] else ""
+    rare += f"; lifted phases {most['lifted_phases']}" if most["lifted_phases"] else ""
+    return (f"| {wall} | {power(f'{pressure:.0e}')} | {cells} | {runs - len(failed)}/{runs}{': not ' if failed else ''}{', '.join(failed)}{rare} "
+            f"| {most['redone']} ({power(f'{updates:.1e}')}) | {most['expanded_cells']} | {power(f'{drift:.0e}') if drift else ''} | {seconds:.0f} s |")
 
 
 def load(stand_off, cells, summary):
@@ -184,8 +194,8 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     if options.load:
         return 1 if loads(options) else 0
-    print("| wall | pressure, Pa | cells per radius | end | redone, most of a run (of its updates) | floored (energy) | expanded | lifted phases "
-          "| gas mass, change | time |\n|---|---|---|---|---|---|---|---|---|---|")
+    print("| wall | pressure, Pa | cells per radius | ended | redone, most of a run (of its updates) | expanded "
+          "| gas mass, change | time |\n|---|---|---|---|---|---|---|---|")
     worst = 0
     for cells in options.cells:
         for wall in options.walls:

@@ -112,6 +112,7 @@ class Material(NamedTuple):
     """A material of the library."""
 
     name: str
+    """What cases call it by."""
     density: float
     """kg/m³"""
     c1: float

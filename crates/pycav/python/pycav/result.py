@@ -64,7 +64,7 @@ class Snapshot:
         grid.field_data["time"] = [self.time]
         return grid
 
-    def geometry(self) -> tuple[Floats, NDArray[np.int64]]:
+    def geometry(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Points (z, r, 0), m, shape (points, 3), and the four points of each cell, shape (cells, 4)."""
         return self._series.geometry(self.step)
 
@@ -92,7 +92,7 @@ class Snapshots(Sequence[Snapshot]):
         self.medium = medium
         with h5py.File(path, "r") as file:
             steps = file["VTKHDF/Steps"]
-            self.times: Floats = np.asarray(steps["Values"][: int(steps.attrs["NSteps"])], float)
+            self.times: NDArray[np.float64] = np.asarray(steps["Values"][: int(steps.attrs["NSteps"])], float)
             """s"""
             self.fields: list[str] = list(file["VTKHDF/CellData"])
             self.units: dict[str, str] = {

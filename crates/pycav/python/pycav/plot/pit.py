@@ -30,7 +30,7 @@ def pit(
     run: Run, time: float | None = None, reach: float | None = None, *, beside: Sequence[Run] = (),
     names: Sequence[str] | None = None, strongest: tuple[float, float] | None = None,
 ) -> Figure:
-    """The pit. Above the surface's depth below its level far away, stretched; below the plastic strain, at true scale.
+    """The pit: above, the surface's depth below its level far away, stretched; below, the plastic strain at true scale.
 
     The axis says how much is stretched. The strain is that of the nearest snapshot and hangs from the deformed surface; lines are
     at 1e-4 and 2e-3. At the end of a run, depth, radius at half of it, rim and volume are those of `result.summary`, and where

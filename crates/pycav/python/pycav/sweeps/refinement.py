@@ -22,9 +22,13 @@ class Bend(NamedTuple):
     """An interval between two neighbouring values of a parameter, and how far off a straight line is within it."""
 
     axis: str
+    """The parameter."""
     low: float
+    """Where the interval begins."""
     high: float
+    """Where it ends."""
     middle: float
+    """The value in between that `refine` runs."""
     error: float
     """Of linear interpolation, over the quantity's range in the map."""
 
