@@ -56,3 +56,9 @@ def solve(options, name, case, changes=(), *more, threads=None):
             FAILED.append(done.returncode)
             return None, done.returncode
     return pycav.open(directory), 0
+
+
+def fixed(value, form):
+    """A number in a format such as "+.2f"; what is rounded to zero has no sign."""
+    text = format(value, form)
+    return text.lstrip("+-") if float(text) == 0.0 else text

@@ -15,6 +15,8 @@ from pathlib import Path
 import numpy as np
 import pycav
 
+from program import fixed
+
 ROOT = Path(__file__).resolve().parents[1]
 REACH = 12.8  # of the solid, over the load's radius: 4 x 4 coarsest blocks with 20 cells to it, 2 x 2 with 10
 
@@ -122,7 +124,7 @@ def loads(options):
     for name, solid, amplitude, radius, duration, expected in LOADS[: options.first]:
         summary = pit(options, solid, amplitude, radius, duration)
         found = 1e6 * summary["pit_depth"], 1e6 * (summary["pit_radius"] or np.nan), summary["plastic_strain_peak"]
-        pairs = " | ".join(f"{a:.3g} / {b:.3g} ({100 * (a / b - 1):+.1f} %)" for a, b in zip(found, expected))
+        pairs = " | ".join(f"{a:.3g} / {b:.3g} ({fixed(100 * (a / b - 1), '+.1f')} %)" for a, b in zip(found, expected))
         print(f"| {name} | {1e-9 * amplitude:g} | {1e6 * radius:g} | {1e6 * duration:g} | {pairs} |", flush=True)
 
 

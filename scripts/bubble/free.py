@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from program import fixed
+
 from .runs import run
 
 RADIUS = 1e-3
@@ -48,7 +50,7 @@ def measure(options, case, label, what, cells, shift=0.0, **parts):
     later = (times > max(found / scale, time)) & (times <= t[-1])
     errors = [rms(times[part], radii[part] - np.interp(times[part], t, r / RADIUS)) for part in (until, later)]
     fixups = result.summary["fixups"]
-    print(f"| {name} | {what} | {100 * (found / scale / time - 1):+.2f} % "
+    print(f"| {name} | {what} | {fixed(100 * (found / scale / time - 1), '+.2f')} % "
           f"| {np.cbrt(2.0 * 0.75 * volume / np.pi) / radius:.4f} ({smallest:.4f}) "
           f"| {100 * errors[0]:.2f}, {100 * errors[1]:.2f} | {fixups['redone']}, {fixups['floored']} |", flush=True)
 

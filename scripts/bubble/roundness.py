@@ -3,6 +3,8 @@
 import numpy as np
 from pycav.mesh import Raster
 
+from program import fixed
+
 from .free import CASES, RADIUS, exact
 from .runs import box_side, run
 
@@ -63,6 +65,6 @@ def table(options):
                 z, r, fraction = gas(result.result.fluid.at(time), max(1.6 * radius, 4.0 / cells) * RADIUS)
                 found = surface(z, r, fraction)
                 mean = np.average(found, weights=np.sin(ANGLES))
-                low, high = found.min() / mean - 1, found.max() / mean - 1
-                print(f"| {name} | {cells} | {mean / RADIUS:.3f} | {100 * (aspect(z, r, fraction) - 1):+.2f} % "
-                      f"| {100 * (found[0] / found[-1] - 1):+.1f} % | {100 * low:+.1f} %, {100 * high:+.1f} % |", flush=True)
+                low, high = (fixed(100 * (end / mean - 1), "+.1f") for end in (found.min(), found.max()))
+                print(f"| {name} | {cells} | {mean / RADIUS:.3f} | {fixed(100 * (aspect(z, r, fraction) - 1), '+.2f')} % "
+                      f"| {fixed(100 * (found[0] / found[-1] - 1), '+.1f')} % | {low} %, {high} % |", flush=True)

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from program import fixed
+
 from .runs import rayleigh_time, run
 
 RADIUS = 1e-3
@@ -57,5 +59,5 @@ def table(options):
             if near is None or wide is None:
                 print(f"| {pressure:.0e} Pa | {setting[0]} | failed | | | | |", flush=True)
                 continue
-            off = [f"{100 * (a / b - 1):+.2f} %" if b else "" for a, b in zip(near, wide)]
+            off = [f"{fixed(100 * (a / b - 1), '+.2f')} %" if b else "" for a, b in zip(near, wide)]
             print(f"| {pressure:.0e} Pa | {setting[0]} | " + " | ".join(off) + " |", flush=True)

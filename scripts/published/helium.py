@@ -3,6 +3,8 @@
 import numpy as np
 from pycav.mesh import Raster
 
+from program import fixed
+
 from .runs import run
 
 AMBIENT, SHOCKED = 101325.0, 159060.0  # Pa
@@ -59,4 +61,4 @@ def table(options):
         within = (time >= begin) & (time <= end) & np.isfinite(place)
         speed = np.polyfit(time[within], place[within], 1)[0]
         print(f"| {name} | {measured} m/s | {f'{computed} m/s' if computed else ''} | {speed:.0f} m/s "
-              f"| {100 * (speed / measured - 1):+.0f} % |")
+              f"| {fixed(100 * (speed / measured - 1), '+.0f')} % |")

@@ -7,6 +7,7 @@ from pycav.theory import RAYLEIGH_FACTOR
 from scipy.special import beta
 
 from bubble.runs import rayleigh_time
+from program import fixed
 
 from .runs import run
 
@@ -63,7 +64,7 @@ def table(options):
         time, jet, tip, radius = found
         ratio, known = time / free, 1 + LONGER / stand_off
         rows.append((stand_off, ratio, jet / SCALE, tip / SCALE))
-        theory = f"{known:.4f} | {100 * (ratio / known - 1):+.1f} %" if stand_off > 1.0 else "|"
+        theory = f"{known:.4f} | {fixed(100 * (ratio / known - 1), '+.1f')} %" if stand_off > 1.0 else "|"
         law = f"{SCALE * supponen(stand_off):.0f} m/s" if stand_off >= 1.5 else ""
         potential = f"{SCALE * PLESSET_CHAPMAN[stand_off]:.0f} m/s" if stand_off in PLESSET_CHAPMAN else ""
         print(f"| {stand_off} | {ratio:.4f} | {theory} | {jet:.0f} m/s | {tip:.0f} m/s "

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from program import fixed
+
 from .runs import BLOCK, STEEL, Box, Problem, elastic, run, sound, water
 from .series import misfit, read
 
@@ -76,7 +78,7 @@ def materials(options):
             # The receiver is above the start: it sees only what comes back.
             back = extreme(result.probe("above", "pressure")[1][0]) / AMPLITUDE
             on = extreme(-result.probe("below", "stress_zz")[1][0]) / AMPLITUDE
-            print(f"| {name} | {pressure:.0e} Pa | {back:.4f} ({exact:.4f}) | {on:.4f} ({1 + exact:.4f}) |", flush=True)
+            print(f"| {name} | {pressure:.0e} Pa | {fixed(back, '.4f')} ({exact:.4f}) | {on:.4f} ({1 + exact:.4f}) |", flush=True)
 
 
 # Angles below the first critical one of steel, 14.2 degrees: V is real, and nothing in the solid runs ahead of the contact.

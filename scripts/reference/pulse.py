@@ -4,6 +4,8 @@ import re
 
 import numpy as np
 
+from program import fixed
+
 from .runs import Box, Problem, elastic, run, water
 from .series import first_half, misfit, order, read, stems
 
@@ -148,7 +150,8 @@ def arrivals(options):
     result, _ = solve(options, cells, *FAR)
     print("| receiver | exact | ours | difference |\n|---|---|---|---|")
     for stem, wanted, found in precursors(options, result, 1.0):
-        print(f"| {stem.replace('_', ' ')} | {wanted * 1e6:.4f} µs | {found * 1e6:.4f} µs | {100 * (found / wanted - 1):+.3f} % |")
+        off = fixed(100 * (found / wanted - 1), "+.3f")
+        print(f"| {stem.replace('_', ' ')} | {wanted * 1e6:.4f} µs | {found * 1e6:.4f} µs | {off} % |")
 
 
 # What the bubble of `beside_bubble` holds, Pa.

@@ -24,6 +24,6 @@ from .yielding import yield_function
 
 __all__ = [
     "Window", "close_up", "convergence", "damage_map", "default_time", "grid_levels", "histories", "interface_continuity", "overview",
-    "pathlines", "pit", "pit_map", "plastic_strain", "schlieren", "space_time", "stand_off_map", "streamlines", "volume",
+    "pathlines", "pit", "pit_map", "plastic_strain", "schlieren", "space_time", "stand_off_map", "streamlines", "sweep_lines", "volume",
     "yield_function",
 ]
