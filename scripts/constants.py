@@ -42,9 +42,9 @@ RUNS = {
 KEYS = ("collapse_time", "wall_pressure_peak", "von_mises_peak")
 
 
-def definition(constant, sources=ROOT):
+def definition(constant):
     """The file of a constant, what it says, and where in it the value is."""
-    file = sources / FILES[constant]
+    file = ROOT / FILES[constant]
     text = file.read_text()
     found = list(re.finditer(rf"(?<=const {constant}: f64 = )[^;]+(?=;)", text))
     if len(found) != 1:
@@ -55,14 +55,17 @@ def definition(constant, sources=ROOT):
 def build(options, constant=None, factor=1.0):
     """The program with a constant times `factor`: it is left in the directory of the runs."""
     sources = options.out / "sources"
-    shutil.rmtree(sources, ignore_errors=True)
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True, text=True).stdout
-    for name in filter(None, listed.split("\0")):
-        (sources / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(ROOT / name, sources / name)
+    wanted = {name: (ROOT / name).read_bytes() for name in filter(None, listed.split("\0"))}
     if constant:
-        file, text, value = definition(constant, sources)
-        file.write_text(f"{text[:value.start()]}{factor} * ({value[0]}){text[value.end():]}")
+        _, text, value = definition(constant)
+        wanted[FILES[constant]] = f"{text[:value.start()]}{factor} * ({value[0]}){text[value.end():]}".encode()
+    for name, content in wanted.items():
+        file = sources / name
+        # By the time of its last change cargo sees that a file has another constant, or its own one again.
+        if not file.exists() or file.read_bytes() != content:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_bytes(content)
     target = options.out / "target"
     environment = os.environ | {"CARGO_TARGET_DIR": str(target)}
     subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=sources, env=environment, check=True)
