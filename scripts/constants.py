@@ -20,7 +20,10 @@ from pathlib import Path
 import numpy as np
 import pycav
 
-ROOT = Path(__file__).resolve().parents[1]
+import program
+from program import ROOT, fixed
+from reference.series import misfit
+
 FILES = {
     "WEAK": "crates/fluid/src/reconstruction/dispersion.rs",
     "ACOUSTIC": "crates/fluid/src/reconstruction/dispersion.rs",
@@ -77,8 +80,8 @@ def results(options, cav, name):
     found = {}
     for run, (case, changes) in RUNS.items():
         out = options.out / name / run
-        sets = [part for key, value in changes.items() for part in ("--set", f"{key}={value}")]
-        subprocess.run([cav, "run", ROOT / f"cases/{case}.toml", "--quiet", "--force", "--out", out, *sets], check=True)
+        settings = [f"{key}={value}" for key, value in changes.items()]
+        subprocess.run(program.command(cav, ROOT / f"cases/{case}.toml", out, settings), check=True)
         result = pycav.open(out)
         if run == "pulse":
             found[run] = receivers(result)
@@ -96,13 +99,9 @@ def receivers(result):
     return found
 
 
-def misfit(own, base):
+def largest_misfit(own, base):
     """The largest difference of a receiver in L2, of its own size."""
-    found = []
-    for name, (t, values) in base.items():
-        times, changed = own[name]
-        found.append(np.linalg.norm(np.interp(t, times, changed) - values) / np.linalg.norm(values))
-    return max(found)
+    return max(misfit(*own[name], *receiver) for name, receiver in base.items())
 
 
 def main():
@@ -125,8 +124,8 @@ def main():
         for word, factor in (("half", 0.5), ("twice", 2.0)):
             own = results(options, build(options, constant, factor), f"{constant} {word}")
             change = {run: [100 * (a / b - 1) for a, b in zip(own[run], base[run])] for run in ("mc", "minmod")}
-            cells = [f"{mc:+.3f} ({minmod:+.3f})" for mc, minmod in zip(change["mc"], change["minmod"])]
-            print(f"| `{constant}` | {word} | {' | '.join(cells)} | {100 * misfit(own['pulse'], base['pulse']):.2f} |", flush=True)
+            cells = [f"{fixed(mc, '+.3f')} ({fixed(minmod, '+.3f')})" for mc, minmod in zip(change["mc"], change["minmod"])]
+            print(f"| `{constant}` | {word} | {' | '.join(cells)} | {100 * largest_misfit(own['pulse'], base['pulse']):.2f} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -6,10 +6,9 @@
 Runs a sound pulse of few and of more steps in QEMU's user mode (`qemu-x86_64`, Debian's qemu-user, 7.2 or newer), which has AVX2
 but not AVX-512: one medium alone, uniform grid, one thread. QEMU logs each block of instructions that it translates, and each that
 it executes. What the longer run has more is that of the steps between. An instruction counts as many numbers as it works on: four
-in a register of 32 bytes. Prints Markdown; needs no package.
+in a register of 32 bytes. Prints Markdown. Needs scripts/requirements.txt.
 """
 
-import argparse
 import json
 import os
 import re
@@ -20,7 +19,7 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+import program
 
 CASE = """
 [time]
@@ -142,9 +141,9 @@ def run(options, name, end, directory):
     case, log = directory / f"{name}.toml", directory / "log"
     case.write_text(CASE.format(end=end, levels=options.levels, **RUNS[name]))
     os.mkfifo(log)
-    command = ["qemu-x86_64", "-cpu", "max", "-d", "in_asm,exec,nochain", "-dfilter", f"{BASE:#x}+{TEXT:#x}", "-D", log,
-               options.cav, "run", case, "--in-process", "--quiet", "--force", "--out", directory / "run"]
-    with subprocess.Popen([str(part) for part in command], env=os.environ | {"RAYON_NUM_THREADS": "1"}) as running:
+    command = ["qemu-x86_64", "-cpu", "max", "-d", "in_asm,exec,nochain", "-dfilter", f"{BASE:#x}+{TEXT:#x}", "-D", str(log),
+               *program.command(options.cav, case, directory / "run", (), "--in-process")]
+    with subprocess.Popen(command, env=os.environ | {"RAYON_NUM_THREADS": "1"}) as running:
         with log.open(errors="replace") as lines:
             blocks, times = executed(lines)
     log.unlink()
@@ -175,15 +174,14 @@ def row(name, counts):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = program.parser(__doc__)
     parser.add_argument("which", nargs="*", metavar="fluid | exact | solid", help="what is counted, by default all")
-    parser.add_argument("--cav", type=Path, default=ROOT / "target/release/cav", help="the program")
     parser.add_argument("--levels", type=int, default=4, help="levels: 16 2^levels cells each way")
     parser.add_argument("--functions", type=int, default=6, help="how many functions have a row of their own")
     options = parser.parse_args()
     if unknown := [name for name in options.which if name not in RUNS]:
         parser.error(f"{unknown[0]}: none of {', '.join(RUNS)}")
-    print("| | " + " | ".join(COLUMNS) + " |\n|---" * 1 + "|---" * len(COLUMNS) + "|")
+    print("| | " + " | ".join(COLUMNS) + " |\n" + "|---" * (len(COLUMNS) + 1) + "|")
     for name in options.which or RUNS:
         functions = per_cell(options, name)
         row(f"**{name}**", {what: sum(counts[what] for counts in functions.values()) for what in COLUMNS})

@@ -3,14 +3,13 @@
 
     python3 scripts/memory.py [rest] [collapse] [load] [--coarser N]
 
-- rest: the figures' fluid on uniform grids of 1024 x 1024 and 512 x 512 cells, some steps, no snapshots, both two-phase models.
+- rest: the figures' fluid on uniform grids of 1024 x 1024 and 512 x 512 cells, some steps, no snapshot but the last, both two-phase models.
 - collapse: its first 8 us above a rigid wall, adaptive, with its output, levels with steps of their own.
 - load: steel under a pressure pulse, adaptive, six snapshots, with levels' own steps and without.
 
-Peaks are those that the operating system tells of a process. Prints Markdown; needs no package.
+Peaks are those that the operating system tells of a process. Prints Markdown. Needs scripts/requirements.txt.
 """
 
-import argparse
 import json
 import os
 import subprocess
@@ -18,8 +17,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
-FIGURES = (ROOT / "cases/dickopp2012.toml").read_text()
+import program
+
+FIGURES = (program.ROOT / "cases/dickopp2012.toml").read_text()
 LOAD = """
 [time]
 end = 4e-6
@@ -58,8 +58,7 @@ def peak(cav, case, changes, directory):
     """Bytes at the most, and the most cells, of a run."""
     path, out = directory / "case.toml", directory / "run"
     path.write_text(case)
-    sets = [part for key, value in changes.items() for part in ("--set", f"{key}={value}")]
-    command = [str(cav), "run", str(path), "--in-process", "--quiet", "--force", "--out", str(out), *sets]
+    command = program.command(cav, path, out, [f"{key}={value}" for key, value in changes.items()], "--in-process")
     process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
@@ -70,9 +69,8 @@ def peak(cav, case, changes, directory):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = program.parser(__doc__)
     parser.add_argument("which", nargs="*", metavar="rest | collapse | load", help="what is run, by default all")
-    parser.add_argument("--cav", type=Path, default=ROOT / "target/release/cav", help="the program")
     parser.add_argument("--coarser", type=int, default=0, help="so many levels less")
     options = parser.parse_args()
     if unknown := [name for name in options.which if name not in RUNS]:
