@@ -102,7 +102,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let components = state.components();
         let mut solver = Self {
             next: state.clone(),
-            levels: LevelSteps::new(components, model.registered(), mesh.blocks()),
+            levels: LevelSteps::new(model.registered(), mesh.blocks()),
             reports: Reports::new(mesh.blocks()),
             interface: Interface::new(&mesh, M::INTERFACE, model.has_interface()),
             adapting: Adapting {
