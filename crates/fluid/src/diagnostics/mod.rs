@@ -5,7 +5,7 @@ pub(crate) mod bubbles;
 pub(crate) mod ledger;
 
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
-use mesh::{CellField, CellLevels, CellSnapshot, Field, Padded, limited_differences};
+use mesh::{CellField, CellLevels, CellSnapshot, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
 use crate::components::is_component;
@@ -113,14 +113,14 @@ fn own_cells<const N: usize>() -> impl Iterator<Item = usize> {
 impl<const N: usize> FluidSolver<N> {
     /// The primitive variables of one cell.
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> Primitive {
-        self.cell_of(self.state(), slot, i, j)
+        self.cell_of(self.block(slot), i, j)
     }
 
-    /// [`FluidSolver::cell`] of a field.
-    pub(crate) fn cell_of(&self, field: &Field, slot: usize, i: usize, j: usize) -> Primitive {
-        let u: [f64; COUNT] = std::array::from_fn(|c| field.component(slot, c)[j * N + i]);
-        let gas = self.model().scheme.phases.gas_component();
-        let gas = gas.map_or(0.0, |gas| field.component(slot, gas)[j * N + i]);
+    /// [`FluidSolver::cell`] of a block's components.
+    pub(crate) fn cell_of(&self, block: &[f64], i: usize, j: usize) -> Primitive {
+        let of = |component: usize| block[component * N * N + j * N + i];
+        let u: [f64; COUNT] = std::array::from_fn(of);
+        let gas = self.model().scheme.phases.gas_component().map_or(0.0, of);
         Primitive::from_conserved(u, gas, &self.model().mixture)
     }
 
@@ -133,9 +133,9 @@ impl<const N: usize> FluidSolver<N> {
             for i in 0..N {
                 let z = self.mesh().centre(id, i, 0)[0];
                 let (rho, momentum, phi) = (
-                    self.state().component(slot, RHO)[i],
-                    self.state().component(slot, MOMENTUM_Z)[i],
-                    self.state().component(slot, PHI)[i],
+                    self.component(slot, RHO)[i],
+                    self.component(slot, MOMENTUM_Z)[i],
+                    self.component(slot, PHI)[i],
                 );
                 if phi < 0.5 {
                     state.jet_velocity = state.jet_velocity.max(-momentum / rho);
@@ -214,7 +214,7 @@ impl<const N: usize> FluidSolver<N> {
             for j in 0..N {
                 let volume = self.mesh().volume(*id, j);
                 for (sum, component) in block.iter_mut().zip(components) {
-                    let row = &self.state().component(slot, *component)[j * N..(j + 1) * N];
+                    let row = &self.component(slot, *component)[j * N..(j + 1) * N];
                     *sum += volume * row.iter().sum::<f64>();
                 }
             }
@@ -238,7 +238,7 @@ impl<const N: usize> FluidSolver<N> {
     pub fn carried_masses(&self) -> impl Iterator<Item = (&'static str, f64)> {
         let leaves = self.mesh().tree().leaves();
         let of_block = move |component: usize, slot: usize| {
-            let rows = self.state().component(slot, component).chunks_exact(N).enumerate();
+            let rows = self.component(slot, component).chunks_exact(N).enumerate();
             rows.map(|(j, row)| self.mesh().volume(leaves[slot], j) * row.iter().sum::<f64>()).sum::<f64>()
         };
         let carried = self.model().carried.iter().zip(self.model().carried_components());

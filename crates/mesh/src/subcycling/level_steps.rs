@@ -157,6 +157,20 @@ impl<const N: usize> LevelSteps<N> {
         (&self.clock, &mut self.registers)
     }
 
+    /// Whether a block is at present in the field of the new states: nobody reads it within its level's step, and the fields have been
+    /// exchanged meanwhile.
+    pub fn is_aside(&self, mesh: &Mesh<N>, slot: usize) -> bool {
+        let clock = &self.clock;
+        if clock.groups() < 2 || clock.is_over() {
+            return false;
+        }
+        let group = clock.group_of(mesh, slot);
+        group != clock.finest()
+            && !self.follows[slot]
+            && self.is_exchanged[group]
+            && clock.end(group) > clock.now()
+    }
+
     /// Takes what the blocks of a group have passed in their step into the means over the coarser group's step.
     pub fn gather(&mut self, mesh: &Mesh<N>, group: usize) {
         if group == 0 {

@@ -85,7 +85,7 @@ pub const CELL_FIELDS: &[CellField<Snapshot>] = &[
 impl<const N: usize> SolidSolver<N> {
     /// The state of one cell.
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> ElasticState {
-        ElasticState::from_array(std::array::from_fn(|c| self.state().component(slot, c)[j * N + i]))
+        ElasticState::from_array(std::array::from_fn(|c| self.component(slot, c)[j * N + i]))
     }
 
     /// The largest von Mises stress and where it is.
@@ -154,21 +154,21 @@ impl<const N: usize> SolidSolver<N> {
         }
         let [s_zz, s_rr] = S_NORMAL;
         for slot in 0..self.mesh().blocks() {
-            let [v_z, v_r] = [V_Z, V_R].map(|component| self.state().component(slot, component));
+            let [v_z, v_r] = [V_Z, V_R].map(|component| self.component(slot, component));
             snapshot.velocity.extend(v_z.iter().zip(v_r).map(|(v_z, v_r)| [*v_z, *v_r]));
             let Snapshot { stress_zz, stress_zr, stress_rr, stress_phiphi, .. } = &mut snapshot;
             for (values, component) in
                 [(stress_zz, s_zz), (stress_zr, S_ZR), (stress_rr, s_rr), (stress_phiphi, S_PHIPHI)]
             {
-                values.extend_from_slice(self.state().component(slot, component));
+                values.extend_from_slice(self.component(slot, component));
             }
             for (number, component) in self.model().components.iter().enumerate() {
-                (component.put)(&mut snapshot, self.state().component(slot, COUNT + number));
+                (component.put)(&mut snapshot, self.component(slot, COUNT + number));
             }
             if let Some(following) = &self.model().following {
                 let follower = following.of_block(slot);
                 snapshot.plastic_strain_rate.extend(&follower.rates.cells);
-                let moved: Vec<f64> = follower.displacement(self.time(), self.state().block(slot)).collect();
+                let moved: Vec<f64> = follower.displacement(self.time(), self.block(slot)).collect();
                 let (u_z, u_r) = moved.split_at(N * N);
                 snapshot.displacement.extend(u_z.iter().zip(u_r).map(|(u_z, u_r)| [*u_z, *u_r]));
             }
