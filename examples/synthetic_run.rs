@@ -61,11 +61,11 @@ impl Mesh {
 }
 
 /// A field as the program writes it.
-fn spec<S>(fields: &[mesh::CellField<S>], name: &str) -> FieldSpec<'static> {
+fn spec<S: mesh::CellSnapshot>(fields: &[mesh::CellField<S>], name: &str) -> FieldSpec<'static> {
     let field = fields.iter().find(|field| field.name == name).expect("a field of the program");
     let storage = if name == "level" { Storage::U8 } else { Storage::F64 };
-    let mesh::CellField { name, components, unit, description, .. } = *field;
-    FieldSpec { name, components, unit, description, storage }
+    let mesh::CellField { name, unit, description, .. } = *field;
+    FieldSpec { name, components: field.components(), unit, description, storage }
 }
 
 fn main() -> Result<(), OutputError> {

@@ -18,10 +18,11 @@ const NUMBER: f64 = size_of::<f64>() as f64;
 const OF_BLOCKS: f64 = 1.5;
 /// What grows has more than it needs: rows an eighth, and what moves leaves holes behind.
 const SPARE: f64 = 1.25;
-/// Numbers a cell in a snapshot: density, pressure, velocity, gas fraction, |∇ρ|, level.
-const FLUID_VALUES: f64 = 8.0;
-/// The same of the solid: velocity, four stresses, von Mises stress, yield function, level.
-const SOLID_VALUES: f64 = 10.0;
+/// Numbers a cell that a snapshot holds: density, pressure, two of velocity, gas fraction, |∇ρ|. The others are made when they are
+/// written.
+const FLUID_VALUES: f64 = 6.0;
+/// The same of the solid: two of velocity, four stresses.
+const SOLID_VALUES: f64 = 6.0;
 /// What of a row of the interface's history is in memory, in rows: grid, last and first state, map, row, buffer, batch.
 const ROWS: f64 = 11.0;
 
@@ -37,9 +38,9 @@ struct Numbers {
 }
 
 fn of_solid(solid: &SolidCase) -> Numbers {
-    // Plastic strain, and temperature where heat matters; once the rate of the strain and two of displacement (three in a snapshot).
+    // Plastic strain, and temperature where heat matters; once the rate of the strain and two of displacement.
     let own = solid.plasticity.as_ref().map_or(0, |law| 1 + usize::from(law.softening().is_some()));
-    let (once, values) = if own > 0 { (3, SOLID_VALUES + own as f64 + 4.0) } else { (0, SOLID_VALUES) };
+    let (once, values) = if own > 0 { (3, SOLID_VALUES + own as f64 + 3.0) } else { (0, SOLID_VALUES) };
     Numbers { components: 6 + own, once, registered: 4, values }
 }
 
@@ -66,8 +67,8 @@ impl Numbers {
         // While a grid adapts they are there as they were, as they are and on the new grid.
         let once = (if adapts { 3 } else { 1 } * self.once) as f64;
         let present = 2.0 * fields + once + register + OF_BLOCKS;
-        // Levels that step by themselves have a third field, and means of what passed between them.
-        let local = if adapts && local_steps { fields + register } else { 0.0 };
+        // Levels that step by themselves have means of what passed between them.
+        let local = if adapts && local_steps { register } else { 0.0 };
         (present + local + self.values) * if adapts { SPARE } else { 1.0 }
     }
 }

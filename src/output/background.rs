@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use super::{CellMesh, OutputError, SeriesWriter};
+use super::{CellMesh, CellValues, OutputError, SeriesWriter};
 
 /// A snapshot with its own data.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Snapshot {
     /// Time, s.
     pub time: f64,
@@ -15,8 +15,8 @@ pub struct Snapshot {
     pub mesh: Arc<dyn CellMesh>,
     /// Equal to that of the snapshot before where the mesh is the same.
     pub mesh_id: u64,
-    /// Values of each field, one cell after the other.
-    pub values: Vec<Vec<f64>>,
+    /// Values of each field.
+    pub values: Box<dyn CellValues>,
 }
 
 /// A [`SeriesWriter`] on a thread of its own.
@@ -141,8 +141,7 @@ fn write_all(mut writer: SeriesWriter, jobs: &Receiver<Job>) -> Result<(), Outpu
                 continue;
             }
         };
-        let values: Vec<&[f64]> = snapshot.values.iter().map(Vec::as_slice).collect();
-        writer.append(snapshot.time, &*snapshot.mesh, snapshot.mesh_id, &values)?;
+        writer.append(snapshot.time, &*snapshot.mesh, snapshot.mesh_id, &*snapshot.values)?;
     }
     writer.finish()
 }

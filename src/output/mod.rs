@@ -8,6 +8,7 @@
 //! |---|---|
 //! | [`vtkhdf`] | `fluid.vtkhdf`, `solid.vtkhdf`: cell fields over time |
 //! | [`CellMesh`] | the meshes of these |
+//! | [`CellValues`] | their values |
 //! | [`background`] | the same on a thread of its own |
 //! | [`history`] | `fluid.h5`, `solid.h5`: named series over time |
 //! | [`join`] | `history.h5`: both sides' histories under one roof |
@@ -21,6 +22,7 @@
 
 pub mod background;
 mod cell_mesh;
+mod cell_values;
 pub mod checkpoint;
 pub mod error;
 mod hdf5_attributes;
@@ -40,6 +42,7 @@ pub mod vtkhdf;
 
 pub use background::{BackgroundWriter, Snapshot};
 pub use cell_mesh::{BlockMesh, CellMesh, OwnedQuadMesh};
+pub use cell_values::CellValues;
 pub use error::OutputError;
 pub use hdf5_attributes::root_attribute;
 pub use history::{BufferedColumn, Column, HistoryFile, SeriesId};

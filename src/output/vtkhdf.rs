@@ -4,12 +4,13 @@
 //! One entry of `NumberOfPoints`, `NumberOfCells` and `NumberOfConnectivityIds` per *mesh*; a snapshot on the mesh of the
 //! one before repeats that one's offsets and stores its fields only.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use hdf5::{File, Group};
 
 use super::hdf5_attributes::text;
-use super::{CellMesh, OutputError, hdf5_memory, safe_file};
+use super::{CellMesh, CellValues, OutputError, hdf5_memory, safe_file};
 use layout::{LARGEST_CHUNK, append_made, append_rows, create_datasets, write_mesh, write_step_count};
 
 mod end;
@@ -205,7 +206,7 @@ impl SeriesWriter {
         Ok(())
     }
 
-    /// Appends a snapshot: the values of each field in the order given to [`create`](Self::create), one cell after the other.
+    /// Appends a snapshot: the values of each field in the order given to [`create`](Self::create).
     ///
     /// A `mesh_id` equal to that of the snapshot before says that the mesh is the same; it is then not stored again.
     pub fn append(
@@ -213,12 +214,12 @@ impl SeriesWriter {
         time: f64,
         mesh: &dyn CellMesh,
         mesh_id: u64,
-        values: &[&[f64]],
+        values: &dyn CellValues,
     ) -> Result<(), OutputError> {
         self.check_lengths(mesh, values)?;
         let is_new_mesh = self.mesh_id != Some(mesh_id);
         let end = self.end.after(mesh, is_new_mesh);
-        let values_len: usize = values.iter().map(|values| values.len()).sum();
+        let values_len: usize = (0..values.fields()).map(|field| values.len(field)).sum();
         let mesh_len = if is_new_mesh { 3 * mesh.points() + 8 * mesh.cells() } else { 0 };
         self.update(size_of::<f64>() * (values_len + mesh_len), |path| {
             let write = || -> hdf5::Result<()> {
@@ -227,8 +228,8 @@ impl SeriesWriter {
                 if is_new_mesh {
                     write_mesh(&root, mesh, &end)?;
                 }
-                for (field, values) in self.fields.iter().zip(values) {
-                    field.append(&root, values, self.end.field_rows)?;
+                for (number, field) in self.fields.iter().enumerate() {
+                    field.append(&root, (values, number), self.end.field_rows)?;
                 }
                 // What readers go by comes last, once the data it points to are in the file.
                 file.flush()?;
@@ -266,7 +267,7 @@ impl SeriesWriter {
         }
     }
 
-    fn check_lengths(&self, mesh: &dyn CellMesh, values: &[&[f64]]) -> Result<(), OutputError> {
+    fn check_lengths(&self, mesh: &dyn CellMesh, values: &dyn CellValues) -> Result<(), OutputError> {
         let cells = mesh.cells();
         let check = |what: String, found, expected| {
             if found == expected {
@@ -274,9 +275,9 @@ impl SeriesWriter {
             }
             Err(OutputError::Length { path: self.path.clone(), what, found, expected })
         };
-        check("the list of fields".to_owned(), values.len(), self.fields.len())?;
-        for (field, values) in self.fields.iter().zip(values) {
-            check(format!("field {}", field.name), values.len(), cells * field.components)?;
+        check("the list of fields".to_owned(), values.fields(), self.fields.len())?;
+        for (number, field) in self.fields.iter().enumerate() {
+            check(format!("field {}", field.name), values.len(number), cells * field.components)?;
         }
         Ok(())
     }
@@ -307,14 +308,30 @@ impl Field {
         Ok(Self { name: name.to_owned(), components, storage })
     }
 
-    fn append(&self, root: &Group, values: &[f64], row: usize) -> hdf5::Result<()> {
+    /// Writes its values from row `row` on.
+    ///
+    /// - `values`: of a snapshot, and the number of this field among them.
+    fn append(
+        &self,
+        root: &Group,
+        (values, number): (&dyn CellValues, usize),
+        row: usize,
+    ) -> hdf5::Result<()> {
         let dataset = root.group("CellData")?.dataset(&self.name)?;
+        let rows = values.len(number) / self.components;
+        let numbers = |rows: Range<usize>| rows.start * self.components..rows.end * self.components;
         match self.storage {
-            Storage::F64 => append_rows(&dataset, values, row),
-            Storage::U8 => append_made(&dataset, values.len() / self.components, row, |rows, piece| {
-                let values = &values[rows.start * self.components..rows.end * self.components];
-                piece.extend(values.iter().map(|value| value.round() as u8));
-            }),
+            Storage::F64 => {
+                append_made(&dataset, rows, row, |rows, piece| values.add(number, numbers(rows), piece))
+            }
+            Storage::U8 => {
+                let mut exact = Vec::new();
+                append_made(&dataset, rows, row, |rows, piece| {
+                    exact.clear();
+                    values.add(number, numbers(rows), &mut exact);
+                    piece.extend(exact.iter().map(|value| value.round() as u8));
+                })
+            }
         }
     }
 }

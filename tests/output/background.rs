@@ -50,7 +50,7 @@ fn snapshot(adapted: &Adapted, step: usize) -> Snapshot {
         time: 0.5 * step as f64,
         mesh: Arc::new(adapted.mesh.clone()),
         mesh_id: step as u64,
-        values: vec![pressure, velocity, adapted.levels.clone()],
+        values: Box::new(vec![pressure, velocity, adapted.levels.clone()]),
     }
 }
 
@@ -101,7 +101,7 @@ fn a_writer_that_is_dropped_loses_nothing() {
     let mut writer = start(&path);
     for step in 0..5 {
         let cells = adapted.levels.len();
-        let values = values(cells, step).into();
+        let values = Box::new(Vec::from(values(cells, step)));
         writer.append(Snapshot { values, mesh_id: 0, ..snapshot(&adapted, step) }).unwrap();
     }
     drop(writer);

@@ -37,7 +37,7 @@ fn writer_to_be_killed() {
         history.flush().unwrap();
         // The mesh changes at every third snapshot.
         let mesh = &meshes[step / 3 % 2];
-        let values = values(mesh.quads.len(), step).into();
+        let values = Box::new(Vec::from(values(mesh.quads.len(), step)));
         let (time, mesh_id) = (0.5 * step as f64, step as u64 / 3);
         writer.append(Snapshot { time, mesh: mesh.clone(), mesh_id, values }).unwrap();
     }

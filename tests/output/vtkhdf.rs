@@ -167,10 +167,10 @@ fn wrong_lengths_are_refused_and_leave_the_file_as_it_was() {
     let mut writer = SeriesWriter::create(&path, &FIELDS, 1, &[]).unwrap();
     append(&mut writer, &mesh, 0).unwrap();
     let before = std::fs::read(&path).unwrap();
-    let short = writer.append(1.0, &mesh, 0, &[&[1.0; 4], &[1.0; 4], &[1.0; 4]]);
+    let short = writer.append(1.0, &mesh, 0, &vec![[1.0; 4]; 3]);
     let message = short.unwrap_err().to_string();
     assert!(message.contains("field velocity") && message.contains("12"), "{message}");
-    assert!(writer.append(1.0, &mesh, 0, &[&[1.0; 4]]).is_err());
+    assert!(writer.append(1.0, &mesh, 0, &vec![[1.0; 4]]).is_err());
     assert_eq!(std::fs::read(&path).unwrap(), before);
     assert_eq!(writer.steps(), 1);
 }

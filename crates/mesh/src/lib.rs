@@ -33,7 +33,7 @@ pub use block_solver::{
     BlockSolver, BlockWork, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks,
     Scratches, Step,
 };
-pub use cell_fields::CellField;
+pub use cell_fields::{CellField, CellLevels, CellSnapshot};
 pub use ghosts::frame::Frame;
 pub use ghosts::padded::{GHOSTS, Padded};
 pub use ghosts::side_faces::SideFaces;

@@ -1,7 +1,7 @@
 //! Cells and samples of a solver as arrays, all of them copies.
 
 use cav::run::side::coupled_solver::CoupledSolver;
-use mesh::{BLOCK, Mesh};
+use mesh::{BLOCK, CellSnapshot, Mesh};
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -47,6 +47,7 @@ impl Readable for solid::SolidSolver<BLOCK> {
     fn scalars(&self) -> Vec<(&'static str, Vec<f64>)> {
         let snapshot = self.snapshot();
         let [velocity_z, velocity_r] = components(&snapshot.velocity);
+        let von_mises = (0..snapshot.cells()).map(|cell| snapshot.von_mises(cell)).collect();
         vec![
             ("velocity_z", velocity_z),
             ("velocity_r", velocity_r),
@@ -54,7 +55,7 @@ impl Readable for solid::SolidSolver<BLOCK> {
             ("stress_zr", snapshot.stress_zr),
             ("stress_rr", snapshot.stress_rr),
             ("stress_phiphi", snapshot.stress_phiphi),
-            ("von_mises", snapshot.von_mises),
+            ("von_mises", von_mises),
         ]
     }
 
@@ -65,8 +66,8 @@ impl Readable for solid::SolidSolver<BLOCK> {
     }
 }
 
-fn components(velocity: &[f64]) -> [Vec<f64>; 2] {
-    [0, 1].map(|axis| velocity.iter().skip(axis).step_by(3).copied().collect())
+fn components(velocity: &[[f64; 2]]) -> [Vec<f64>; 2] {
+    [0, 1].map(|axis| velocity.iter().map(|velocity| velocity[axis]).collect())
 }
 
 /// Places, sizes and levels of all cells, and the fields in them: arrays of shape (cells,).

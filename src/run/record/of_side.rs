@@ -11,7 +11,7 @@ pub trait Record: Sized {
     /// Whose record it is.
     type Solver;
     /// What its snapshots hold.
-    type Snapshot: 'static;
+    type Snapshot: mesh::CellSnapshot + 'static;
 
     /// Takes notice of the state after a step of length `dt`, and writes the rows that are due.
     fn follow(&mut self, solver: &Self::Solver, dt: f64) -> Result<(), OutputError>;

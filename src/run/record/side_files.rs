@@ -1,16 +1,17 @@
 //! The files of one side: its histories and its snapshots.
 
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use mesh::{BLOCK, CellField, Mesh};
+use mesh::{BLOCK, CellField, CellSnapshot, Mesh};
 use serde::{Deserialize, Serialize};
 
 use crate::case::Case;
 use crate::output::{
-    BackgroundWriter, BlockMesh, CellMesh, FieldSpec, HistoryFile, OutputError, RunDirectory, SeriesWriter,
-    Snapshot, Storage, safe_file,
+    BackgroundWriter, BlockMesh, CellMesh, CellValues, FieldSpec, HistoryFile, OutputError, RunDirectory,
+    SeriesWriter, Snapshot, Storage, safe_file,
 };
 use crate::run::record::{attributes, cell_geometry};
 
@@ -24,7 +25,7 @@ pub struct SideNames<S: 'static> {
     pub fields: Vec<&'static CellField<S>>,
 }
 
-impl<S> SideNames<S> {
+impl<S: CellSnapshot> SideNames<S> {
     /// The fields that the case asks for.
     fn wanted(&self, case: &Case) -> Vec<&'static CellField<S>> {
         let is_wanted = |field: &&CellField<S>| match &case.output.fields {
@@ -36,11 +37,34 @@ impl<S> SideNames<S> {
 }
 
 /// How a field is written.
-fn spec<S>(field: &CellField<S>) -> FieldSpec<'static> {
-    let CellField { name, components, unit, description, .. } = *field;
+fn spec<S: CellSnapshot>(field: &CellField<S>) -> FieldSpec<'static> {
+    let CellField { name, unit, description, .. } = *field;
     // Levels are whole numbers, and few.
     let storage = if name == "level" { Storage::U8 } else { Storage::F64 };
-    FieldSpec { name, components, unit, description, storage }
+    FieldSpec { name, components: field.components(), unit, description, storage }
+}
+
+/// Some fields of a snapshot of a side.
+#[derive(Debug)]
+struct Taken<S: 'static> {
+    fields: Vec<&'static CellField<S>>,
+    snapshot: S,
+}
+
+impl<S: CellSnapshot> CellValues for Taken<S> {
+    fn fields(&self) -> usize {
+        self.fields.len()
+    }
+
+    fn len(&self, field: usize) -> usize {
+        self.fields[field].components() * self.fields[field].cells(&self.snapshot)
+    }
+
+    fn add(&self, field: usize, numbers: Range<usize>, list: &mut Vec<f64>) {
+        let field = self.fields[field];
+        let components = field.components();
+        field.add(&self.snapshot, numbers.start / components..numbers.end / components, list);
+    }
 }
 
 /// The files of one side.
@@ -66,7 +90,7 @@ pub struct FilesState {
     mesh_id: Option<u64>,
 }
 
-impl<S> SideFiles<S> {
+impl<S: CellSnapshot> SideFiles<S> {
     /// Makes the files, without any rows and snapshots. Without a directory histories stay in memory.
     pub fn create(
         case: &Case,
@@ -155,8 +179,7 @@ impl<S> SideFiles<S> {
         let geometry = known.unwrap_or_else(|| Arc::new(cell_geometry(mesh)));
         self.geometry = Some(Arc::clone(&geometry));
         let geometry: Arc<dyn CellMesh> = geometry;
-        let mut taken = take();
-        let values = self.fields.iter().map(|field| std::mem::take((field.values)(&mut taken))).collect();
+        let values = Box::new(Taken { fields: self.fields.clone(), snapshot: take() });
         snapshots.append(Snapshot { time, mesh: geometry, mesh_id, values })?;
         self.taken += 1;
         self.mesh_id = Some(mesh_id);

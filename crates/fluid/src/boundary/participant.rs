@@ -229,7 +229,7 @@ impl<const N: usize> FluidSolver<N> {
         let state = if trial { self.trial_state() } else { self.state() };
         for (first, &slot) in self.interface().blocks().iter().enumerate().map(|(k, slot)| (k * N, slot)) {
             for j in 0..N {
-                let cell = self.cell_of(state, slot, 0, j);
+                let cell = self.cell_of(state.block(slot), 0, j);
                 put(first + j, cell.pressure, cell.v_z);
             }
         }

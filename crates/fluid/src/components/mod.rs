@@ -10,7 +10,7 @@ pub(crate) mod initial;
 use mesh::Geometry;
 
 use crate::initial::shapes::share_within;
-use crate::{CELL_FIELDS, FluidSetup, Shape, Snapshot};
+use crate::{FluidSetup, Shape, Snapshot};
 
 /// Where a component is at t = 0.
 #[derive(Clone, Copy, Debug)]
@@ -24,8 +24,14 @@ pub(crate) enum Start {
 /// Where a setup has a component at t = 0, if it has it.
 type Place = fn(&FluidSetup) -> Option<Start>;
 
+/// Its numbers in a snapshot.
+type Values = fn(&mut Snapshot) -> &mut Vec<f64>;
+
 /// All that there may be, by the names of their fields.
-const ALL: [(&str, Place); 2] = [("tracer", |setup| setup.tracer.map(Start::Within)), (VAPOUR, vapour)];
+const ALL: [(&str, Place, Values); 2] = [
+    ("tracer", |setup| setup.tracer.map(Start::Within), |snapshot| &mut snapshot.tracer),
+    (VAPOUR, vapour, |snapshot| &mut snapshot.vapour),
+];
 
 /// The name of the vapour's component.
 const VAPOUR: &str = "vapour";
@@ -41,6 +47,7 @@ pub(crate) struct Component {
     pub name: &'static str,
     /// Where it is at t = 0.
     start: Start,
+    pub values: Values,
 }
 
 impl Component {
@@ -63,17 +70,13 @@ impl Component {
     pub fn is_of_gas(&self) -> bool {
         matches!(self.start, Start::PartOfGas(_))
     }
-
-    /// Its numbers in a snapshot.
-    pub fn values<'a>(&self, snapshot: &'a mut Snapshot) -> &'a mut Vec<f64> {
-        let field = CELL_FIELDS.iter().find(|field| field.name == self.name);
-        (field.expect("a component has a field of its name").values)(snapshot)
-    }
 }
 
 /// Those of a setup, in the order in which fields hold them after the model's own.
 pub(crate) fn of(setup: &FluidSetup) -> Vec<Component> {
-    let has = |(name, place): (&'static str, Place)| Some(Component { name, start: place(setup)? });
+    let has = |(name, place, values): (&'static str, Place, Values)| {
+        Some(Component { name, start: place(setup)?, values })
+    };
     ALL.into_iter().filter_map(has).collect()
 }
 
@@ -84,18 +87,23 @@ pub(crate) fn vapour_among(carried: &[Component]) -> Option<usize> {
 
 /// Whether a field of snapshots is that of a component, which not all fluids have.
 pub(crate) fn is_component(field: &str) -> bool {
-    ALL.iter().any(|(name, _)| *name == field)
+    ALL.iter().any(|(name, ..)| *name == field)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::CELL_FIELDS;
 
     #[test]
-    fn every_component_has_a_field() {
-        for (name, _) in ALL {
-            let start = Start::PartOfGas(1.0);
-            assert!(Component { name, start }.values(&mut Snapshot::default()).is_empty());
+    fn the_field_of_a_component_has_its_numbers() {
+        for (name, _, values) in ALL {
+            let mut snapshot = Snapshot::default();
+            values(&mut snapshot).extend([0.25, 0.75]);
+            let field = CELL_FIELDS.iter().find(|field| field.name == name).expect(name);
+            let mut list = Vec::new();
+            field.add(&snapshot, 0..2, &mut list);
+            assert_eq!(list, [0.25, 0.75], "{name}");
         }
     }
 }

@@ -25,7 +25,7 @@ impl BubbleCuts {
                 continue;
             }
             let half = 0.5 * fluid.mesh().widths(id.level)[0];
-            let phi = fluid.state().component(slot, PHI);
+            let phi = fluid.component(slot, PHI);
             for i in 0..N {
                 if !(0..N).any(|j| phi[j * N + i] >= OF_A_BUBBLE) {
                     continue;
@@ -106,7 +106,7 @@ pub(crate) fn follow_sources<const N: usize>(fluid: &mut BlockSolver<Fluid, N>) 
 }
 
 fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> Vec<Sums> {
-    let (mesh, state, model) = (fluid.mesh(), fluid.state(), fluid.model());
+    let (mesh, model) = (fluid.mesh(), fluid.model());
     let mut all = vec![Sums::default(); cuts.bubbles()];
     let gas_mass = model.scheme.phases.gas_component();
     if gas_mass.is_none() {
@@ -116,7 +116,7 @@ fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) ->
         if fluid.reports().finished[slot].extremes.phi <= 0.0 && !model.has_gas[slot] {
             continue;
         }
-        for (j, row) in state.component(slot, PHI).chunks_exact(N).enumerate() {
+        for (j, row) in fluid.component(slot, PHI).chunks_exact(N).enumerate() {
             let cell = mesh.volume(*id, j);
             for (i, phi) in row.iter().enumerate() {
                 let z = mesh.centre(*id, i, j)[0];
@@ -129,7 +129,7 @@ fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) ->
                     sums.trace += phi.max(0.0) * cell;
                 }
                 if let Some(component) = gas_mass {
-                    sums.gas_mass += state.component(slot, component)[j * N + i] * cell;
+                    sums.gas_mass += fluid.component(slot, component)[j * N + i] * cell;
                 }
             }
         }

@@ -5,7 +5,7 @@ pub(crate) mod bubbles;
 pub(crate) mod ledger;
 
 use crate::state::primitive::{PRESSURE, V_R, V_Z};
-use mesh::{Field, Padded, limited_differences};
+use mesh::{CellField, CellLevels, CellSnapshot, Padded, limited_differences};
 use serde::{Deserialize, Serialize};
 
 use crate::components::is_component;
@@ -64,19 +64,46 @@ pub struct Totals {
     pub gas_mass: f64,
 }
 
-mesh::cell_fields! {
-    Snapshot, CELL_FIELDS {
-        density: 1, "kg/m3", "density";
-        pressure: 1, "Pa", "pressure";
-        velocity: 3, "m/s", "velocity (z, r, 0)";
-        gas_fraction: 1, "1", "volume fraction of gas";
-        temperature: 1, "K", "temperature";
-        tracer: 1, "1", "mass fraction of the tracer";
-        vapour: 1, "1", "mass fraction of the vapour";
-        schlieren: 1, "kg/m4", "magnitude of the density gradient";
-        level: 1, "1", "refinement level";
+/// The fields of a snapshot, cell by cell; SI units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// Density.
+    pub density: Vec<f64>,
+    /// Pressure.
+    pub pressure: Vec<f64>,
+    /// Velocity (z, r).
+    pub velocity: Vec<[f64; 2]>,
+    /// Volume fraction of gas.
+    pub gas_fraction: Vec<f64>,
+    /// Temperature; empty where the liquid's equation of state has none.
+    pub temperature: Vec<f64>,
+    /// Mass fraction of the tracer; empty without one.
+    pub tracer: Vec<f64>,
+    /// Mass fraction of the vapour; empty where nothing evaporates.
+    pub vapour: Vec<f64>,
+    /// Magnitude of the density gradient.
+    pub schlieren: Vec<f64>,
+    levels: CellLevels,
+}
+
+impl CellSnapshot for Snapshot {
+    fn cells(&self) -> usize {
+        self.levels.cells()
     }
 }
+
+/// What a snapshot has. A field is added here, where the snapshot is filled, and in the estimate of memory if it is held.
+pub const CELL_FIELDS: &[CellField<Snapshot>] = &[
+    CellField::scalar("density", "kg/m3", "density", |taken| &taken.density),
+    CellField::scalar("pressure", "Pa", "pressure", |taken| &taken.pressure),
+    CellField::vector("velocity", "m/s", "velocity (z, r, 0)", |taken| &taken.velocity),
+    CellField::scalar("gas_fraction", "1", "volume fraction of gas", |taken| &taken.gas_fraction),
+    CellField::scalar("temperature", "K", "temperature", |taken| &taken.temperature),
+    CellField::scalar("tracer", "1", "mass fraction of the tracer", |taken| &taken.tracer),
+    CellField::scalar("vapour", "1", "mass fraction of the vapour", |taken| &taken.vapour),
+    CellField::scalar("schlieren", "kg/m4", "magnitude of the density gradient", |taken| &taken.schlieren),
+    CellField::made("level", "1", "refinement level", |taken, cell| f64::from(taken.levels.of_cell(cell))),
+];
 
 /// The places of a block's own cells among the padded ones, row by row.
 fn own_cells<const N: usize>() -> impl Iterator<Item = usize> {
@@ -86,14 +113,14 @@ fn own_cells<const N: usize>() -> impl Iterator<Item = usize> {
 impl<const N: usize> FluidSolver<N> {
     /// The primitive variables of one cell.
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> Primitive {
-        self.cell_of(self.state(), slot, i, j)
+        self.cell_of(self.block(slot), i, j)
     }
 
-    /// [`FluidSolver::cell`] of a field.
-    pub(crate) fn cell_of(&self, field: &Field, slot: usize, i: usize, j: usize) -> Primitive {
-        let u: [f64; COUNT] = std::array::from_fn(|c| field.component(slot, c)[j * N + i]);
-        let gas = self.model().scheme.phases.gas_component();
-        let gas = gas.map_or(0.0, |gas| field.component(slot, gas)[j * N + i]);
+    /// [`FluidSolver::cell`] of a block's components.
+    pub(crate) fn cell_of(&self, block: &[f64], i: usize, j: usize) -> Primitive {
+        let of = |component: usize| block[component * N * N + j * N + i];
+        let u: [f64; COUNT] = std::array::from_fn(of);
+        let gas = self.model().scheme.phases.gas_component().map_or(0.0, of);
         Primitive::from_conserved(u, gas, &self.model().mixture)
     }
 
@@ -106,9 +133,9 @@ impl<const N: usize> FluidSolver<N> {
             for i in 0..N {
                 let z = self.mesh().centre(id, i, 0)[0];
                 let (rho, momentum, phi) = (
-                    self.state().component(slot, RHO)[i],
-                    self.state().component(slot, MOMENTUM_Z)[i],
-                    self.state().component(slot, PHI)[i],
+                    self.component(slot, RHO)[i],
+                    self.component(slot, MOMENTUM_Z)[i],
+                    self.component(slot, PHI)[i],
                 );
                 if phi < 0.5 {
                     state.jet_velocity = state.jet_velocity.max(-momentum / rho);
@@ -187,7 +214,7 @@ impl<const N: usize> FluidSolver<N> {
             for j in 0..N {
                 let volume = self.mesh().volume(*id, j);
                 for (sum, component) in block.iter_mut().zip(components) {
-                    let row = &self.state().component(slot, *component)[j * N..(j + 1) * N];
+                    let row = &self.component(slot, *component)[j * N..(j + 1) * N];
                     *sum += volume * row.iter().sum::<f64>();
                 }
             }
@@ -211,7 +238,7 @@ impl<const N: usize> FluidSolver<N> {
     pub fn carried_masses(&self) -> impl Iterator<Item = (&'static str, f64)> {
         let leaves = self.mesh().tree().leaves();
         let of_block = move |component: usize, slot: usize| {
-            let rows = self.state().component(slot, component).chunks_exact(N).enumerate();
+            let rows = self.component(slot, component).chunks_exact(N).enumerate();
             rows.map(|(j, row)| self.mesh().volume(leaves[slot], j) * row.iter().sum::<f64>()).sum::<f64>()
         };
         let carried = self.model().carried.iter().zip(self.model().carried_components());
@@ -236,12 +263,12 @@ impl<const N: usize> FluidSolver<N> {
 
     /// All fields, cell by cell.
     pub fn snapshot(&self) -> Snapshot {
-        let mut snapshot = Snapshot::default();
+        let mut snapshot = Snapshot { levels: CellLevels::of(self.mesh()), ..Snapshot::default() };
         // Room at once: lists that grow side by side leave holes behind, of as much memory again.
         let cells = self.mesh().cells();
-        snapshot.velocity.reserve_exact(3 * cells);
-        let Snapshot { density, pressure, gas_fraction, schlieren, level, .. } = &mut snapshot;
-        for values in [density, pressure, gas_fraction, schlieren, level] {
+        snapshot.velocity.reserve_exact(cells);
+        let Snapshot { density, pressure, gas_fraction, schlieren, .. } = &mut snapshot;
+        for values in [density, pressure, gas_fraction, schlieren] {
             values.reserve_exact(cells);
         }
         for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
@@ -259,12 +286,11 @@ impl<const N: usize> FluidSolver<N> {
                 for k in own_cells::<N>() {
                     let at = |c: usize| cells.component(c)[k];
                     snapshot.density.push(at(RHO));
-                    snapshot.velocity.extend([at(V_Z), at(V_R), 0.0]);
+                    snapshot.velocity.push([at(V_Z), at(V_R)]);
                     snapshot.pressure.push(at(PRESSURE));
                     snapshot.gas_fraction.push(at(PHI));
                     let gradient = [s_z.component(RHO)[k] / h_z, s_r.component(RHO)[k] / h_r];
                     snapshot.schlieren.push(gradient[0].hypot(gradient[1]));
-                    snapshot.level.push(f64::from(id.level));
                 }
                 if self.model().mixture.has_temperature() {
                     let gas = self.model().scheme.phases.gas_component().map(|gas| cells.component(gas));
@@ -278,7 +304,7 @@ impl<const N: usize> FluidSolver<N> {
                 }
                 for (carried, component) in self.model().carried.iter().zip(self.model().carried_components())
                 {
-                    let (cells, values) = (cells.component(component), carried.values(&mut snapshot));
+                    let (cells, values) = (cells.component(component), (carried.values)(&mut snapshot));
                     for j in 0..N as isize {
                         values.extend_from_slice(&cells[Padded::<N>::index(0, j)..][..N]);
                     }

@@ -134,7 +134,7 @@ impl<const N: usize> FluidSolver<N> {
             radius: 0.5 * (column.r[0] + column.r[1]),
         });
         let is_on_wall = |slot: &usize| {
-            let phi = self.state().component(*slot, PHI);
+            let phi = self.component(*slot, PHI);
             phi.iter().step_by(N).any(|phi| *phi >= 0.5)
         };
         (films.min_by(|a, b| a.cells().total_cmp(&b.cells())), with_gas.iter().any(is_on_wall))

@@ -88,17 +88,17 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             due_tiles,
             ..
         } = self;
-        let (clock, target, registers) = levels.target(step.group, next);
+        let (clock, registers) = levels.parts();
         let register = registers.own_mut();
         let (time, dt, marks) = (progress.time, step.dt, &NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
         let in_group = |slot: usize| clock.group_of(mesh, slot) == step.group;
         let is_due = |slot: usize| part.has(interface.first_face(slot).is_some()) && in_group(slot);
         let pending = &mut reports.pending;
-        let lens = [target.block_len(), register.values().block_len()];
+        let lens = [next.block_len(), register.values().block_len()];
         due_tiles.clear();
         due_tiles.extend(mesh.tree().tiles().iter().filter(|tile| tile.slots().any(is_due)));
-        for_each_tile(due_tiles, target, register.values_mut(), pending, |tile, new, fluxes, reports| {
+        for_each_tile(due_tiles, next, register.values_mut(), pending, |tile, new, fluxes, reports| {
             if tile.slots().all(is_due) {
                 workers.with(|worker| model.step_tile(&context, tile, worker.begin(new, fluxes), reports));
                 return;
@@ -111,10 +111,10 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         // A cell that falls back changes what its neighbours get: first all parts must be there.
         let is_whole = part != Part::AwayFromInterface;
         if M::RETRIES && is_whole {
-            context.retry(target, register, pending, in_group, workers);
+            context.retry(next, register, pending, in_group, workers);
         }
         if !M::RETRIES || is_whole {
-            check(model, mesh, target, pending, (progress.time + step.dt, progress.steps + 1))?;
+            check(model, mesh, next, pending, (progress.time + step.dt, progress.steps + 1))?;
         }
         let due: usize = due_tiles.iter().map(|tile| tile.slots().filter(|slot| is_due(*slot)).count()).sum();
         progress.cell_updates += (due * N * N) as u64;
@@ -158,15 +158,15 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Corrects the cells of a group along finer neighbours.
     fn correct(&mut self, group: usize) -> Result<(), M::Error> {
         let Self { model, mesh, state, next, levels, reports, interface, progress, prepared, .. } = self;
-        let (clock, target, registers) = levels.target(group, next);
+        let (clock, registers) = levels.parts();
         let (time, dt, marks) = (progress.time, clock.length(group), &NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
         let is_due = |slot: usize| clock.group_of(mesh, slot) == group && FluxRegister::is_due(mesh, slot);
-        for_some_blocks_lightly(target, &mut reports.pending, is_due, |slot, new, report| {
+        for_some_blocks_lightly(next, &mut reports.pending, is_due, |slot, new, report| {
             let finer = registers.finer_side(clock, mesh.tree().leaves()[slot].level);
             model.correct(&context, finer, slot, new, report);
         });
-        check(model, mesh, target, &reports.pending, (clock.next(), progress.steps + 1))
+        check(model, mesh, next, &reports.pending, (clock.next(), progress.steps + 1))
     }
 }
 

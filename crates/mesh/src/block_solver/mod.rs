@@ -102,7 +102,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let components = state.components();
         let mut solver = Self {
             next: state.clone(),
-            levels: LevelSteps::new(components, model.registered(), mesh.blocks()),
+            levels: LevelSteps::new(model.registered(), mesh.blocks()),
             reports: Reports::new(mesh.blocks()),
             interface: Interface::new(&mesh, M::INTERFACE, model.has_interface()),
             adapting: Adapting {
@@ -139,9 +139,25 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         &self.mesh
     }
 
-    /// The components of all blocks.
+    /// The components of all blocks, between two steps of the whole; within one see [`BlockSolver::block`].
     pub fn state(&self) -> &Field {
         &self.state
+    }
+
+    /// The components of a block, also within a step of the whole. Blocks of coarser levels that no finer one reads are then as they
+    /// were when their level began its step.
+    pub fn block(&self, slot: usize) -> &[f64] {
+        self.present(slot).block(slot)
+    }
+
+    /// A component of [`BlockSolver::block`].
+    pub fn component(&self, slot: usize, component: usize) -> &[f64] {
+        self.present(slot).component(slot, component)
+    }
+
+    /// The field that has a block as it is at present.
+    fn present(&self, slot: usize) -> &Field {
+        if self.levels.is_aside(&self.mesh, slot) { &self.next } else { &self.state }
     }
 
     /// The same, of the new state of a step that has been run and not finished, in which all levels step alike.

@@ -114,11 +114,6 @@ impl LevelClock {
         self.spans[group].end
     }
 
-    /// Whether the present step of a group begins now.
-    pub fn is_new(&self, group: usize) -> bool {
-        self.spans[group].begin == self.now
-    }
-
     /// The length of a group's present step, s.
     pub fn length(&self, group: usize) -> f64 {
         self.spans[group].dt

@@ -7,16 +7,18 @@ use crate::{CorrectedFace, Field, FluxRegister, GroupStep, LevelClock, Mesh, Nei
 
 /// Clock and storage of local time steps (subcycling), and what passes between levels.
 ///
-/// The finest group of levels reads `state` and writes `next`, and the two are exchanged after each of its steps. Coarser
-/// groups write where they will be at the end of their step into a field of its own; until then those of their blocks
-/// that finer ones read move there linearly in time (Osher & Sanders 1983; Berger & Colella 1989), and the others stay
-/// as they were. What finer blocks pass to coarser ones is kept as the mean over the coarser one's step.
+/// All groups of levels read `state` and write `next`, and the two are exchanged after each step of the finest. Within the
+/// step of a coarser group those of its blocks that finer ones read move to its end linearly in time (Osher & Sanders 1983;
+/// Berger & Colella 1989): of them `state` has the present and `next` the end. Of the others nobody asks before the end,
+/// so they stay where they are, whatever the two fields are called meanwhile. What finer blocks pass to coarser ones is
+/// kept as the mean over the coarser one's step.
 #[derive(Clone, Debug)]
 pub struct LevelSteps<const N: usize> {
     clock: LevelClock,
-    ahead: Field,
     registers: Registers<N>,
     follows: Vec<bool>,
+    /// Whether the fields have been exchanged an odd number of times since each group began its step.
+    is_exchanged: Vec<bool>,
     points: Vec<[f64; 2]>,
 }
 
@@ -72,16 +74,16 @@ impl<const N: usize> FinerSide<'_, N> {
 }
 
 impl<const N: usize> LevelSteps<N> {
-    /// For fields of so many components and registers of so many quantities.
-    pub fn new(components: usize, quantities: usize, blocks: usize) -> Self {
+    /// With registers of so many quantities.
+    pub fn new(quantities: usize, blocks: usize) -> Self {
         Self {
             clock: LevelClock::default(),
-            ahead: Field::zeros(0, N * N, components),
             registers: Registers {
                 own: FluxRegister::new(blocks, quantities),
                 means: FluxRegister::new(0, quantities),
             },
             follows: Vec::new(),
+            is_exchanged: Vec::new(),
             points: Vec::new(),
         }
     }
@@ -110,10 +112,11 @@ impl<const N: usize> LevelSteps<N> {
     ) {
         let [coarsest, finest] = mesh.levels_present();
         self.clock.begin(base.max(coarsest).min(finest), finest, now, dt);
+        self.is_exchanged.clear();
+        self.is_exchanged.resize(self.clock.groups(), false);
         if self.clock.groups() == 1 {
             return;
         }
-        self.ahead.resize(mesh.blocks());
         self.registers.means.resize(mesh.blocks());
         let is_read = |slot: usize| {
             mesh.tree().neighbours(slot).iter().any(|neighbour| matches!(neighbour, Neighbour::Finer(_)))
@@ -144,18 +147,28 @@ impl<const N: usize> LevelSteps<N> {
 
     /// Starts the next step of the group that is due, see [`LevelClock::start`].
     pub fn start(&mut self, limit: f64) -> GroupStep {
-        self.clock.start(limit)
+        let step = self.clock.start(limit);
+        self.is_exchanged[step.group] = false;
+        step
     }
 
-    /// The clock, where a group writes its new state (into `next` if it is the finest), and what blocks pass each other.
-    pub fn target<'a>(
-        &'a mut self,
-        group: usize,
-        next: &'a mut Field,
-    ) -> (&'a LevelClock, &'a mut Field, &'a mut Registers<N>) {
-        let is_finest = group == self.clock.finest();
-        let target = if is_finest { next } else { &mut self.ahead };
-        (&self.clock, target, &mut self.registers)
+    /// The clock, and what blocks pass each other.
+    pub fn parts(&mut self) -> (&LevelClock, &mut Registers<N>) {
+        (&self.clock, &mut self.registers)
+    }
+
+    /// Whether a block is at present in the field of the new states: nobody reads it within its level's step, and the fields have been
+    /// exchanged meanwhile.
+    pub fn is_aside(&self, mesh: &Mesh<N>, slot: usize) -> bool {
+        let clock = &self.clock;
+        if clock.groups() < 2 || clock.is_over() {
+            return false;
+        }
+        let group = clock.group_of(mesh, slot);
+        group != clock.finest()
+            && !self.follows[slot]
+            && self.is_exchanged[group]
+            && clock.end(group) > clock.now()
     }
 
     /// Takes what the blocks of a group have passed in their step into the means over the coarser group's step.
@@ -182,11 +195,9 @@ impl<const N: usize> LevelSteps<N> {
     ///
     /// To be called when the clock still shows the beginning, after all corrections.
     pub fn finish_step(&mut self, mesh: &Mesh<N>, state: &mut Field, next: &mut Field) {
-        let clock = &self.clock;
-        let finest = clock.finest();
+        let (clock, follows, is_exchanged) = (&self.clock, &self.follows, &self.is_exchanged);
+        let (finest, later) = (clock.finest(), clock.next());
         if finest > 0 {
-            let later = clock.next();
-            let (ahead, follows) = (&self.ahead, &self.follows);
             let len = state.block_len();
             (state.as_mut_slice().par_chunks_mut(len))
                 .zip(next.as_mut_slice().par_chunks_mut(len))
@@ -198,22 +209,20 @@ impl<const N: usize> LevelSteps<N> {
                         return;
                     }
                     let share = clock.share_until(group, later);
-                    if share >= 1.0 {
-                        // Into both: they are exchanged step by step.
-                        old.copy_from_slice(ahead.block(slot));
-                        new.copy_from_slice(ahead.block(slot));
-                    } else if !follows[slot] {
-                        // What the other field holds may be of another mesh.
-                        if clock.is_new(group) {
+                    if !follows[slot] {
+                        if share >= 1.0 && is_exchanged[group] {
                             new.copy_from_slice(old);
                         }
-                    } else {
-                        for ((new, old), end) in new.iter_mut().zip(&mut *old).zip(ahead.block(slot)) {
+                    } else if share < 1.0 {
+                        for (new, old) in new.iter_mut().zip(old) {
+                            let end = *new;
                             *new = *old + share * (end - *old);
+                            *old = end;
                         }
                     }
                 });
         }
+        self.is_exchanged.iter_mut().for_each(|is_exchanged| *is_exchanged = !*is_exchanged);
         std::mem::swap(state, next);
         self.clock.advance();
     }

@@ -7,6 +7,7 @@ mod conservation;
 mod exactness;
 mod registers;
 mod speed;
+mod steps;
 mod trees;
 mod uniformity;
 mod wanted;

@@ -85,13 +85,14 @@ impl Following {
         self.blocks[slot].lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The displacement of all blocks at `time`, s.
-    pub fn displacements(&self, time: f64, state: &Field) -> Field {
-        let cells = state.block_len() / state.components();
+    /// The displacement of all blocks of so many cells at `time`, s.
+    ///
+    /// - `state`: the components of a block at that time.
+    pub fn displacements<'a>(&self, cells: usize, time: f64, state: impl Fn(usize) -> &'a [f64]) -> Field {
         let mut now = Field::zeros(self.blocks.len(), cells, 2);
         for slot in 0..self.blocks.len() {
             let follower = self.of_block(slot);
-            let moved = follower.displacement(time, state.block(slot));
+            let moved = follower.displacement(time, state(slot));
             now.block_mut(slot).iter_mut().zip(moved).for_each(|(to, from)| *to = from);
         }
         now
@@ -107,7 +108,12 @@ impl Following {
     ) {
         let patches = |components| ScratchPool::new(move || Patch::<N>::zeros(components));
         // The displacement is reflected as the velocity, and has its places.
-        let moved = adapted.remap(mesh, &self.displacements(time, state), analysis, &patches(2));
+        let moved = adapted.remap(
+            mesh,
+            &self.displacements(N * N, time, |slot| state.block(slot)),
+            analysis,
+            &patches(2),
+        );
         let rates = adapted.remap(mesh, &self.rates(N * N), &Scalar(analysis), &patches(1));
         self.take(&moved, |_| Counted::all(time), &rates);
     }

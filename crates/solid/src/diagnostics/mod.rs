@@ -6,9 +6,9 @@ mod totals;
 
 pub use totals::Totals;
 
-use mesh::Padded;
+use mesh::{CellField, CellLevels, CellSnapshot, Padded};
 
-use crate::state::component::{COUNT, S_PHIPHI};
+use crate::state::component::{COUNT, S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
 use crate::step::{BlockScratch, reconstruct};
 use crate::{ElasticState, SolidSolver, von_mises, yield_function};
 
@@ -21,27 +21,71 @@ pub struct MisesPeak {
     pub position: [f64; 2],
 }
 
-mesh::cell_fields! {
-    Snapshot, CELL_FIELDS {
-        velocity: 3, "m/s", "velocity (z, r, 0)";
-        stress_zz: 1, "Pa", "axial stress, positive in tension";
-        stress_zr: 1, "Pa", "shear stress";
-        stress_rr: 1, "Pa", "radial stress";
-        stress_phiphi: 1, "Pa", "hoop stress";
-        von_mises: 1, "Pa", "von Mises stress";
-        yield_function: 1, "Pa", "von Mises stress minus yield strength";
-        plastic_strain: 1, "1", "plastic strain";
-        plastic_strain_rate: 1, "1/s", "rate of the plastic strain in the last step";
-        displacement: 3, "m", "displacement (u_z, u_r, 0) since t = 0";
-        temperature: 1, "K", "temperature";
-        level: 1, "1", "refinement level";
+/// The fields of a snapshot, cell by cell, and what others are made from; SI units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// Velocity (z, r).
+    pub velocity: Vec<[f64; 2]>,
+    /// Axial stress, positive in tension.
+    pub stress_zz: Vec<f64>,
+    /// Shear stress.
+    pub stress_zr: Vec<f64>,
+    /// Radial stress.
+    pub stress_rr: Vec<f64>,
+    /// Hoop stress.
+    pub stress_phiphi: Vec<f64>,
+    /// Plastic strain; empty in elastic solids, as all that follows.
+    pub plastic_strain: Vec<f64>,
+    /// Rate of the plastic strain in the last step.
+    pub plastic_strain_rate: Vec<f64>,
+    /// Displacement (u_z, u_r) since t = 0.
+    pub displacement: Vec<[f64; 2]>,
+    /// Temperature, where the hardening law has heat.
+    pub temperature: Vec<f64>,
+    levels: CellLevels,
+    yield_strength: f64,
+}
+
+impl Snapshot {
+    /// The von Mises stress of a cell, Pa.
+    pub fn von_mises(&self, cell: usize) -> f64 {
+        let Self { stress_zz, stress_zr, stress_rr, stress_phiphi, .. } = self;
+        von_mises(stress_zz[cell], stress_zr[cell], stress_rr[cell], stress_phiphi[cell])
     }
 }
+
+impl CellSnapshot for Snapshot {
+    fn cells(&self) -> usize {
+        self.levels.cells()
+    }
+}
+
+/// What a snapshot has. A field is added here, where the snapshot is filled, and in the estimate of memory if it is held.
+pub const CELL_FIELDS: &[CellField<Snapshot>] = &[
+    CellField::vector("velocity", "m/s", "velocity (z, r, 0)", |taken| &taken.velocity),
+    CellField::scalar("stress_zz", "Pa", "axial stress, positive in tension", |taken| &taken.stress_zz),
+    CellField::scalar("stress_zr", "Pa", "shear stress", |taken| &taken.stress_zr),
+    CellField::scalar("stress_rr", "Pa", "radial stress", |taken| &taken.stress_rr),
+    CellField::scalar("stress_phiphi", "Pa", "hoop stress", |taken| &taken.stress_phiphi),
+    CellField::made("von_mises", "Pa", "von Mises stress", Snapshot::von_mises),
+    CellField::made("yield_function", "Pa", "von Mises stress minus yield strength", |taken, cell| {
+        yield_function(taken.von_mises(cell), taken.yield_strength)
+    }),
+    CellField::scalar("plastic_strain", "1", "plastic strain", |taken| &taken.plastic_strain),
+    CellField::scalar("plastic_strain_rate", "1/s", "rate of the plastic strain in the last step", |taken| {
+        &taken.plastic_strain_rate
+    }),
+    CellField::vector("displacement", "m", "displacement (u_z, u_r, 0) since t = 0", |taken| {
+        &taken.displacement
+    }),
+    CellField::scalar("temperature", "K", "temperature", |taken| &taken.temperature),
+    CellField::made("level", "1", "refinement level", |taken, cell| f64::from(taken.levels.of_cell(cell))),
+];
 
 impl<const N: usize> SolidSolver<N> {
     /// The state of one cell.
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> ElasticState {
-        ElasticState::from_array(std::array::from_fn(|c| self.state().component(slot, c)[j * N + i]))
+        ElasticState::from_array(std::array::from_fn(|c| self.component(slot, c)[j * N + i]))
     }
 
     /// The largest von Mises stress and where it is.
@@ -98,39 +142,35 @@ impl<const N: usize> SolidSolver<N> {
 
     /// All fields, cell by cell.
     pub fn snapshot(&self) -> Snapshot {
-        let mut snapshot = Snapshot::default();
+        let levels = CellLevels::of(self.mesh());
+        let yield_strength = self.setup().yield_strength;
+        let mut snapshot = Snapshot { levels, yield_strength, ..Snapshot::default() };
         // Room at once: lists that grow side by side leave holes behind, of as much memory again.
         let cells = self.mesh().cells();
-        snapshot.velocity.reserve_exact(3 * cells);
-        let Snapshot { stress_zz, stress_zr, stress_rr, stress_phiphi, level, .. } = &mut snapshot;
-        let stresses = [stress_zz, stress_zr, stress_rr, stress_phiphi];
-        stresses.into_iter().chain([level]).for_each(|values| values.reserve_exact(cells));
-        snapshot.von_mises.reserve_exact(cells);
-        snapshot.yield_function.reserve_exact(cells);
-        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
-            for j in 0..N {
-                for i in 0..N {
-                    let w = self.cell(slot, i, j);
-                    let mises = von_mises(w.stress_zz, w.stress_zr, w.stress_rr, w.stress_phiphi);
-                    snapshot.velocity.extend([w.v_z, w.v_r, 0.0]);
-                    snapshot.stress_zz.push(w.stress_zz);
-                    snapshot.stress_zr.push(w.stress_zr);
-                    snapshot.stress_rr.push(w.stress_rr);
-                    snapshot.stress_phiphi.push(w.stress_phiphi);
-                    snapshot.von_mises.push(mises);
-                    snapshot.yield_function.push(yield_function(mises, self.setup().yield_strength));
-                    snapshot.level.push(f64::from(id.level));
-                }
+        snapshot.velocity.reserve_exact(cells);
+        let Snapshot { stress_zz, stress_zr, stress_rr, stress_phiphi, .. } = &mut snapshot;
+        for values in [stress_zz, stress_zr, stress_rr, stress_phiphi] {
+            values.reserve_exact(cells);
+        }
+        let [s_zz, s_rr] = S_NORMAL;
+        for slot in 0..self.mesh().blocks() {
+            let [v_z, v_r] = [V_Z, V_R].map(|component| self.component(slot, component));
+            snapshot.velocity.extend(v_z.iter().zip(v_r).map(|(v_z, v_r)| [*v_z, *v_r]));
+            let Snapshot { stress_zz, stress_zr, stress_rr, stress_phiphi, .. } = &mut snapshot;
+            for (values, component) in
+                [(stress_zz, s_zz), (stress_zr, S_ZR), (stress_rr, s_rr), (stress_phiphi, S_PHIPHI)]
+            {
+                values.extend_from_slice(self.component(slot, component));
             }
             for (number, component) in self.model().components.iter().enumerate() {
-                (component.put)(&mut snapshot, self.state().component(slot, COUNT + number));
+                (component.put)(&mut snapshot, self.component(slot, COUNT + number));
             }
             if let Some(following) = &self.model().following {
                 let follower = following.of_block(slot);
                 snapshot.plastic_strain_rate.extend(&follower.rates.cells);
-                let moved: Vec<f64> = follower.displacement(self.time(), self.state().block(slot)).collect();
+                let moved: Vec<f64> = follower.displacement(self.time(), self.block(slot)).collect();
                 let (u_z, u_r) = moved.split_at(N * N);
-                snapshot.displacement.extend(u_z.iter().zip(u_r).flat_map(|(u_z, u_r)| [*u_z, *u_r, 0.0]));
+                snapshot.displacement.extend(u_z.iter().zip(u_r).map(|(u_z, u_r)| [*u_z, *u_r]));
             }
         }
         snapshot

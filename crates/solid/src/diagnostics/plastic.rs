@@ -50,22 +50,17 @@ impl<const N: usize> SolidSolver<N> {
     /// kept.
     pub fn displacement(&self, slot: usize, i: usize, j: usize) -> Option<[f64; 2]> {
         let follower = self.model().following.as_ref()?.of_block(slot);
-        let mut moved =
-            follower.displacement(self.time(), self.state().block(slot)).skip(j * N + i).step_by(N * N);
+        let mut moved = follower.displacement(self.time(), self.block(slot)).skip(j * N + i).step_by(N * N);
         Some([moved.next()?, moved.next()?])
     }
 
     /// u_z and u_r of all cells, as [`SolidSolver::displacement`]: what a wall that is hit again starts with.
     pub fn displacements(&self) -> Option<Field> {
-        Some(self.model().following.as_ref()?.displacements(self.time(), self.state()))
+        Some(self.model().following.as_ref()?.displacements(N * N, self.time(), |slot| self.block(slot)))
     }
 
     fn component_or(&self, other: f64, component: usize, slot: usize, cell: usize) -> f64 {
-        if component < self.state().components() {
-            self.state().component(slot, component)[cell]
-        } else {
-            other
-        }
+        if component < self.state().components() { self.component(slot, component)[cell] } else { other }
     }
 
     /// The largest plastic strain; 0 where nothing can yield.
@@ -86,7 +81,7 @@ impl<const N: usize> SolidSolver<N> {
         }
         let holds = |slot: usize| self.reports().finished[slot].plastic.strain == largest;
         let slot = (0..self.mesh().blocks()).find(|slot| holds(*slot))?;
-        let cells = self.state().component(slot, PLASTIC_STRAIN);
+        let cells = self.component(slot, PLASTIC_STRAIN);
         let cell = cells.iter().position(|strain| *strain == largest)?;
         let position = self.mesh().centre(self.mesh().tree().leaves()[slot], cell % N, cell / N);
         Some(StrainPeak { strain: largest, position })
@@ -116,7 +111,7 @@ impl<const N: usize> SolidSolver<N> {
     /// The integral of the plastic strain over the domain, m³, per radian in axial symmetry, per metre of depth in planar geometry.
     pub fn plastic_strain_integral(&self) -> f64 {
         let block = |(slot, id): (usize, &mesh::BlockId)| -> f64 {
-            let cells = self.state().component(slot, PLASTIC_STRAIN).chunks_exact(N).enumerate();
+            let cells = self.component(slot, PLASTIC_STRAIN).chunks_exact(N).enumerate();
             cells.map(|(j, row)| self.mesh().volume(*id, j) * row.iter().sum::<f64>()).sum()
         };
         if self.is_plastic() { self.mesh().tree().leaves().iter().enumerate().map(block).sum() } else { 0.0 }

@@ -29,7 +29,7 @@ impl<const N: usize> SolidSolver<N> {
             for j in 0..N {
                 let volume = self.mesh().volume(*id, j);
                 let [v_z, v_r, zz, zr, rr, pp]: [&[f64]; COUNT] =
-                    std::array::from_fn(|c| &self.state().component(slot, c)[j * N..(j + 1) * N]);
+                    std::array::from_fn(|c| &self.component(slot, c)[j * N..(j + 1) * N]);
                 let (mut velocity, mut speed_squared, mut strain) = (0.0, 0.0, 0.0);
                 for i in 0..N {
                     let mean = (zz[i] + rr[i] + pp[i]) / 3.0;

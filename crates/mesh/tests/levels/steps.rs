@@ -1,0 +1,76 @@
+//! Levels that step by themselves keep their place in time in two fields.
+
+use mesh::{Field, LevelSteps, Mesh, Neighbour};
+use proptest::prelude::*;
+
+use crate::common::*;
+
+/// A step of a block's level: what it was, what it comes to.
+#[derive(Clone, Copy, Default)]
+struct Way {
+    begin: f64,
+    end: f64,
+    from: f64,
+    to: f64,
+}
+
+fn is_beside_finer(mesh: &Mesh<N>, slot: usize) -> bool {
+    mesh.tree().neighbours(slot).iter().any(|neighbour| matches!(neighbour, Neighbour::Finer(_)))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..Default::default() })]
+
+    /// Catches ends that are taken for the present, blocks left in the wrong field, and numbers of steps that are odd.
+    #[test]
+    fn every_block_is_where_its_level_is(plan in plans(3), whole_steps in 1usize..3) {
+        let mut random = Random(plan.seed);
+        let mesh = plan.grown(&mut random);
+        let base = random.below(3) as u8;
+        let mut steps = LevelSteps::<N>::new(1, mesh.blocks());
+        // What is in the second field may be of another mesh.
+        let [mut state, mut next] = [0.0, f64::NAN].map(|value| {
+            let mut field = Field::zeros(mesh.blocks(), N * N, 1);
+            field.as_mut_slice().fill(value);
+            field
+        });
+        let mut ways = vec![Way::default(); mesh.blocks()];
+        let mut now = 0.0;
+        for _ in 0..whole_steps {
+            steps.begin(&mesh, base, now, 1.0, []);
+            while !steps.clock().is_over() {
+                while steps.clock().due().is_some() {
+                    let step = steps.start(0.1 + random.unit());
+                    for (slot, way) in ways.iter_mut().enumerate() {
+                        if steps.clock().group_of(&mesh, slot) != step.group {
+                            continue;
+                        }
+                        // What the step begins with is in the field that is read, in all blocks of the group.
+                        prop_assert!(state.block(slot).iter().all(|value| (value - way.to).abs() < 1e-13));
+                        let [begin, end] = [step.begin, steps.clock().end(step.group)];
+                        *way = Way { begin, end, from: way.to, to: random.unit() };
+                        next.block_mut(slot).fill(way.to);
+                    }
+                }
+                let later = steps.clock().next();
+                steps.finish_step(&mesh, &mut state, &mut next);
+                now = steps.clock().now();
+                prop_assert_eq!(now, later);
+                for (slot, way) in ways.iter().enumerate() {
+                    let expected = if now >= way.end {
+                        way.to
+                    } else if is_beside_finer(&mesh, slot) {
+                        way.from + (now - way.begin) / (way.end - way.begin) * (way.to - way.from)
+                    } else {
+                        way.from
+                    };
+                    let is_aside = steps.is_aside(&mesh, slot);
+                    prop_assert!(!is_aside || now < way.end && !is_beside_finer(&mesh, slot));
+                    let present = if is_aside { &next } else { &state }.block(slot);
+                    prop_assert!(present.iter().all(|value| (value - expected).abs() < 1e-13), "{slot} at {now}");
+                }
+            }
+            prop_assert!((0..mesh.blocks()).all(|slot| state.block(slot)[0] == ways[slot].to));
+        }
+    }
+}
