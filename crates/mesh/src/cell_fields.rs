@@ -29,11 +29,21 @@ enum Numbers<S: 'static> {
 
 /// The cells of a snapshot: blocks in the order of their slots, rows of r, z within a row.
 pub trait CellSnapshot: std::fmt::Debug + Send {
-    /// How many cells it has.
-    fn cells(&self) -> usize;
+    /// Their levels.
+    fn levels(&self) -> &CellLevels;
+
+    /// How many there are.
+    fn cells(&self) -> usize {
+        self.levels().cells()
+    }
 }
 
 impl<S: CellSnapshot> CellField<S> {
+    /// The levels, which all snapshots have.
+    pub const LEVEL: Self = Self::made("level", "1", "refinement level", |snapshot, cell| {
+        f64::from(snapshot.levels().of_cell(cell))
+    });
+
     /// A field of one number a cell, which snapshots hold.
     pub const fn scalar(
         name: &'static str,
@@ -127,11 +137,12 @@ mod tests {
     struct Taken {
         density: Vec<f64>,
         velocity: Vec<[f64; 2]>,
+        levels: CellLevels,
     }
 
     impl CellSnapshot for Taken {
-        fn cells(&self) -> usize {
-            self.density.len()
+        fn levels(&self) -> &CellLevels {
+            &self.levels
         }
     }
 
@@ -142,18 +153,20 @@ mod tests {
             let [z, r] = taken.velocity[cell];
             z.hypot(r)
         }),
+        CellField::LEVEL,
     ];
 
     #[test]
     fn what_is_held_and_what_is_made_is_added_cell_by_cell() {
-        let taken =
-            Taken { density: vec![1.0, 2.0, 3.0], velocity: vec![[3.0, 4.0], [0.0, -1.0], [6.0, 8.0]] };
+        let velocity = vec![[3.0, 4.0], [0.0, -1.0], [6.0, 8.0]];
+        let levels = CellLevels { levels: vec![2, 2, 5], block: 1 };
+        let taken = Taken { density: vec![1.0, 2.0, 3.0], velocity, levels };
         let mut list = vec![7.0];
         for field in FIELDS {
             assert_eq!(field.cells(&taken), 3, "{}", field.name);
             field.add(&taken, 1..3, &mut list);
         }
-        assert_eq!(FIELDS.iter().map(CellField::components).collect::<Vec<_>>(), [1, 3, 1]);
-        assert_eq!(list, [7.0, 2.0, 3.0, 0.0, -1.0, 0.0, 6.0, 8.0, 0.0, 1.0, 10.0]);
+        assert_eq!(FIELDS.iter().map(CellField::components).collect::<Vec<_>>(), [1, 3, 1, 1]);
+        assert_eq!(list, [7.0, 2.0, 3.0, 0.0, -1.0, 0.0, 6.0, 8.0, 0.0, 1.0, 10.0, 2.0, 5.0]);
     }
 }

@@ -116,6 +116,7 @@ fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) ->
         if fluid.reports().finished[slot].extremes.phi <= 0.0 && !model.has_gas[slot] {
             continue;
         }
+        let gas = gas_mass.map(|component| fluid.component(slot, component));
         for (j, row) in fluid.component(slot, PHI).chunks_exact(N).enumerate() {
             let cell = mesh.volume(*id, j);
             for (i, phi) in row.iter().enumerate() {
@@ -128,8 +129,8 @@ fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) ->
                 } else {
                     sums.trace += phi.max(0.0) * cell;
                 }
-                if let Some(component) = gas_mass {
-                    sums.gas_mass += fluid.component(slot, component)[j * N + i] * cell;
+                if let Some(gas) = gas {
+                    sums.gas_mass += gas[j * N + i] * cell;
                 }
             }
         }

@@ -87,8 +87,8 @@ pub struct Snapshot {
 }
 
 impl CellSnapshot for Snapshot {
-    fn cells(&self) -> usize {
-        self.levels.cells()
+    fn levels(&self) -> &CellLevels {
+        &self.levels
     }
 }
 
@@ -102,7 +102,7 @@ pub const CELL_FIELDS: &[CellField<Snapshot>] = &[
     CellField::scalar("tracer", "1", "mass fraction of the tracer", |taken| &taken.tracer),
     CellField::scalar("vapour", "1", "mass fraction of the vapour", |taken| &taken.vapour),
     CellField::scalar("schlieren", "kg/m4", "magnitude of the density gradient", |taken| &taken.schlieren),
-    CellField::made("level", "1", "refinement level", |taken, cell| f64::from(taken.levels.of_cell(cell))),
+    CellField::LEVEL,
 ];
 
 /// The places of a block's own cells among the padded ones, row by row.
@@ -130,13 +130,10 @@ impl<const N: usize> FluidSolver<N> {
         let mut before: Option<(f64, f64)> = None;
         for &slot in &self.model().axis_blocks {
             let id = self.mesh().tree().leaves()[slot];
+            let rows = [RHO, MOMENTUM_Z, PHI].map(|component| self.component(slot, component));
             for i in 0..N {
                 let z = self.mesh().centre(id, i, 0)[0];
-                let (rho, momentum, phi) = (
-                    self.component(slot, RHO)[i],
-                    self.component(slot, MOMENTUM_Z)[i],
-                    self.component(slot, PHI)[i],
-                );
+                let [rho, momentum, phi] = rows.map(|row| row[i]);
                 if phi < 0.5 {
                     state.jet_velocity = state.jet_velocity.max(-momentum / rho);
                 }

@@ -161,7 +161,7 @@ impl<const N: usize> LevelSteps<N> {
     /// exchanged meanwhile.
     pub fn is_aside(&self, mesh: &Mesh<N>, slot: usize) -> bool {
         let clock = &self.clock;
-        if clock.groups() < 2 || clock.is_over() {
+        if clock.groups() < 2 {
             return false;
         }
         let group = clock.group_of(mesh, slot);

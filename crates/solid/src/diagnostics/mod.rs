@@ -55,8 +55,8 @@ impl Snapshot {
 }
 
 impl CellSnapshot for Snapshot {
-    fn cells(&self) -> usize {
-        self.levels.cells()
+    fn levels(&self) -> &CellLevels {
+        &self.levels
     }
 }
 
@@ -79,13 +79,14 @@ pub const CELL_FIELDS: &[CellField<Snapshot>] = &[
         &taken.displacement
     }),
     CellField::scalar("temperature", "K", "temperature", |taken| &taken.temperature),
-    CellField::made("level", "1", "refinement level", |taken, cell| f64::from(taken.levels.of_cell(cell))),
+    CellField::LEVEL,
 ];
 
 impl<const N: usize> SolidSolver<N> {
     /// The state of one cell.
     pub fn cell(&self, slot: usize, i: usize, j: usize) -> ElasticState {
-        ElasticState::from_array(std::array::from_fn(|c| self.component(slot, c)[j * N + i]))
+        let block = self.block(slot);
+        ElasticState::from_array(std::array::from_fn(|c| block[c * N * N + j * N + i]))
     }
 
     /// The largest von Mises stress and where it is.
