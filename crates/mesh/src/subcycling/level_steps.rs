@@ -161,7 +161,8 @@ impl<const N: usize> LevelSteps<N> {
     /// exchanged meanwhile.
     pub fn is_aside(&self, mesh: &Mesh<N>, slot: usize) -> bool {
         let clock = &self.clock;
-        if clock.groups() < 2 {
+        // Between steps nothing is aside, and the mesh may be another than the last step's.
+        if clock.groups() < 2 || clock.is_over() {
             return false;
         }
         let group = clock.group_of(mesh, slot);

@@ -71,6 +71,11 @@ proptest! {
                 }
             }
             prop_assert!((0..mesh.blocks()).all(|slot| state.block(slot)[0] == ways[slot].to));
+            // A mesh that has been adapted since is read before its first step.
+            let wanted = random_levels(&mesh, &mut random, [0.8, 0.1]);
+            if let Some(mesh) = towards(&mesh, &wanted).map(|adapted| adapted.mesh) {
+                prop_assert!((0..mesh.blocks()).all(|slot| !steps.is_aside(&mesh, slot)));
+            }
         }
     }
 }
