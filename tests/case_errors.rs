@@ -13,6 +13,8 @@ mod bubble;
 mod fixture;
 #[path = "case_errors/good.rs"]
 mod good_cases;
+#[path = "case_errors/interest.rs"]
+mod interest;
 #[path = "case_errors/media.rs"]
 mod media;
 

@@ -53,6 +53,12 @@ pub fn report(case: &Case) -> String {
     if let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) {
         impedances(&mut text, fluid, solid);
     }
+    if let Some(region) = &case.region_of_interest {
+        let [z, r] = region.centre.map(|at| si(at, "m"));
+        let radius = si(region.radius, "m");
+        let about = format!("within {radius} of ({z}, {r}); beyond, grids follow what runs towards it");
+        line(&mut text, "answer", &about);
+    }
     steps(&mut text, case);
     let mut warnings = case.warnings();
     warnings.extend(memory_warning(case));

@@ -98,6 +98,11 @@ impl Case {
                 LoadCase::Recorded(load) => text.key("run", quoted(&load.run().to_string_lossy())),
             }
         }
+        if let Some(region) = &self.region_of_interest {
+            text.head("[region_of_interest]");
+            text.list("centre", &region.centre);
+            text.number("radius", region.radius);
+        }
         for probe in &self.probes {
             text.head("[[probe]]");
             text.key("name", quoted(&probe.name));

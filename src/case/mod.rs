@@ -24,6 +24,7 @@ mod read_conduction;
 mod read_coupling;
 mod read_fluid;
 mod read_grid;
+mod read_interest;
 mod read_medium;
 mod read_near_wall;
 mod read_phase_change;
@@ -55,7 +56,7 @@ use fluid::{
     Gravity, InitialCondition, Model, NearWall, NobleAbelStiffenedGas, PhaseState, RiemannSolver, Shape,
     Sharpening,
 };
-use mesh::{Adaptation, Geometry, Limiter, Side};
+use mesh::{Adaptation, Geometry, Limiter, RegionOfInterest, Side};
 use solid::{InitialStress, Material, PotentialPulse, Weight};
 
 pub use bubble::{BubbleCase, ResetCase};
@@ -86,6 +87,8 @@ pub struct Case {
     pub solid: Option<SolidCase>,
     /// How the two meet.
     pub coupling: CouplingCase,
+    /// Where the answer is, if the grids follow what reaches it.
+    pub region_of_interest: Option<RegionOfInterest>,
     /// Points at which every step is recorded.
     pub probes: Vec<Probe>,
     /// `[[sensor]]`.
@@ -105,6 +108,7 @@ impl PartialEq for Case {
             && self.fluid == other.fluid
             && self.solid == other.solid
             && self.coupling == other.coupling
+            && self.region_of_interest == other.region_of_interest
             && self.probes == other.probes
             && self.sensors == other.sensors
             && self.output == other.output

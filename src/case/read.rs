@@ -12,8 +12,8 @@ use super::keys::{records, time as of_time};
 use super::reader::{Faults, Table, array};
 use super::shared::{Context, PlacedProbe, name_of};
 use super::{
-    Case, Medium, OutputCase, Probe, Time, cross, read_conduction, read_coupling, read_fluid, read_sensors,
-    read_solid, scales, steps, thresholds,
+    Case, Medium, OutputCase, Probe, Time, cross, read_conduction, read_coupling, read_fluid, read_interest,
+    read_sensors, read_solid, scales, steps, thresholds,
 };
 
 /// More snapshots than this are a mistake.
@@ -56,7 +56,6 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     let probes = probes(&mut root, &mut faults);
     let sensors = read_sensors::sensors(&mut root, &mut faults);
     let output = output(&mut root, time.as_ref().map(|time| time.end), &mut faults);
-    root.finish(&mut faults);
 
     let mut notes = Vec::new();
     if let Some(scheme) = &scheme {
@@ -72,7 +71,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         fluid.terms.conduction = read_conduction::settle(asked, laws, (fluid.boundary, solid), &mut faults);
     }
     let ignores_solid = context.scheme == Some(Scheme::Rigid) && has_solid;
-    let solid = if ignores_solid {
+    let mut solid = if ignores_solid {
         notes.push("scheme = \"rigid\" has no solid: the [solid] table is ignored".to_owned());
         None
     } else {
@@ -81,6 +80,15 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     if let (Some((_, fluid)), Some((_, solid))) = (&fluid, &solid) {
         cross::domains_meet(fluid, solid, &mut faults);
     }
+    let media =
+        [fluid.as_mut().map(|(fluid, _)| &mut fluid.grid), solid.as_mut().map(|(solid, _)| &mut solid.grid)];
+    let wall_z = match (context.scheme, &media) {
+        (Some(Scheme::None), _) => None,
+        (_, [Some(fluid), _]) => Some(fluid.z[0]),
+        (_, [None, solid]) => solid.as_ref().map(|grid| grid.z[1]),
+    };
+    let region_of_interest = read_interest::region_of_interest(&mut root, media, wall_z, &mut faults);
+    root.finish(&mut faults);
     let probes = cross::probes(
         probes,
         fluid.as_ref().map(|(fluid, _)| &fluid.grid),
@@ -106,6 +114,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         fluid: fluid.map(|(fluid, _)| fluid),
         solid: solid.map(|(solid, _)| solid),
         coupling,
+        region_of_interest,
         probes,
         sensors,
         output,

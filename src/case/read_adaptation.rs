@@ -85,10 +85,8 @@ pub(super) fn adaptation(
         .flat_map(|table| bounds(table, levels, interface, faults))
         .collect();
     let adaptation = (adapt && levels.roots < levels.finest).then(|| Adaptation {
-        epsilon: DEFAULT_ERROR,
-        every: every.map_or(DEFAULT_ADAPT_EVERY, |given| given.value) as u32,
         bounds,
-        above: 0,
+        ..Adaptation::by_details(DEFAULT_ERROR, every.map_or(DEFAULT_ADAPT_EVERY, |given| given.value) as u32)
     });
     (adaptation, asked)
 }

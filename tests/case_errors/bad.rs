@@ -153,6 +153,13 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Replace("[fluid.liquid]", "adapt = false\nnear_wall.film_levels = 1\n[fluid.liquid]"), &["fluid.near_wall.film_levels: is 1 levels above fluid.levels = 3, and the fluid's grid does not adapt", "fluid.adapt = true"]),
     (Replace("levels = 3", "levels = 17\nnear_wall.shock_levels = 3"), &["fluid.near_wall.shock_levels: is 3 levels above fluid.levels = 17: more than 1048576 cells"]),
     (Replace("scheme = \"riemann\"", "scheme = \"none\"\n[fluid.near_wall]\nshock_levels = 1"), &["fluid.near_wall.shock_levels", "scheme = \"none\" has none"]),
+    (Append("[region_of_interest]\nradius = 0"), &["region_of_interest.radius: must be positive, got 0.0", "in m"]),
+    (Append("[region_of_interest]\ncentre = [0.0, 0.0]"), &["region_of_interest.radius: `radius` is missing"]),
+    (Append("[region_of_interest]\nradius = 1e-3\ncenter = [0.0, 0.0]"), &["region_of_interest.center: unknown key", "did you mean `centre`?"]),
+    (Append("[region_of_interest]\nradius = 1e-3\ncentre = [0.5, 0.0]"), &["region_of_interest: the circle of radius 0.001 m around [0.5, 0.0] m has no point in the domain", "`centre`"]),
+    (Append("[region_of_intrest]\nradius = 1e-3"), &["region_of_intrest: unknown key", "did you mean `region_of_interest`?"]),
+    (Sets(&["region_of_interest={radius=1e-3}", "fluid.adapt=false", "solid.adapt=false"]), &["region_of_interest: no grid of this case adapts", "adapt = true"]),
+    (Whole("[time]\nend = 1\n[coupling]\nscheme = \"none\"\n[solid]\nz = [0, 1]\nr = [0, 1]\ncells = [16, 16]\nlevels = 2\nmaterial = \"copper\"\n[region_of_interest]\nradius = 0.1"), &["region_of_interest.centre: `centre` is missing", "where the wall meets the axis"]),
     // Gravity and the tracer.
     (Replace("[fluid.liquid]", "gravity = \"down\"\n[fluid.liquid]"), &["fluid.gravity: must be a number", "in m/s2"]),
     (Replace("[fluid.liquid]", "gravity = -1e10\n[fluid.liquid]"), &["fluid.gravity: -10000000000.0 m/s2 changes the pressure by", "up to fluid.z = 0.01 m", "= 301000000.0 Pa", "give less than"]),

@@ -28,6 +28,8 @@ pub struct Analysis {
     pub(crate) has_phases: bool,
     /// The components that the mass carries besides: ρY with mass fractions Y.
     pub(crate) carried: Range<usize>,
+    /// The only direction (z, r) in which waves count, if there is one.
+    pub(crate) direction: Option<[f64; 2]>,
 }
 
 /// A gas fraction may leave [0, 1] by this much in prediction; more is limited. Traces of gas that advection left
@@ -49,6 +51,10 @@ impl Multiresolution for Analysis {
 
     fn counts_beside(&self, side: Side) -> bool {
         !matches!(self.boundaries[side as usize], Boundary::NonReflecting | Boundary::FarField)
+    }
+
+    fn towards(&self, direction: [f64; 2]) -> Option<Self> {
+        Some(Self { direction: Some(direction), ..self.clone() })
     }
 
     fn share(&self, mean: &[f64], deviations: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
@@ -110,6 +116,9 @@ impl Multiresolution for Analysis {
 
     /// The largest of |δp|/p_ref, ρc|δv|/p_ref, |δρ|/ρ_ref, |δφ| and the |δY| of what is carried, with the linearised
     /// β₁ δp = δ(ρE) − v·δ(ρv) + ½v² δρ − (β₁'p + β₂') δφ + what covolumes bind of both phases' δm, and ρ δv = δ(ρv) − v δρ.
+    ///
+    /// Where only waves in the direction n count: ½|δp + ρc n·δv|/p_ref instead of the first two, the Riemann invariant that such
+    /// waves change and those against it do not, and |δρ − δp/c²|/ρ_ref, which no wave changes.
     #[inline(always)]
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
         let [gas, d_gas] = if self.has_phases { [cell[GAS], detail[GAS]] } else { [0.0; 2] };
@@ -125,8 +134,16 @@ impl Multiresolution for Analysis {
         // Not `hypot`: it would take as long as all else here together, and nothing can overflow.
         let d_v = (d_vz * d_vz + d_vr * d_vr).sqrt() / rho;
         let impedance = (rho * self.mixture.bulk_modulus(rho, p, phi, gas / rho)).max(0.0).sqrt();
-        let by_pressure = d_p.abs().max(impedance * d_v) / self.scales.pressure;
-        let by_flow = by_pressure.max(d_rho.abs() / self.scales.density).max(d_phi.abs());
+        let [by_pressure, by_density] = match self.direction {
+            None => [d_p.abs().max(impedance * d_v), d_rho.abs()],
+            Some([n_z, n_r]) => {
+                let along = (n_z * d_vz + n_r * d_vr) / rho;
+                let squared = (impedance / rho) * (impedance / rho);
+                [0.5 * (d_p + impedance * along).abs(), (d_rho - d_p / squared).abs()]
+            }
+        };
+        let by_flow =
+            (by_pressure / self.scales.pressure).max(by_density / self.scales.density).max(d_phi.abs());
         self.carried
             .clone()
             .fold(by_flow, |largest, c| largest.max((detail[c] - cell[c] / rho * d_rho).abs() / rho))
@@ -167,6 +184,7 @@ mod tests {
             scales: Scales { pressure: 1e7, density: 1000.0 },
             has_phases: false,
             carried: 5..5,
+            direction: None,
         }
     }
 
@@ -189,6 +207,39 @@ mod tests {
             0.01 * impedance / 1e7,
             max_relative = 1e-3
         );
+    }
+
+    #[test]
+    fn towards_a_region_only_waves_count_that_run_there() {
+        let direction = [0.6, -0.8];
+        let directed = analysis().towards(direction).expect("it has directions");
+        let before = conserved(1000.0, 20.0, 5e7, 0.0);
+        let mixture = analysis().mixture;
+        let squared = 7.15 * 3.5e8 / 1000.0;
+        // A plane sound wave of 10 kPa that runs at this angle from the direction.
+        let size_of = |angle: f64| {
+            let (sin, cos) = f64::sin_cos(angle);
+            let along = [cos * direction[0] - sin * direction[1], sin * direction[0] + cos * direction[1]];
+            let by_velocity = 1e4 / (1000.0 * f64::sqrt(squared));
+            let after = Primitive {
+                density: 1000.0 + 1e4 / squared,
+                v_z: 20.0 + along[0] * by_velocity,
+                v_r: along[1] * by_velocity,
+                pressure: 5e7 + 1e4,
+                phi: 0.0,
+            };
+            let after = after.to_conserved(0.0, &mixture);
+            let detail: Vec<f64> = before.iter().zip(after).map(|(a, b)| b - a).collect();
+            directed.significance(&before, &detail)
+        };
+        for degrees in [0.0_f64, 60.0, 90.0, 120.0, 180.0, 270.0] {
+            let angle = degrees.to_radians();
+            approx::assert_abs_diff_eq!(size_of(angle), 1e-3 * 0.5 * (1.0 + angle.cos()), epsilon = 2e-7);
+        }
+        // A contact is no wave.
+        let after = conserved(990.0, 20.0, 5e7, 0.0);
+        let detail: Vec<f64> = before.iter().zip(after).map(|(a, b)| b - a).collect();
+        approx::assert_relative_eq!(directed.significance(&before, &detail), 0.01, max_relative = 1e-6);
     }
 
     #[test]

@@ -92,7 +92,8 @@ impl<const N: usize> FluidSolver<N> {
         let vapour = components::vapour_among(&components::of(setup)).map(|number| carried.start + number);
         let exchange =
             setup.phase_change.zip(vapour).and_then(|(asked, vapour)| Exchange::of(asked, &mixture, vapour));
-        let analysis = Analysis { mixture, boundaries: kinds, scales: setup.scales, has_phases, carried };
+        let scales = setup.scales;
+        let analysis = Analysis { mixture, boundaries: kinds, scales, has_phases, carried, direction: None };
         let (mesh, mut state) =
             crate::initial::mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
         if let Some(tension) = setup.surface_tension {

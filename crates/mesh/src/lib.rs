@@ -46,7 +46,7 @@ pub use kernels::elementary::{exp_and_less_one, ln_of};
 pub use kernels::limiter::{Limiter, limited_differences};
 pub use kernels::parallel::{ScratchPool, for_each_block, for_each_tile, for_some_blocks};
 pub use kernels::reduce::maximum;
-pub use multiresolution::adaptation::{Adaptation, LevelBound, Zone};
+pub use multiresolution::adaptation::{Adaptation, LevelBound, RegionOfInterest, Zone};
 pub use multiresolution::horizon::Horizon;
 pub use multiresolution::patch::Patch;
 pub use multiresolution::remap::{Adapted, Origin, Remap};

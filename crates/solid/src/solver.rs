@@ -152,7 +152,8 @@ fn analysis(setup: &SolidSetup, components: &[Component]) -> Analysis {
     Analysis {
         boundaries: setup.boundaries,
         stress_scale: setup.stress_scale,
-        impedance: setup.speeds.z1(),
+        impedances: [setup.speeds.z1(), setup.speeds.z2()],
+        direction: None,
         strain_modulus: components.iter().map(|component| component.as_stress).fold(0.0, f64::max),
     }
 }

@@ -238,3 +238,29 @@ pub(super) static ADAPTATION_OF_SOLID: [Section; 2] = [
         keys: &ZONE,
     },
 ];
+
+pub(super) static REGION_OF_INTEREST: [Section; 1] = [Section {
+    path: "region_of_interest",
+    repeated: false,
+    title: "The region of interest",
+    about: "A circle around what the run is made for. Within it the grids adapt as ever; outside of it waves keep fine cells \
+            only if they [run towards it][interest]. Load, stresses and pit stay; a sixth to a half of the cell updates goes. Pictures \
+            of waves that run away lose their details, and so do probes and sensors outside. Absent: all waves count \
+            everywhere.",
+    keys: &[
+        Key {
+            name: "radius",
+            unit: "m",
+            values: Values::Positive,
+            default: Preset::Required,
+            about: "Its radius: as far as anything is to be believed.",
+        },
+        Key {
+            name: "centre",
+            unit: "m",
+            values: Values::Point,
+            default: Preset::Words("where the wall meets the axis"),
+            about: "Its centre, (z, r).",
+        },
+    ],
+}];

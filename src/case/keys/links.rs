@@ -1,7 +1,7 @@
 //! The pages that texts on keys lead to.
 
 /// Name, then the page from the repository's root, with the heading.
-pub(super) const LINKS: [(&str, &str); 23] = [
+pub(super) const LINKS: [(&str, &str); 24] = [
     ("absorbing", "docs/theory/absorbing-sides.md"),
     ("bubble", "docs/theory/bubble-content.md"),
     ("conduction", "docs/theory/conduction.md"),
@@ -11,6 +11,7 @@ pub(super) const LINKS: [(&str, &str); 23] = [
     ("film", "docs/theory/near-wall.md"),
     ("gravity", "docs/theory/gravity.md"),
     ("hits", "docs/guide/damage.md#many-hits"),
+    ("interest", "docs/theory/region-of-interest.md"),
     ("levels", "docs/theory/local-time-steps.md"),
     ("models", "docs/theory/two-phase-models.md"),
     ("paper-schemes", "docs/theory/coupling-schemes.md"),

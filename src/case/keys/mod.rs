@@ -30,7 +30,7 @@ pub use page::keys_page;
 
 /// All that is declared, in the order in which it is told.
 fn sections() -> impl Iterator<Item = &'static Section> {
-    let parts: [&[Section]; 15] = [
+    let parts: [&[Section]; 16] = [
         &time::TIME,
         &fluid::FLUID,
         &terms::TERMS,
@@ -44,6 +44,7 @@ fn sections() -> impl Iterator<Item = &'static Section> {
         &plasticity::PLASTICITY,
         &sides::SIDES_OF_SOLID,
         &adaptation::ADAPTATION_OF_SOLID,
+        &adaptation::REGION_OF_INTEREST,
         &coupling::COUPLING,
         &records::RECORDS,
     ];

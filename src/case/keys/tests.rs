@@ -16,7 +16,8 @@ fn root() -> &'static Path {
 }
 
 /// What no shipped case has, beside a good fluid and a good solid.
-const RARE: [&str; 7] = [
+const RARE: [&str; 8] = [
+    "region_of_interest = {}",
     "fluid = { bubble = { region = 0, reset = {} } }",
     "fluid = { terms = { phase_change = {}, cavitation = {}, conduction = {} } }",
     "fluid = { near_wall = {}, refine = [{ shape = 'sphere' }, { shape = 'box' }, { shape = 'interface' }] }",

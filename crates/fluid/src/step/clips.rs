@@ -150,8 +150,14 @@ mod tests {
     fn predictions_that_are_limited_are_counted() {
         let mixture = Mixture::water_and_air();
         let scales = Scales { pressure: 1e7, density: 1000.0 };
-        let analysis =
-            Analysis { mixture, boundaries: [Boundary::Wall; 4], scales, has_phases: false, carried: 5..5 };
+        let analysis = Analysis {
+            mixture,
+            boundaries: [Boundary::Wall; 4],
+            scales,
+            has_phases: false,
+            carried: 5..5,
+            direction: None,
+        };
         let counted = CountedAnalysis::new(&analysis);
         let liquid = Primitive { density: 1000.0, v_z: 0.0, v_r: 0.0, pressure: 5e7, phi: 0.0 };
         let mean = liquid.to_conserved(0.0, &mixture);

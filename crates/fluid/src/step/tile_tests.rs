@@ -23,7 +23,7 @@ fn stepped(
         riemann,
         limiter,
         levels: 3,
-        adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above: 0 }),
+        adaptation: Some(Adaptation::by_details(1e-3, 4)),
         scales: Scales { pressure: 5e7, density: 1e3 },
         inflow: PressureHistory::new(vec![[0.0, 5e7], [1e-5, 7e7]]),
         ..FluidSetup::new(

@@ -315,7 +315,7 @@ mod tests {
         let setup = FluidSetup {
             levels: 3,
             limiter: Limiter::Minmod,
-            adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above: 0 }),
+            adaptation: Some(Adaptation::by_details(1e-3, 4)),
             scales: Scales { pressure: 5e7, density: 1e3 },
             ..FluidSetup::new(
                 Domain { geometry: Geometry::Axisymmetric, z: [0.0, 4.0], r: [0.0, 2.0] },

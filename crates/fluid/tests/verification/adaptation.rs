@@ -1,12 +1,14 @@
 //! Adaptive grids: what must be exact on them, and how little a level jump may be seen.
 
-use fluid::{Boundary, FluidSetup, FluidSolver, Primitive, RiemannSolver, Scales};
-use mesh::{Adaptation, Domain, Geometry, LevelBound, Limiter, Zone};
+use fluid::{
+    Boundary, FluidSetup, FluidSolver, InitialCondition, Primitive, Pulse, PulseShape, RiemannSolver, Scales,
+};
+use mesh::{Adaptation, Domain, Geometry, LevelBound, Limiter, RegionOfInterest, Zone};
 
 use crate::helpers::*;
 
 fn adaptation(epsilon: f64, bounds: Vec<LevelBound>) -> Option<Adaptation> {
-    Some(Adaptation { epsilon, every: 4, bounds, above: 0 })
+    Some(Adaptation { bounds, ..Adaptation::by_details(epsilon, 4) })
 }
 
 /// Steps with adaptation, of all levels alike or of each by itself; returns how often the mesh changed and the fewest and most
@@ -74,6 +76,55 @@ fn uniform_pressure_and_velocity_stay_so_while_the_mesh_changes() {
             assert!(worst[0] < 1e-9 && worst[1] < 1e-9);
         }
     }
+}
+
+/// A pulse at rest runs apart: of its halves the grid follows that which runs towards the region of interest, and it loses
+/// nothing there.
+#[test]
+fn only_the_wave_that_runs_to_the_region_of_interest_keeps_its_cells() {
+    let (amplitude, width) = (1e4, 1.0 / 16.0);
+    let c = (LIQUID.gamma * (1e5 + LIQUID.pi) / 1000.0_f64).sqrt();
+    let run = |interest: Option<RegionOfInterest>| {
+        let epsilon = 1e-4;
+        let setup = FluidSetup {
+            domain: Domain { geometry: PLANAR, z: [0.0, 1.0], r: [0.0, 0.25] },
+            levels: 3,
+            adaptation: Some(Adaptation { epsilon, every: 4, bounds: vec![], above: 0, interest }),
+            scales: Scales { pressure: amplitude, density: amplitude / (c * c) },
+            ..setup(PLANAR, [32, 8], WALLS)
+        };
+        let pulse =
+            Pulse { shape: PulseShape::Plane { direction: None }, centre: [0.5, 0.0], width, amplitude };
+        let initial =
+            InitialCondition { pulses: vec![pulse], ..ball_of_gas(([9.0, 0.0], 0.1), 1e5, AIR, 0.0) };
+        let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
+        while fluid.time() < 0.38 / c {
+            let dt = fluid.time_step_limit(CFL).min(0.38 / c - fluid.time());
+            fluid.step(dt).unwrap();
+            fluid.adapt_if_due(dt, 1);
+        }
+        fluid
+    };
+    // The lower half is at z = 0.12 then, in the region; the upper one at 0.88.
+    let region = RegionOfInterest { centre: [-9.7, 0.125], radius: 10.0 };
+    let [all, followed] = [None, Some(region)].map(run);
+    let level = |fluid: &FluidSolver<8>, z: f64| {
+        let (slot, ..) = fluid.mesh().locate([z, 0.1]).unwrap();
+        fluid.mesh().tree().leaves()[slot].level
+    };
+    assert_eq!([0.12, 0.88].map(|z| level(&all, z)), [3, 3]);
+    assert!(level(&followed, 0.12) == 3 && level(&followed, 0.88) < 3);
+    let difference = (0..100)
+        .map(|k| [0.3 * f64::from(k) / 100.0, 0.1])
+        .map(|place| {
+            let [a, b] = [&all, &followed].map(|fluid| fluid.sample(place).unwrap().pressure);
+            (a - b).abs() / (0.5 * amplitude)
+        })
+        .fold(0.0, f64::max);
+    let share = followed.cell_updates() as f64 / all.cell_updates() as f64;
+    eprintln!("the half in the region differs by {difference:.1e}, {share:.2} of the cell updates");
+    assert!(difference < 2e-4, "{difference}");
+    assert!(share < 0.7, "{share}");
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn cells(setup: &FluidSetup) -> [usize; 2] {
 }
 
 fn run(problem: &Problem, levels: u8, epsilon: Option<f64>) -> Run {
-    let adaptation = epsilon.map(|epsilon| Adaptation { epsilon, every: 8, bounds: vec![], above: 0 });
+    let adaptation = epsilon.map(|epsilon| Adaptation::by_details(epsilon, 8));
     let setup = FluidSetup { levels, adaptation, ..problem.setup.clone() };
     let mut fluid = FluidSolver::<BLOCK>::new(&setup, &problem.initial).unwrap();
     while fluid.time() < problem.end * (1.0 - 1e-12) {

@@ -78,7 +78,7 @@ fn ledgers_close_with_all_terms() {
             let sides = [Boundary::Interface, Boundary::NonReflecting, low, Boundary::Wall];
             let setup = FluidSetup {
                 levels: 1,
-                adaptation: Some(Adaptation { epsilon: 2e-2, every: 4, bounds: vec![], above: 0 }),
+                adaptation: Some(Adaptation::by_details(2e-2, 4)),
                 ..with_all(thin_gas, law, setup_of(SHARP, geometry, [32, 32], sides))
             };
             let initial = ball(([0.45, 0.0], 0.3), [5e6, 300.0], [1e5, 500.0]);

@@ -20,7 +20,7 @@ fn pulse_and_bubble(density: f64, model: Model) -> FluidSolver<8> {
         levels: 5,
         model,
         sharpening,
-        adaptation: Some(Adaptation { epsilon: 3e-4, every: 8, bounds: vec![at_level_four], above: 0 }),
+        adaptation: Some(Adaptation { bounds: vec![at_level_four], ..Adaptation::by_details(3e-4, 8) }),
         scales: fluid::Scales { pressure: 1e4, density: 1e3 },
         ..setup(PLANAR, [16, 16], WALLS)
     };

@@ -23,7 +23,7 @@ fn growing(kind: Kind, reset: Option<BubbleReset>, cells_per_radius: Option<f64>
         FollowedBubble { radius: RADIUS, cuts: BubbleCuts::of(&initial), number: 0, cells_per_radius, reset };
     let setup = FluidSetup {
         levels: 3,
-        adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above: 0 }),
+        adaptation: Some(Adaptation::by_details(1e-3, 4)),
         followed: Some(followed),
         tracer: Some(Shape::Box { z: [0.5, 1.0], r: [0.0, 1.0] }),
         ..setup_of(kind, AXIAL, [8, 8], CYLINDER)

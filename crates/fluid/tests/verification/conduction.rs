@@ -233,7 +233,7 @@ fn levels_conduct_to_each_other() {
             let bounds = vec![zone([-1.0, 0.3], 0), zone([0.32, 0.7], 1), zone([0.72, 2.0], 0)];
             let setup = FluidSetup {
                 levels: 1,
-                adaptation: Some(Adaptation { epsilon: 1.0, every: 1000, bounds, above: 0 }),
+                adaptation: Some(Adaptation { bounds, ..Adaptation::by_details(1.0, 1000) }),
                 ..media(SHARP, PLANAR, [cells, 16], PERIODIC, [d; 2])
             };
             let mut fluid =

@@ -101,10 +101,8 @@ fn levels_along_a_wall_find_it_equally_warm() {
     let setup = FluidSetup {
         levels: 1,
         adaptation: Some(Adaptation {
-            epsilon: 1.0,
-            every: 3,
             bounds: vec![zone([-1.0, 0.4], 1), zone([0.6, 2.0], 0)],
-            above: 0,
+            ..Adaptation::by_details(1.0, 3)
         }),
         ..above([32, 32], d, wall)
     };

@@ -30,7 +30,7 @@ fn carried(riemann: RiemannSolver, sharpening: Sharpening, density: f64, steps: 
         domain: Domain { geometry: AXIAL, z: [0.0, 2.0], r: [0.0, 1.0] },
         levels: 2,
         riemann,
-        adaptation: Some(Adaptation { epsilon: 1e-2, every: 4, bounds: vec![strip], above: 0 }),
+        adaptation: Some(Adaptation { bounds: vec![strip], ..Adaptation::by_details(1e-2, 4) }),
         scales: Scales { pressure: 1e5, density: 1e3 },
         ..of_both((Model::FiveEquation, sharpening), AXIAL, [16, 8], sides)
     };
@@ -175,7 +175,7 @@ fn ledgers_hold_and_the_gas_keeps_off_its_covolume() {
     let sides = [Boundary::Wall, open, Boundary::Axis, open];
     let setup = FluidSetup {
         levels: 2,
-        adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above: 0 }),
+        adaptation: Some(Adaptation::by_details(1e-3, 4)),
         scales: Scales { pressure: 5e6, density: 1e3 },
         ..of_both(SHARP, AXIAL, [16, 16], sides)
     };

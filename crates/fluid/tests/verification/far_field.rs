@@ -65,7 +65,7 @@ impl Setting {
             levels,
             model: Model::FiveEquation,
             sharpening: Sharpening::Thinc,
-            adaptation: Some(Adaptation { epsilon: 3e-4, every: 8, bounds: vec![], above: 0 }),
+            adaptation: Some(Adaptation::by_details(3e-4, 8)),
             scales: fluid::Scales { pressure: FAR, density: 1e3 },
             far_field,
             ..setup(AXIAL, coarsest, self.boundaries)

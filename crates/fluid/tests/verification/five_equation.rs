@@ -54,12 +54,8 @@ fn carried(
         sharpening,
         riemann,
         levels: 2,
-        adaptation: is_adaptive.then(|| Adaptation {
-            epsilon: 1e-2,
-            every: 4,
-            bounds: vec![strip],
-            above: 0,
-        }),
+        adaptation: is_adaptive
+            .then(|| Adaptation { bounds: vec![strip], ..Adaptation::by_details(1e-2, 4) }),
         scales: Scales { pressure: 1e5, density: 1e3 },
         ..setup(geometry, [16, 8], [Boundary::Periodic, Boundary::Periodic, axis, Boundary::Wall])
     };
@@ -216,7 +212,7 @@ fn collapse(pressure: f64, gas: [f64; 2], cells_per_radius: usize, shift: f64) -
         sharpening,
         limiter: Limiter::Mc,
         levels,
-        adaptation: Some(Adaptation { epsilon: 1e-3, every: 8, bounds: vec![], above: 0 }),
+        adaptation: Some(Adaptation::by_details(1e-3, 8)),
         scales: Scales { pressure, density: 1e3 },
         ..setup(
             AXIAL,

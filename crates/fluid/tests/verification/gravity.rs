@@ -30,7 +30,7 @@ fn refined() -> Adaptation {
     let (centre, radius) = ([0.5, 0.0], 0.2);
     let within = LevelBound { zone: Zone::Within { centre, radius }, at_least: 1, at_most: 1 };
     let beyond = LevelBound { zone: Zone::Beyond { centre, radius }, at_least: 0, at_most: 0 };
-    Adaptation { epsilon: 1.0, every: 4, bounds: vec![within, beyond], above: 0 }
+    Adaptation { bounds: vec![within, beyond], ..Adaptation::by_details(1.0, 4) }
 }
 
 #[test]

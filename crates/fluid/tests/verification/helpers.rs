@@ -114,7 +114,7 @@ pub fn refined_ball() -> Adaptation {
     let (centre, radius) = ([0.4, 0.0], 0.2);
     let within = LevelBound { zone: Zone::Within { centre, radius }, at_least: 1, at_most: 1 };
     let top = LevelBound { zone: Zone::Box { z: [0.76, 2.0], r: [-1.0, 2.0] }, at_least: 0, at_most: 0 };
-    Adaptation { epsilon: 1e-2, every: 4, bounds: vec![within, top], above: 0 }
+    Adaptation { bounds: vec![within, top], ..Adaptation::by_details(1e-2, 4) }
 }
 
 /// So many steps, with levels that make their own; there is a jump of levels at the end.

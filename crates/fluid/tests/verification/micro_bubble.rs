@@ -167,7 +167,7 @@ fn peak(cells: usize, [sigma, mu]: [f64; 2], start: f64) -> [f64; 3] {
         setup.liquid = StiffenedGas { gamma: 7.15, pi: 3.046e8 }.into();
         setup.levels = (all / 16).ilog2() as u8;
         setup.coarsest = [all >> setup.levels; 2];
-        setup.adaptation = Some(Adaptation { epsilon: 1e-3, every: 8, bounds: vec![], above: 0 });
+        setup.adaptation = Some(Adaptation::by_details(1e-3, 8));
         setup.surface_tension = (sigma > 0.0).then_some(SurfaceTension {
             coefficient: sigma,
             density: 1e3,

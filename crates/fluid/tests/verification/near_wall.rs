@@ -30,7 +30,7 @@ fn hit(finer: u8, above: u8, local: bool) -> Hit {
     let setup = FluidSetup {
         domain: Domain { geometry: PLANAR, z: [0.0, 1.0], r: [0.0, 0.25] },
         levels: base + above,
-        adaptation: Some(Adaptation { epsilon: 1e-3, every: 8, bounds: vec![], above }),
+        adaptation: Some(Adaptation { above, ..Adaptation::by_details(1e-3, 8) }),
         near_wall,
         scales: Scales { pressure: AMBIENT, density: 1e3 },
         ..setup_of(SHARP, PLANAR, [32, 8], WALLS)
@@ -94,7 +94,7 @@ fn a_shock_elsewhere_raises_nothing_and_changes_no_bit() {
     let run = |above: u8| {
         let setup = FluidSetup {
             levels: 1 + above,
-            adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above }),
+            adaptation: Some(Adaptation { above, ..Adaptation::by_details(1e-3, 4) }),
             near_wall: NearWall {
                 reference_pressure: 1e6,
                 shock_levels: above,
@@ -129,7 +129,7 @@ fn a_thin_film_has_the_cells_that_it_should_have() {
     let film = |film_levels: u8| {
         let setup = FluidSetup {
             levels: 2 + film_levels,
-            adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above: film_levels }),
+            adaptation: Some(Adaptation { above: film_levels, ..Adaptation::by_details(1e-3, 4) }),
             near_wall: NearWall { reference_pressure: 1e5, shock_levels: 0, film_levels, film_cells: 6 },
             scales: Scales { pressure: 1e5, density: 1e3 },
             ..setup_of(

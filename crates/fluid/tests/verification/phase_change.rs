@@ -78,7 +78,7 @@ fn collapse(asked: Option<PhaseChange>) -> FluidSolver<8> {
     let initial = cavity(BALL, [5e6, 300.0], [1e5, 380.0]);
     let setup = FluidSetup {
         levels: 2,
-        adaptation: Some(Adaptation { epsilon: 5e-2, every: 2, bounds: vec![], above: 0 }),
+        adaptation: Some(Adaptation::by_details(5e-2, 2)),
         ..setup(AXIAL, [32, 32], asked)
     };
     FluidSolver::new(&setup, &initial).unwrap()

@@ -59,7 +59,7 @@ fn adaptation(random: &mut Random, Growth { levels, boxes, every, .. }: Growth) 
         })
         .collect();
     let epsilon = 10.0_f64.powf(random.within(-2.5, -0.5));
-    Adaptation { epsilon, every: 1 + random.below(every) as u32, bounds, above: 0 }
+    Adaptation { bounds, ..Adaptation::by_details(epsilon, 1 + random.below(every) as u32) }
 }
 
 /// A bubble in liquid, both of `pressure` or not, and of one velocity along z.

@@ -95,7 +95,7 @@ fn it_radiates_no_wave() {
 fn the_first_mesh_follows_the_field() {
     let cells_at = |pressure| {
         let open = Boundary::NonReflecting;
-        let adaptation = Adaptation { epsilon: 1e-5, every: 8, bounds: vec![], above: 0 };
+        let adaptation = Adaptation::by_details(1e-5, 8);
         let setup = FluidSetup {
             domain: Domain { geometry: AXIAL, z: [-25.6, 25.6], r: [0.0, 25.6] },
             levels: 5,

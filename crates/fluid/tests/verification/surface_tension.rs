@@ -131,7 +131,7 @@ fn the_ledger_has_the_work_and_the_impulse_of_tension() {
         let mut fluid = ball(kind, AXIAL, Phase::Gas, (12, 2.0), [0.013, 0.0], |setup| {
             setup.coarsest = [24, 12];
             setup.levels = 1;
-            setup.adaptation = Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above: 0 });
+            setup.adaptation = Some(Adaptation::by_details(1e-3, 4));
         });
         set_moving(&mut fluid, Phase::Gas, 0.5);
         let (start, gas) = (fluid.totals(), fluid.bubble().gas_mass);

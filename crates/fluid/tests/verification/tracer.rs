@@ -11,7 +11,7 @@ fn collapse(kind: Kind, tracer: Shape) -> FluidSolver<8> {
     let setup = FluidSetup {
         tracer: Some(tracer),
         levels: 2,
-        adaptation: Some(Adaptation { epsilon: 5e-2, every: 2, bounds: vec![], above: 0 }),
+        adaptation: Some(Adaptation::by_details(5e-2, 2)),
         ..setup_of(kind, AXIAL, [32, 32], CYLINDER)
     };
     FluidSolver::new(&setup, &initial).unwrap()

@@ -16,9 +16,47 @@ pub struct Adaptation {
     pub bounds: Vec<LevelBound>,
     /// How many levels the tree has above L: blocks rise to them only where something besides the details demands it.
     pub above: u8,
+    /// Where the answer is, if not everywhere: elsewhere only waves that run towards it count.
+    pub interest: Option<RegionOfInterest>,
+}
+
+/// A circle in the (z, r) plane; what happens in it is the answer that a run is made for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegionOfInterest {
+    /// Centre (z, r), m.
+    pub centre: [f64; 2],
+    /// Radius, m.
+    pub radius: f64,
+}
+
+impl RegionOfInterest {
+    /// The distance of a rectangle from the circle's centre, m; 0 if that is in it.
+    ///
+    /// - `low`, `high`: its corners (z, r), m.
+    pub fn distance(&self, low: [f64; 2], high: [f64; 2]) -> f64 {
+        distance(self.centre, low, high)
+    }
+
+    /// The direction from a block to the region: the unit vector from its middle to the circle's centre; `None` if the block has points
+    /// in the circle.
+    ///
+    /// - `low`, `high`: the block's corners (z, r), m.
+    pub fn direction_from(&self, low: [f64; 2], high: [f64; 2]) -> Option<[f64; 2]> {
+        if self.distance(low, high) < self.radius {
+            return None;
+        }
+        let way = [0, 1].map(|axis| self.centre[axis] - 0.5 * (low[axis] + high[axis]));
+        let length = way[0].hypot(way[1]);
+        Some(way.map(|part| part / length))
+    }
 }
 
 impl Adaptation {
+    /// By details alone, everywhere alike: threshold ε, and steps between two adaptations.
+    pub const fn by_details(epsilon: f64, every: u32) -> Self {
+        Self { epsilon, every, bounds: Vec::new(), above: 0, interest: None }
+    }
+
     /// L, the finest level that details may ask for, of a tree whose finest is `finest`.
     pub fn base(&self, finest: u8) -> u8 {
         finest.saturating_sub(self.above)
@@ -31,6 +69,12 @@ impl Adaptation {
         }
         Cow::Owned(Self { above: finest - base, ..self.clone() })
     }
+}
+
+/// The distance of a point from a rectangle with the corners `low` and `high`, m.
+fn distance(point: [f64; 2], low: [f64; 2], high: [f64; 2]) -> f64 {
+    let to_nearest = [0, 1].map(|axis| point[axis].clamp(low[axis], high[axis]) - point[axis]);
+    to_nearest[0].hypot(to_nearest[1])
 }
 
 /// Bounds the level of the blocks that meet a zone.
@@ -78,15 +122,9 @@ impl Zone {
     /// - `low`, `high`: the block's corners (z, r), m; `widths`: of its cells, m; `domain`: where the grid is.
     pub fn meets(&self, low: [f64; 2], high: [f64; 2], widths: [f64; 2], domain: &Domain) -> bool {
         match self {
-            Self::Within { centre, radius } => {
-                let nearest = [0, 1].map(|axis| centre[axis].clamp(low[axis], high[axis]) - centre[axis]);
-                nearest[0].hypot(nearest[1]) < *radius
-            }
+            Self::Within { centre, radius } => distance(*centre, low, high) < *radius,
             // A block is beyond the circle when all of it is: else the circle's rim could never be refined.
-            Self::Beyond { centre, radius } => {
-                let nearest = [0, 1].map(|axis| centre[axis].clamp(low[axis], high[axis]) - centre[axis]);
-                nearest[0].hypot(nearest[1]) >= *radius
-            }
+            Self::Beyond { centre, radius } => distance(*centre, low, high) >= *radius,
             Self::Box { z, r } => z[0] < high[0] && z[1] > low[0] && r[0] < high[1] && r[1] > low[1],
             Self::Along(side) => {
                 let Domain { z, r, .. } = domain;

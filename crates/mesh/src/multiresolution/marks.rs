@@ -113,6 +113,8 @@ fn significant_extents<const N: usize, R: Multiresolution>(
                 patch.fill(mesh, field, slot, rule);
                 let [along_z, along_r] = counting_cells(mesh, tree.leaves()[slot], rule);
                 let own = |component, j| &field.component(slot, component)[j * N..];
+                let directed = directed(mesh, tree.leaves()[slot], rule, adaptation);
+                let rule = directed.as_ref().unwrap_or(rule);
                 patch.details(own, rule, threshold, |i, j, [size, everywhere]| {
                     let counts = along_z.contains(&i) && along_r.contains(&j);
                     let size = if counts { size } else { everywhere };
@@ -127,6 +129,17 @@ fn significant_extents<const N: usize, R: Multiresolution>(
             [keep, refine]
         })
         .collect()
+}
+
+/// The rule for the details of a block of which only waves towards the region of interest matter; `None` where all do.
+fn directed<const N: usize, R: Multiresolution>(
+    mesh: &Mesh<N>,
+    id: BlockId,
+    rule: &R,
+    adaptation: &Adaptation,
+) -> Option<R> {
+    let [low, high] = corners(mesh, id);
+    rule.towards(adaptation.interest?.direction_from(low, high)?)
 }
 
 /// Asks for the levels of blocks that significant details can reach before the next adaptation.
@@ -215,6 +228,8 @@ fn refined_again<const N: usize, R: Multiresolution>(
         let parent = BlockId { level: id.level - 1, i: id.i / 2, j: id.j / 2 };
         let [along_z, along_r] = counting_cells(mesh, parent, rule);
         let own = |component, j| &around.component(component)[Padded::<N>::index(0, j as isize)..];
+        let directed = directed(mesh, parent, rule, adaptation);
+        let rule = directed.as_ref().unwrap_or(rule);
         patch.details(own, rule, least, |i, j, [_, everywhere]| {
             if everywhere > least || along_z.contains(&i) && along_r.contains(&j) {
                 let (a, b) = (i / (N / 2), j / (N / 2));
@@ -304,7 +319,12 @@ fn bounds<const N: usize>(mesh: &Mesh<N>, id: BlockId, bounds: &[LevelBound]) ->
 
 /// Whether a block has points in a zone, see [`Zone::meets`].
 fn meets<const N: usize>(mesh: &Mesh<N>, id: BlockId, zone: &Zone) -> bool {
+    let [low, high] = corners(mesh, id);
+    zone.meets(low, high, mesh.widths(id.level), mesh.domain())
+}
+
+/// The corners (z, r) of a block, m.
+fn corners<const N: usize>(mesh: &Mesh<N>, id: BlockId) -> [[f64; 2]; 2] {
     let (low, widths) = (mesh.origin(id), mesh.widths(id.level));
-    let high = [low[0] + N as f64 * widths[0], low[1] + N as f64 * widths[1]];
-    zone.meets(low, high, widths, mesh.domain())
+    [low, [low[0] + N as f64 * widths[0], low[1] + N as f64 * widths[1]]]
 }

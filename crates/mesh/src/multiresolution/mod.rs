@@ -44,6 +44,15 @@ pub trait Multiresolution: Sync {
     /// - `cell`, `detail`: [`MOST_COMPONENTS`] numbers, zeros after the field's own components.
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64;
 
+    /// The same rule where of waves only those count that run in a direction: a unit vector (z, r), towards the
+    /// [region of interest](crate::RegionOfInterest). `None`: all count wherever they run.
+    fn towards(&self, _direction: [f64; 2]) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+
     /// The size of that part of a detail that counts everywhere, also beside sides whose details do not, see
     /// [`Multiresolution::counts_beside`]. Asked for few cells.
     fn significance_everywhere(&self, _cell: &[f64], _detail: &[f64]) -> f64 {

@@ -67,7 +67,7 @@ impl Multiresolution for Rule {
     }
 }
 
-pub const EVERYWHERE: Adaptation = Adaptation { epsilon: 1.0, every: 1, bounds: Vec::new(), above: 0 };
+pub const EVERYWHERE: Adaptation = Adaptation::by_details(1.0, 1);
 
 /// The threshold of [`EVERYWHERE`] on a level.
 pub fn threshold(mesh: &Mesh<N>, level: u8) -> f64 {

@@ -2,7 +2,7 @@
 
 use mesh::{
     Adaptation, BlockId, Domain, Field, Geometry, LevelBound, MOST_COMPONENTS, Mesh, Multiresolution, Patch,
-    ScratchPool, Side, Zone,
+    RegionOfInterest, ScratchPool, Side, Zone,
 };
 use proptest::prelude::*;
 
@@ -311,4 +311,66 @@ fn adaptation_to_a_smooth_function_comes_to_rest() {
         counts.as_flattened().iter().all(Vec::is_empty),
         "sampled and remapped, soon and later: {counts:?}"
     );
+}
+
+/// Cells say how much they matter; those that only waves in a direction matter of do as far as it is that of rising z.
+struct Directed([f64; 2]);
+
+impl Multiresolution for Directed {
+    fn parity(&self, _: Side, _: usize) -> Option<f64> {
+        None
+    }
+
+    fn towards(&self, direction: [f64; 2]) -> Option<Self> {
+        assert!((direction[0].hypot(direction[1]) - 1.0).abs() < 1e-12);
+        Some(Self(direction))
+    }
+
+    fn share(&self, _: &[f64], _: &[[f64; MOST_COMPONENTS]; 4]) -> f64 {
+        1.0
+    }
+
+    fn significance(&self, cell: &[f64], _: &[f64]) -> f64 {
+        cell[0].abs() * self.0[0].max(0.0)
+    }
+}
+
+#[test]
+fn outside_the_region_of_interest_the_direction_to_it_counts() {
+    let region = RegionOfInterest { centre: [0.5, 0.25], radius: 0.1 };
+    let levels_beside = |interest: Option<RegionOfInterest>| {
+        let adaptation = Adaptation { interest, ..EVERYWHERE };
+        let mut mesh = Mesh::<N>::on_level(square_domain(), [N, N], 4, 4, [false; 2]).unwrap();
+        let scratch = ScratchPool::new(|| Patch::zeros(1));
+        for _ in 0..8 {
+            let mut field = Field::zeros(mesh.blocks(), N * N, 1);
+            field.as_mut_slice().fill(1e6);
+            let rule = Directed([1.0, 0.0]);
+            match mesh.adapted(&field, &rule, &adaptation, &scratch, |_| 0.0, |_| 0) {
+                Some(adapted) => mesh = adapted.mesh,
+                None => break,
+            }
+        }
+        let level_at = |point: [f64; 2]| {
+            let (slot, ..) = mesh.locate(point).unwrap();
+            mesh.tree().leaves()[slot].level
+        };
+        // Before the region, in it, behind it, and farther behind, where grading asks for nothing.
+        [[0.1, 0.25], [0.5, 0.25], [0.9, 0.25], [0.9, 0.9]].map(level_at)
+    };
+    assert_eq!(levels_beside(None), [4; 4]);
+    let [before, within, behind, far] = levels_beside(Some(region));
+    assert_eq!([before, within], [4, 4]);
+    assert!(behind < 4 && far <= 2, "{behind} {far}");
+}
+
+#[test]
+fn blocks_see_the_middle_of_the_region() {
+    let region = RegionOfInterest { centre: [1.0, 2.0], radius: 0.5 };
+    assert_eq!(region.direction_from([0.0, 1.0], [2.0, 3.0]), None, "around it");
+    assert_eq!(region.direction_from([1.4, 2.0], [9.0, 9.0]), None, "it meets it");
+    assert_eq!(region.direction_from([4.0, 1.0], [6.0, 3.0]), Some([-1.0, 0.0]));
+    let [z, r] = region.direction_from([-3.0, -2.0], [-1.0, 0.0]).unwrap();
+    assert!((z - 0.5_f64.sqrt()).abs() < 1e-15 && (r - z).abs() < 1e-15);
+    assert_eq!(region.distance([4.0, 1.0], [6.0, 3.0]), 3.0);
 }

@@ -94,7 +94,8 @@ mod tests {
         let analysis = Analysis {
             boundaries: [Boundary::Free; 4],
             stress_scale: 1e6,
-            impedance: speeds.z1(),
+            impedances: [speeds.z1(), speeds.z2()],
+            direction: None,
             strain_modulus: 3.0 * speeds.shear_modulus(),
         };
         let rule = Admissible { analysis: &analysis, plasticity: &plasticity };

@@ -31,7 +31,7 @@ fn stepped(choice: &Choice, ways: Ways) -> (SolidSolver<N>, [usize; 2]) {
         plasticity: choice.plasticity.clone(),
         limiter: choice.limiter,
         boundaries: choice.boundaries,
-        adaptation: Some(Adaptation { epsilon: 1e-3, every: 4, bounds: vec![], above: 0 }),
+        adaptation: Some(Adaptation::by_details(1e-3, 4)),
         stress_scale: 1e8,
         weight: None,
     };

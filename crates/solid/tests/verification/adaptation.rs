@@ -1,6 +1,6 @@
 //! Adaptive grids: what must be exact on them, and how little a level jump may be seen.
 
-use mesh::{Adaptation, Domain, LevelBound, Limiter};
+use mesh::{Adaptation, Domain, LevelBound, Limiter, RegionOfInterest};
 use solid::{Boundary, ElasticState, SolidSetup, SolidSolver};
 
 use crate::helpers::*;
@@ -8,7 +8,7 @@ use crate::helpers::*;
 const AMPLITUDE: f64 = 1e7;
 
 fn adaptive(setup: SolidSetup, levels: u8, epsilon: f64, bounds: Vec<LevelBound>) -> SolidSetup {
-    let adaptation = Some(Adaptation { epsilon, every: 4, bounds, above: 0 });
+    let adaptation = Some(Adaptation { bounds, ..Adaptation::by_details(epsilon, 4) });
     SolidSetup { levels, adaptation, stress_scale: AMPLITUDE, ..setup }
 }
 
@@ -99,6 +99,62 @@ fn a_uniform_stress_stays_at_rest_under_a_wave() {
         assert!(worst < 1e-11, "{worst}");
     }
 }
+
+/// A pulse at rest runs apart: of its halves the grid follows that which runs towards the region of interest, and it loses
+/// nothing there.
+#[test]
+fn only_the_wave_that_runs_to_the_region_of_interest_keeps_its_cells() {
+    for (wave, c) in [(Wave::Pressure, STEEL.c1), (Wave::Shear, STEEL.c2)] {
+        let run = |interest: Option<RegionOfInterest>| {
+            let sides = [Boundary::Fixed, Boundary::Fixed, Boundary::Periodic, Boundary::Periodic];
+            let mut setup = adaptive(setup(PLANAR, [32, 8], sides), 3, 1e-4, vec![]);
+            setup.domain = Domain { geometry: PLANAR, z: [0.0, 1.0], r: [0.0, 0.25] };
+            setup.adaptation.as_mut().unwrap().interest = interest;
+            let initial = move |[z, _]: [f64; 2]| {
+                let stress = AMPLITUDE * (-((z - 0.5) * 16.0).powi(2)).exp();
+                let across = stress * (1.0 - 2.0 * (STEEL.c2 / STEEL.c1).powi(2));
+                match wave {
+                    Wave::Pressure => {
+                        ElasticState { stress_zz: stress, stress_rr: across, stress_phiphi: across, ..REST }
+                    }
+                    Wave::Shear => ElasticState { stress_zr: stress, ..REST },
+                }
+            };
+            let mut solid = SolidSolver::<8>::new(setup, initial).unwrap();
+            while solid.time() < 0.38 / c {
+                let dt = solid.time_step_limit(CFL).min(0.38 / c - solid.time());
+                solid.step(dt).unwrap();
+                solid.adapt_if_due(dt, 1);
+            }
+            solid
+        };
+        // The lower half is at z = 0.12 then, in the region; the upper one at 0.88.
+        let region = RegionOfInterest { centre: [-9.7, 0.125], radius: 10.0 };
+        let [all, followed] = [None, Some(region)].map(run);
+        let level = |solid: &SolidSolver<8>, z: f64| {
+            let (slot, ..) = solid.mesh().locate([z, 0.1]).unwrap();
+            solid.mesh().tree().leaves()[slot].level
+        };
+        assert_eq!([0.12, 0.88].map(|z| level(&all, z)), [3, 3], "{wave:?}");
+        assert!(level(&followed, 0.12) == 3 && level(&followed, 0.88) < 3, "{wave:?}");
+        let difference = (0..100)
+            .map(|k| [0.3 * f64::from(k) / 100.0, 0.1])
+            .map(|place| {
+                let [a, b] = [&all, &followed].map(|solid| solid.sample(place).unwrap());
+                let difference = (a.stress_zz - b.stress_zz).abs().max((a.stress_zr - b.stress_zr).abs());
+                difference / (0.5 * AMPLITUDE)
+            })
+            .fold(0.0, f64::max);
+        let share = followed.cell_updates() as f64 / all.cell_updates() as f64;
+        eprintln!("{wave:?}: in the region {difference:.1e}, {share:.2} of the cell updates");
+        assert!(difference < 5e-4, "{wave:?}: {difference}");
+        assert!(share < 0.7, "{wave:?}: {share}");
+    }
+}
+
+/// Nothing moves, nothing is stressed.
+const REST: ElasticState =
+    ElasticState { v_z: 0.0, v_r: 0.0, stress_zz: 0.0, stress_zr: 0.0, stress_rr: 0.0, stress_phiphi: 0.0 };
 
 /// The two plane waves along z.
 #[derive(Clone, Copy, Debug)]

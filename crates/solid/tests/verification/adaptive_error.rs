@@ -58,7 +58,7 @@ fn run(geometry: Geometry, levels: u8, epsilon: Option<f64>) -> Run {
     let setup = SolidSetup {
         domain: Domain { geometry, z: [0.0, 1.0], r: [0.0, 1.0] },
         levels,
-        adaptation: epsilon.map(|epsilon| Adaptation { epsilon, every: 8, bounds: vec![], above: 0 }),
+        adaptation: epsilon.map(|epsilon| Adaptation::by_details(epsilon, 8)),
         stress_scale: AMPLITUDE,
         ..setup(geometry, [CELLS / 8; 2], [Boundary::Symmetry, Boundary::Symmetry, low, Boundary::Symmetry])
     };

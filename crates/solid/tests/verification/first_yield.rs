@@ -110,7 +110,7 @@ fn half_space(plasticity: Option<Hardening>) -> SolidSolver<8> {
     };
     // No detail counts: the bounds alone make the mesh.
     let adaptation =
-        Adaptation { epsilon: 1.0, every: 8, bounds: vec![within(2.0, 2), within(4.0, 1)], above: 0 };
+        Adaptation { bounds: vec![within(2.0, 2), within(4.0, 1)], ..Adaptation::by_details(1.0, 8) };
     let setup = SolidSetup {
         domain: Domain { geometry: AXIAL, z: [-REACH, 0.0], r: [0.0, REACH] },
         speeds: SPEEDS,

@@ -15,7 +15,7 @@ fn dented(hardening: Option<Hardening>, adapts: bool) -> SolidSolver<8> {
     let setup = SolidSetup {
         domain: Domain { geometry: AXIAL, z: [-1.0, 0.0], r: [0.0, 1.0] },
         levels: if adapts { 3 } else { 0 },
-        adaptation: adapts.then(|| Adaptation { epsilon: 3e-3, every: 2, bounds: vec![], above: 0 }),
+        adaptation: adapts.then(|| Adaptation::by_details(3e-3, 2)),
         plasticity: hardening,
         stress_scale: 1e9,
         ..setup(AXIAL, if adapts { [8, 8] } else { [32, 32] }, boundaries)

@@ -161,8 +161,7 @@ fn displacement_is_as_good_where_the_grid_adapts_and_levels_step_by_themselves()
         let setup = SolidSetup {
             domain: Domain { geometry: AXIAL, z: [-6.4 * a, 0.0], r: [0.0, 6.4 * a] },
             levels,
-            adaptation: Some(Adaptation { epsilon: 1e-3, every: 2, bounds: vec![], above: 0 })
-                .filter(|_| levels > 0),
+            adaptation: Some(Adaptation::by_details(1e-3, 2)).filter(|_| levels > 0),
             plasticity: Some(Hardening::perfect(2.5e8).unwrap()),
             speeds: ALUMINIUM,
             stress_scale: 1e9,

@@ -62,7 +62,7 @@ fn under_a_pulse(kind: Boundary, sides: usize, adapts: bool) -> Vec<[[f64; 2]; 4
     let (water, impedance, height, width) = (1483.0_f64, 1483e3, 4e-3_f64, 1e-3);
     let uniform = half_space(AXIAL, ALUMINIUM, kind, [sides as f64 * H; 2], [sides; 2]);
     let setup = if adapts {
-        let adaptation = Some(Adaptation { epsilon: 1e-4, every: 4, bounds: vec![], above: 0 });
+        let adaptation = Some(Adaptation::by_details(1e-4, 4));
         SolidSetup { coarsest: [sides / 4; 2], levels: 2, adaptation, stress_scale: 1e5, ..uniform }
     } else {
         uniform
@@ -203,7 +203,7 @@ fn nothing_grows_in_the_long_run() {
 /// Adaptive, with steps of its own on each level.
 fn adaptive() -> SolidSolver<8> {
     let sides = [Boundary::Absorbing, Boundary::Free, Boundary::Axis, Boundary::Absorbing];
-    let adaptation = Some(Adaptation { epsilon: 2e-2, every: 2, bounds: vec![], above: 0 });
+    let adaptation = Some(Adaptation::by_details(2e-2, 2));
     let setup = SolidSetup { levels: 3, adaptation, ..setup(AXIAL, [8, 8], sides) };
     let lump = |[z, r]: [f64; 2]| {
         let bell = (-((z - 0.3) / 0.1).powi(2) - ((r - 0.7) / 0.1).powi(2)).exp();

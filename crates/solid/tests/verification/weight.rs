@@ -15,7 +15,7 @@ fn setup_with(weight: Weight, sides: [Boundary; 4]) -> SolidSetup {
     SolidSetup {
         weight: Some(weight),
         levels: 1,
-        adaptation: Some(Adaptation { epsilon: 1.0, every: 4, bounds: vec![within, beyond], above: 0 }),
+        adaptation: Some(Adaptation { bounds: vec![within, beyond], ..Adaptation::by_details(1.0, 4) }),
         ..setup(AXIAL, [32, 32], sides)
     }
 }
