@@ -53,7 +53,7 @@ pub fn report(case: &Case) -> String {
     if let (Some(fluid), Some(solid)) = (&case.fluid, &case.solid) {
         impedances(&mut text, fluid, solid);
     }
-    if let Some(region) = &case.region_of_interest {
+    if let Some(region) = case.region_of_interest() {
         let [z, r] = region.centre.map(|at| si(at, "m"));
         let radius = si(region.radius, "m");
         let about = format!("within {radius} of ({z}, {r}); beyond, grids follow what runs towards it");

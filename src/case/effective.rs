@@ -98,7 +98,7 @@ impl Case {
                 LoadCase::Recorded(load) => text.key("run", quoted(&load.run().to_string_lossy())),
             }
         }
-        if let Some(region) = &self.region_of_interest {
+        if let Some(region) = self.region_of_interest() {
             text.head("[region_of_interest]");
             text.list("centre", &region.centre);
             text.number("radius", region.radius);

@@ -87,8 +87,6 @@ pub struct Case {
     pub solid: Option<SolidCase>,
     /// How the two meet.
     pub coupling: CouplingCase,
-    /// Where the answer is, if the grids follow what reaches it.
-    pub region_of_interest: Option<RegionOfInterest>,
     /// Points at which every step is recorded.
     pub probes: Vec<Probe>,
     /// `[[sensor]]`.
@@ -108,10 +106,18 @@ impl PartialEq for Case {
             && self.fluid == other.fluid
             && self.solid == other.solid
             && self.coupling == other.coupling
-            && self.region_of_interest == other.region_of_interest
             && self.probes == other.probes
             && self.sensors == other.sensors
             && self.output == other.output
+    }
+}
+
+impl Case {
+    /// Where the answer is, if the grids that adapt follow what reaches it.
+    pub fn region_of_interest(&self) -> Option<RegionOfInterest> {
+        let fluid = self.fluid.as_ref().and_then(|fluid| fluid.grid.adaptation.as_ref());
+        let solid = self.solid.as_ref().and_then(|solid| solid.grid.adaptation.as_ref());
+        fluid.or(solid)?.interest
     }
 }
 

@@ -87,7 +87,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         (_, [Some(fluid), _]) => Some(fluid.z[0]),
         (_, [None, solid]) => solid.as_ref().map(|grid| grid.z[1]),
     };
-    let region_of_interest = read_interest::region_of_interest(&mut root, media, wall_z, &mut faults);
+    read_interest::region_of_interest(&mut root, media, wall_z, &mut faults);
     root.finish(&mut faults);
     let probes = cross::probes(
         probes,
@@ -114,7 +114,6 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
         fluid: fluid.map(|(fluid, _)| fluid),
         solid: solid.map(|(solid, _)| solid),
         coupling,
-        region_of_interest,
         probes,
         sensors,
         output,

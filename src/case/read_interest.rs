@@ -13,19 +13,20 @@ pub(super) fn region_of_interest(
     mut grids: [Option<&mut GridCase>; 2],
     wall: Option<f64>,
     faults: &mut Faults,
-) -> Option<RegionOfInterest> {
-    let mut table = root.table("region_of_interest", faults)?;
+) {
+    let Some(mut table) = root.table("region_of_interest", faults) else { return };
     let (place, span) = (table.path.clone(), table.span.clone());
     let radius = table.required_positive("radius", faults);
     let corner = wall.zip(grids.iter().flatten().next()).map(|(z, grid)| [z, grid.r[0]]);
-    if corner.is_none() && !table.has("centre") {
+    // A side that is faulty has no grid here; its own faults are enough.
+    if wall.is_none() && grids.iter().any(Option::is_some) && !table.has("centre") {
         let help = "give `centre = [z, r]`; by default it is where the wall meets the axis, and this case has no wall";
         table.missing("centre", help, faults);
     }
     let centre = table.pair("centre", faults);
     table.finish(faults);
-    // Where the sides are faulty nothing can be said about the region.
-    let region = RegionOfInterest { centre: centre.map(|given| given.value).or(corner)?, radius: radius? };
+    let (Some(centre), Some(radius)) = (centre.map(|given| given.value).or(corner), radius) else { return };
+    let region = RegionOfInterest { centre, radius };
     let has_points_in = |grid: &&mut GridCase| {
         let corner = |end: usize| [grid.z[end], grid.r[end]];
         region.distance(corner(0), corner(1)) < region.radius
@@ -47,5 +48,4 @@ pub(super) fn region_of_interest(
         let help = "take adapt = true and more than one level, or remove [region_of_interest]";
         faults.at(&place, &span, "no grid of this case adapts, so there is nothing to follow", help);
     }
-    Some(region)
 }

@@ -23,6 +23,7 @@ fn full() -> String {
         &probe("wall", [0.0, 0.0], "fluid"),
         &probe("steel", [-0.002, 0.001], "solid"),
         &sensor("disc", 0.001, 1e-8),
+        "[region_of_interest]\ncentre = [0.0, 0.0]\nradius = 0.003\n",
         "[output]\ncompression = 1\ninterface_cells = 32\ninterface_every = 1e-8\nmean_time = 1e-8\n",
     ];
     text.concat()
