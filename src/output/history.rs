@@ -14,12 +14,12 @@ use series::{CHUNK_VALUES, OwnedColumn, Series, absolute, describe, make_parents
 
 /// Shortest time between two batches that [`HistoryFile::flush_if_due`] writes.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(1);
-/// Largest share of the wall time that [`HistoryFile::flush_if_due`] spends.
-const FLUSH_SHARE: f64 = 0.02;
+/// Largest share of the wall time that [`HistoryFile::flush_if_due`] spends: the other threads have nothing to do meanwhile.
+const FLUSH_SHARE: f64 = 0.005;
 /// Rows that take this much memory, bytes, and this share of the file wait no longer for a batch than [`FLUSH_INTERVAL`]: a
 /// batch copies the file, so that a share is what keeps the copies in proportion to what they add.
-const LARGEST_BUFFER: u64 = 1 << 20;
-const BUFFER_SHARE: u64 = 64;
+const LARGEST_BUFFER: u64 = 1 << 22;
+const BUFFER_SHARE: u64 = 16;
 /// Rows that take this much and that share do not even wait so long.
 const MOST_BUFFERED: u64 = 1 << 24;
 /// A batch of this length, bytes, has rows of all series in the proportion in which they come.
@@ -237,8 +237,8 @@ impl HistoryFile {
     }
 
     /// Whether a batch is due: a second after the last one at the earliest, and late enough that a batch that costs as
-    /// much as the last one stays under 2 % of the wall time; at any cost when the rows fill their memory, 1 MiB or a
-    /// sixty-fourth of the file; at once when that is 16 MiB or more.
+    /// much as the last one stays under 0.5 % of the wall time; at any cost when the rows fill their memory, 4 MiB or a
+    /// sixteenth of the file; at once when that is 16 MiB or more.
     pub fn is_flush_due(&self) -> bool {
         let elapsed = self.last_flush.elapsed();
         let is_cheap = self.last_cost.as_secs_f64() < FLUSH_SHARE * elapsed.as_secs_f64();

@@ -84,6 +84,43 @@ impl TraceRow {
     pub fn of(self, payload: &[f64], count: usize) -> &[f64] {
         &payload[self as usize * count..][..count]
     }
+
+    /// All but the edge: what a solver knows of a face.
+    const OF_A_FACE: [Self; Self::COUNT - 1] = [
+        Self::Pressure,
+        Self::NormalVelocity,
+        Self::TangentialVelocity,
+        Self::Shear,
+        Self::Density,
+        Self::PressureRate,
+        Self::NormalVelocityRate,
+        Self::TangentialVelocityRate,
+        Self::DensityRate,
+        Self::Gamma,
+        Self::Pi,
+        Self::PressureSlope,
+        Self::NormalVelocitySlope,
+        Self::DensitySlope,
+        Self::Impedance,
+    ];
+}
+
+/// The rows of a trace on one face, its edge left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FaceTrace([f64; TraceRow::COUNT]);
+
+impl FaceTrace {
+    /// With these values; of rows that are not among them 0.
+    pub fn of<const ROWS: usize>(values: [(TraceRow, f64); ROWS]) -> Self {
+        let mut trace = Self::default();
+        values.into_iter().for_each(|(row, value)| trace.0[row as usize] = value);
+        trace
+    }
+
+    /// All rows with their values.
+    pub fn rows(&self) -> impl Iterator<Item = (TraceRow, f64)> {
+        TraceRow::OF_A_FACE.into_iter().map(|row| (row, self.0[row as usize]))
+    }
 }
 
 /// A row of a register frame: one number per interface face of the *receiver*, means over its step.

@@ -43,7 +43,7 @@ pub use content::StepLength;
 pub use direct::{DirectLink, direct_pair};
 pub use domain::Domain;
 pub use error::CouplerError;
-pub use exchange::{RegisterRow, TraceRow, WallRegister};
+pub use exchange::{FaceTrace, RegisterRow, TraceRow, WallRegister};
 pub use frame::{Expected, FRAME_VERSION, Frame, FrameHeader};
 pub use kinds::{Fault, FrameKind, Participant};
 pub use latency::Latencies;

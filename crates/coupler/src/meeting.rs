@@ -4,12 +4,17 @@
 //! meets it in each of its own steps and returns the means. What one gives the other gets, to round-off, whatever the
 //! ratio of the steps, and also where the faces do not match.
 
+mod seen;
+
+use rayon::prelude::*;
+
 use crate::error::CouplerError;
 use crate::exchange::{RegisterRow, TraceRow};
 use crate::kinds::Participant;
 use crate::mapping::{CommonRefinement, SubFace};
 use crate::options::StarSolver;
-use crate::star::{FluidTrace, InterfaceStar, SolidTrace, acoustic_star, exact_star};
+use crate::star::{InterfaceStar, acoustic_star, exact_star};
+use seen::Seen;
 
 /// A short step, or one of some of a side's faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +33,20 @@ struct Means {
     power: f64,
     tangential: f64,
     shear: f64,
+}
+
+/// So many sub-faces are worth it to wake a thread: some 20 microseconds.
+const FACES_AT_ONCE: usize = 64;
+
+/// What is found on a sub-face.
+type OnSubFace<'a> = (&'a mut InterfaceStar, &'a mut Friction, &'a mut Means);
+
+fn stars_of<'a>(
+    stars: &'a mut [InterfaceStar],
+    frictions: &'a mut [Friction],
+    means: &'a mut [Means],
+) -> impl Iterator<Item = OnSubFace<'a>> {
+    stars.iter_mut().zip(frictions).zip(means).map(|((star, friction), mean)| (star, friction, mean))
 }
 
 /// What friction does on a sub-face.
@@ -112,7 +131,7 @@ impl Meeting {
         own: Participant,
         step: ShortStep,
         solver: StarSolver,
-        is_due: impl Fn(usize) -> bool,
+        is_due: impl Fn(usize) -> bool + Sync,
     ) -> Result<(), CouplerError> {
         // Of the other side's trace as much time has passed as its step is old.
         let (half, age) = (0.5 * step.dt, step.begin - self.begin + 0.5 * step.dt);
@@ -120,7 +139,8 @@ impl Meeting {
             if step.begin == self.begin { 1.0 } else { step.dt / (step.begin + step.dt - self.begin) };
         let Self { refinement, trace, others, own: own_trace, edges, stars, frictions, means, low, .. } =
             self;
-        for (number, sub) in refinement.sub_faces().iter().enumerate().filter(|(_, sub)| is_due(sub.second)) {
+        let (trace, own_trace) = (&*trace, &*own_trace);
+        let meet = |sub: &SubFace, (star, friction, mean): OnSubFace<'_>| {
             let SubFace { first, second, offset_in_first, offset_in_second, .. } = *sub;
             // Traces are linear along a face: a face that meets several of the other side shows each its own part.
             let theirs =
@@ -147,7 +167,7 @@ impl Meeting {
             if !solid.is_state() {
                 return no_state(Participant::Solid, format!("{solid:?}"));
             }
-            let star = match solver {
+            *star = match solver {
                 StarSolver::Exact => exact_star(&fluid, &solid),
                 StarSolver::Acoustic => acoustic_star(&fluid, &solid),
             };
@@ -156,25 +176,34 @@ impl Meeting {
                 let values = format!("{fluid:?} and {solid:?} have none in common: {star:?}");
                 return no_state(own.peer(), values);
             }
-            self.floored += u64::from(star.floored);
-            stars[number] = star;
             // The fluid says how it drags the wall, the solid how that moves.
             let shear = fluid_seen.value(TraceRow::Shear);
-            let friction = Friction { shear, velocity: solid_seen.tangential_velocity() };
-            frictions[number] = friction;
+            *friction = Friction { shear, velocity: solid_seen.tangential_velocity() };
             // By differences, so that the mean of what stays the same is the same to the last bit.
-            let mean = &mut means[number];
             let add = |mean: &mut f64, value: f64| {
                 *mean = if weight == 1.0 { value } else { *mean + weight * (value - *mean) };
             };
             add(&mut mean.pressure, star.pressure);
             add(&mut mean.velocity, star.velocity);
-            add(&mut mean.power, friction.power(&star));
+            add(&mut mean.power, friction.power(star));
             add(&mut mean.shear, friction.shear);
             let tangential = [TraceRow::TangentialVelocity, TraceRow::TangentialVelocityRate]
                 .map(|row| row.of(own_trace, edges.len())[second]);
             add(&mut mean.tangential, tangential[0] + half * tangential[1]);
-        }
+            Ok(u64::from(star.floored))
+        };
+        let parts = (refinement.sub_faces().par_chunks(FACES_AT_ONCE))
+            .zip(stars.par_chunks_mut(FACES_AT_ONCE))
+            .zip(frictions.par_chunks_mut(FACES_AT_ONCE))
+            .zip(means.par_chunks_mut(FACES_AT_ONCE));
+        let meet_all = |(((subs, stars), frictions), means): (((&[SubFace], _), _), _)| {
+            let places = stars_of(stars, frictions, means);
+            let due = subs.iter().zip(places).filter(|(sub, _)| is_due(sub.second));
+            due.map(|(sub, place)| meet(sub, place)).sum::<Result<u64, CouplerError>>()
+        };
+        let met: Vec<Result<u64, CouplerError>> = parts.map(meet_all).collect();
+        // The first that fails is told of, whoever was first to find one.
+        self.floored += met.into_iter().sum::<Result<u64, CouplerError>>()?;
         Ok(())
     }
 
@@ -236,62 +265,6 @@ impl Meeting {
     /// Star states that had to be lifted to the lowest admissible pressure so far.
     pub fn floored(&self) -> u64 {
         self.floored
-    }
-}
-
-/// A place on one side's trace, and how long after it was taken.
-struct Seen<'a> {
-    rows: &'a [f64],
-    count: usize,
-    face: usize,
-    after: f64,
-    offset: f64,
-}
-
-impl Seen<'_> {
-    /// The middle of the face on an interface that begins at `low`, m.
-    fn radius(&self, low: f64) -> f64 {
-        let edges = TraceRow::Edge.of(self.rows, self.count);
-        0.5 * (edges[self.face] + self.face.checked_sub(1).map_or(low, |before| edges[before]))
-    }
-
-    fn value(&self, row: TraceRow) -> f64 {
-        row.of(self.rows, self.count)[self.face]
-    }
-
-    /// Value, rate and slope at the place and the time.
-    fn moved(&self, row: TraceRow, rate: TraceRow, slope: TraceRow) -> f64 {
-        self.value(row) + self.after * self.value(rate) + self.offset * self.value(slope)
-    }
-
-    fn pressure(&self) -> f64 {
-        self.moved(TraceRow::Pressure, TraceRow::PressureRate, TraceRow::PressureSlope)
-    }
-
-    fn velocity(&self) -> f64 {
-        self.moved(TraceRow::NormalVelocity, TraceRow::NormalVelocityRate, TraceRow::NormalVelocitySlope)
-    }
-
-    fn tangential_velocity(&self) -> f64 {
-        self.value(TraceRow::TangentialVelocity) + self.after * self.value(TraceRow::TangentialVelocityRate)
-    }
-
-    fn fluid(&self) -> FluidTrace {
-        FluidTrace {
-            pressure: self.pressure(),
-            velocity: self.velocity(),
-            density: self.moved(TraceRow::Density, TraceRow::DensityRate, TraceRow::DensitySlope),
-            gamma: self.value(TraceRow::Gamma),
-            pi: self.value(TraceRow::Pi),
-        }
-    }
-
-    fn solid(&self) -> SolidTrace {
-        SolidTrace {
-            pressure: self.pressure(),
-            velocity: self.velocity(),
-            impedance: self.value(TraceRow::Impedance),
-        }
     }
 }
 

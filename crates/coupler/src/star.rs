@@ -168,7 +168,8 @@ pub fn exact_star(fluid: &FluidTrace, solid: &SolidTrace) -> InterfaceStar {
         let f = at.f + (p - solid.pressure) / solid.impedance + dv;
         CurvePoint { f, slope: at.slope + shifted / solid.impedance, ..at }
     };
-    if sum(VACUUM_PRESSURE - pi, VACUUM_PRESSURE).f >= 0.0 {
+    let vacuum = VACUUM_PRESSURE - pi;
+    if curve.at_vacuum() + (vacuum - solid.pressure) / solid.impedance + dv >= 0.0 {
         return torn(fluid, solid);
     }
 

@@ -102,6 +102,19 @@ impl WaveCurve {
         }
     }
 
+    /// f_K at P = [`VACUUM_PRESSURE`]: the largest velocity away from the wave that the gas can get, m/s.
+    #[inline]
+    #[must_use]
+    pub fn at_vacuum(&self) -> f64 {
+        // From here on R^((γ − 1)/2γ), e⁻⁴⁰ at most, is lost beside 1 in f64.
+        const EXPONENT: f64 = 0.06;
+        let base = self.pressure + self.pi;
+        if base >= 1.0 && self.gamma - 1.0 >= EXPONENT * (2.0 * self.gamma) {
+            return -(2.0 * self.sound_speed / (self.gamma - 1.0));
+        }
+        self.at(VACUUM_PRESSURE - self.pi, VACUUM_PRESSURE, 0.0).f
+    }
+
     /// Density behind the wave by that before it: on the Hugoniot above the gas's own pressure, else on the isentrope.
     ///
     /// Toro (2009) eqs. 4.50 and 4.53 in p + π.
@@ -148,7 +161,7 @@ pub fn curve_root(start: f64, pi: f64, sum: impl Fn(f64, f64) -> CurvePoint) -> 
     loop {
         iterations += 1;
         let at = sum(p, shifted);
-        let step = newton_power_step(
+        let (step, growth) = newton_power_step(
             at.f / at.slope,
             1.0 + at.curvature / at.slope,
             shifted,
@@ -156,7 +169,7 @@ pub fn curve_root(start: f64, pi: f64, sum: impl Fn(f64, f64) -> CurvePoint) -> 
             &mut highest,
         );
         // p and P differ by pi; the smaller of the two is carried, the other one follows.
-        let ahead = shifted * step.exp();
+        let ahead = shifted * growth;
         if (ahead - pi).abs() < ahead {
             p += shifted * step.exp_m1();
             shifted = p + pi;
@@ -179,22 +192,24 @@ pub fn curve_root(start: f64, pi: f64, sum: impl Fn(f64, f64) -> CurvePoint) -> 
 ///
 /// - `x`: G/(P G'). `theta`: 1 + P G''/G', in (0, 1] but for round-off. `shifted`: P, Pa.
 /// - `lowest`, `highest`: bounds of the root so far, Pa; narrowed.
-/// - returns: the change of ln P.
+/// - returns: the change of ln P, and what P grows by.
 #[inline]
-fn newton_power_step(x: f64, theta: f64, shifted: f64, lowest: &mut f64, highest: &mut f64) -> f64 {
+fn newton_power_step(x: f64, theta: f64, shifted: f64, lowest: &mut f64, highest: &mut f64) -> (f64, f64) {
     // A flatter power than this only arises by round-off; it costs digits and gains nothing.
     let theta = theta.clamp(1e-6, 1.0);
     let slack = 1e-12; // round-off of the bounds themselves
     *lowest = lowest.max(shifted * (1.0 - x) * (1.0 - slack));
     *highest = highest.min(shifted * (-x).exp() * (1.0 + slack));
     let power = if theta * x < 1.0 { (-theta * x).ln_1p() / theta } else { f64::NEG_INFINITY };
-    let candidate = shifted * power.exp();
-    if candidate < *lowest {
+    let growth = power.exp();
+    let candidate = shifted * growth;
+    let bounded = if candidate < *lowest {
         // The vacuum is no useful bound; then down with ln P, which cannot overshoot.
         if *lowest > VACUUM_PRESSURE { (*lowest / shifted).ln() } else { -x }
     } else if candidate > *highest {
         (*highest / shifted).ln()
     } else {
-        power
-    }
+        return (power, growth);
+    };
+    (bounded, bounded.exp())
 }

@@ -209,6 +209,10 @@ impl<const N: usize> Model<N> for Fluid {
         self.terms.step_limit(widths, report.diffusivity)
     }
 
+    fn is_clean(&self, report: &BlockReport<N>) -> bool {
+        report.marked.is_empty() && report.contact.is_none() && is_sane(report)
+    }
+
     fn inadmissible_cell(&self, report: &BlockReport<N>, block: &[f64]) -> Option<usize> {
         if is_sane(report) {
             return report.contact.map(|cell| cell as usize);
@@ -240,6 +244,10 @@ impl<const N: usize> Model<N> for Fluid {
     fn note_redone(&self, report: &mut BlockReport<N>, cells: usize, volume: f64) {
         report.redone = cells as u32;
         report.redone_volume = volume;
+    }
+
+    fn has_news(&self, _: &Mesh<N>, _: usize, report: &BlockReport<N>) -> bool {
+        report.has_news()
     }
 
     fn account(
@@ -298,9 +306,10 @@ impl<const N: usize> Model<N> for Fluid {
     }
 
     fn reports_changed(&mut self, reports: &Reports<BlockReport<N>>) {
-        self.has_gas.clear();
-        let both = reports.finished.iter().zip(&reports.pending);
-        self.has_gas.extend(both.map(|(finished, pending)| finished.has_gas | pending.has_gas));
+        let Reports { finished, pending } = reports;
+        let has_gas =
+            |slot: usize| finished[slot].has_gas || pending.get(slot).is_some_and(|pending| pending.has_gas);
+        mesh::map_into(finished.len(), has_gas, &mut self.has_gas);
     }
 
     fn mesh_changed(&mut self, mesh: &Mesh<N>) {

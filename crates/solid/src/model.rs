@@ -100,6 +100,10 @@ impl<const N: usize> Model<N> for Solid {
         self.terms.step_limit(widths)
     }
 
+    fn is_clean(&self, report: &BlockReport) -> bool {
+        report.mises_squared.is_finite()
+    }
+
     fn inadmissible_cell(&self, report: &BlockReport, block: &[f64]) -> Option<usize> {
         if report.mises_squared.is_finite() {
             return None;
@@ -111,6 +115,10 @@ impl<const N: usize> Model<N> for Solid {
 
     fn error(&self, _: &[f64], _: usize, Place { z, r, time, step }: Place) -> SolidError {
         SolidError::NotFinite { z, r, time, step }
+    }
+
+    fn has_news(&self, mesh: &Mesh<N>, slot: usize, report: &BlockReport) -> bool {
+        report.plastic.has_flow() || Side::ALL.into_iter().any(|side| mesh.touches(slot, side))
     }
 
     fn account(&mut self, mesh: &Mesh<N>, slot: usize, _: f64, report: &BlockReport, _: &Interface) {

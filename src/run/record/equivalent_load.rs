@@ -4,13 +4,17 @@ use std::path::Path;
 
 use hdf5::File;
 use nalgebra::{Matrix4, Vector4};
-use ndarray::{Array2, s};
+use ndarray::iter::Iter;
+use ndarray::{Array2, Ix1, s};
 use serde_json::{Map, Value, json};
 
 use crate::output::dataset_if_there;
 
 /// Values that are looked at, at most; of more, every other row or cell and so on.
 const MOST_VALUES: usize = 1 << 22;
+
+/// Rows that are worth it to wake a thread.
+const ROWS_AT_ONCE: usize = 64;
 
 /// Steps of the fit, at most.
 const MOST_STEPS: usize = 200;
@@ -133,10 +137,24 @@ impl WallPressure {
 
     fn cost(&self, load: &EquivalentLoad) -> f64 {
         let (in_time, in_radius) = self.factors(load);
-        self.values
-            .indexed_iter()
-            .map(|((row, cell), p)| (p - load.amplitude * in_time[row][0] * in_radius[cell][0]).powi(2))
-            .sum()
+        self.sum_of_rows(|row, pressures| {
+            let scale = load.amplitude * in_time[row][0];
+            let squares =
+                pressures.zip(&in_radius).map(|(p, [of_radius, _])| (p - scale * of_radius).powi(2));
+            [squares.sum()]
+        })[0]
+    }
+
+    /// The sum over all rows of what is made of each: its number and its pressures.
+    fn sum_of_rows<const K: usize>(
+        &self,
+        of_row: impl Fn(usize, Iter<'_, f64, Ix1>) -> [f64; K] + Sync + Send,
+    ) -> [f64; K] {
+        let rows = mesh::map_in_order(self.times.len(), ROWS_AT_ONCE, |row| {
+            of_row(row, self.values.row(row).into_iter())
+        });
+        // In their order, so that the sum does not depend on threads.
+        rows.into_iter().fold([0.0; K], |sum, row| std::array::from_fn(|k| sum[k] + row[k]))
     }
 
     /// exp(−x²) and 2x, x being (t − t₀)/Δt of every row and r/Δr of every cell.
@@ -147,23 +165,39 @@ impl WallPressure {
     }
 
     /// The normal equations of a step in ln P₀, ln Δr, t₀/Δt, ln Δt.
+    ///
+    /// The slopes are the model A T(t) R(r) times 1, ½ρ², τ and ½τ², with ρ = 2r/Δr and τ = 2(t − t₀)/Δt. So the sums over the cells of a
+    /// row are the same for all rows but for the pressures', and two of those.
     fn normal_equations(&self, load: &EquivalentLoad) -> (Matrix4<f64>, Vector4<f64>) {
         let (in_time, in_radius) = self.factors(load);
-        let (mut matrix, mut right) = (Matrix4::zeros(), Vector4::zeros());
-        for ((row, cell), p) in self.values.indexed_iter() {
-            let ([of_time, twice_time], [of_radius, twice_radius]) = (in_time[row], in_radius[cell]);
-            let model = load.amplitude * of_time * of_radius;
-            let slopes = model
-                * Vector4::new(
-                    1.0,
-                    0.5 * twice_radius * twice_radius,
-                    twice_time,
-                    0.5 * twice_time * twice_time,
-                );
-            right += slopes * (p - model);
-            matrix += slopes * slopes.transpose();
+        let bend = |twice: f64| 0.5 * twice * twice;
+        // Σ R², Σ R² ½ρ², Σ R² (½ρ²)².
+        let [even, once, twice] = in_radius.iter().fold([0.0; 3], |sums, [of_radius, rho]| {
+            std::array::from_fn(|k| sums[k] + of_radius * of_radius * bend(*rho).powi(k as i32))
+        });
+        let left = self.sum_of_rows(|row, pressures| {
+            let [of_time, tau] = in_time[row];
+            let scale = load.amplitude * of_time;
+            let [mut flat, mut bent] = [0.0; 2];
+            for (p, [of_radius, rho]) in pressures.zip(&in_radius) {
+                let weighted = of_radius * (p - scale * of_radius);
+                flat += weighted;
+                bent += weighted * bend(*rho);
+            }
+            [scale * flat, scale * bent, scale * flat * tau, scale * flat * bend(tau)]
+        });
+        let mut matrix = Matrix4::zeros();
+        for [of_time, tau] in &in_time {
+            let weight = (load.amplitude * of_time).powi(2);
+            let along = Vector4::new(1.0, 1.0, *tau, bend(*tau));
+            let across = Matrix4::from_fn(|i, j| match usize::from(i == 1) + usize::from(j == 1) {
+                0 => even,
+                1 => once,
+                _ => twice,
+            });
+            matrix += weight * (along * along.transpose()).component_mul(&across);
         }
-        (matrix, right)
+        (matrix, Vector4::from(left))
     }
 }
 

@@ -32,7 +32,7 @@ pub struct StepRule {
 }
 
 /// A solver, whichever medium it is for: a [`BlockSolver`] that can show the other side what is on the interface.
-pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> {
+pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> + Sync {
     /// What its cells obey.
     type Physics: Model<BLOCK, Error: Into<RunError>>;
     /// Which side of the interface it is.

@@ -1,6 +1,6 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
-use coupler::{FluidTrace, TraceRow};
+use coupler::{FaceTrace, FluidTrace, TraceRow};
 use mesh::{Padded, TileRows};
 
 use crate::boundary::wall_trace::Trace;
@@ -34,84 +34,91 @@ impl<const N: usize> FluidSolver<N> {
         mut put: impl FnMut(TraceRow, usize, f64),
     ) {
         let context = self.context(dt);
+        let of_block =
+            |slot: usize| self.with_scratch(|scratch| self.traces_of_block(&context, slot, scratch));
         let mut scaled = 0;
-        for slot in self.interface().blocks().iter().copied().filter(|slot| due(*slot)) {
-            let Some(first) = self.interface().first_face(slot) else { continue };
-            let id = self.mesh().tree().leaves()[slot];
-            let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
-            self.with_scratch(|scratch| {
-                reconstruct(&context, slot, scratch);
-                let shear = self.shear_on_wall(&context, slot, scratch);
-                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = &*scratch;
-                let at_interface = |k: usize| self.interface_trace(cells, inverse_r, inverse_h, k, dt);
-                for j in 0..N {
-                    let k = Padded::<N>::index(0, j as isize);
-                    if let Some((state, share)) = at_interface(k) {
-                        put_rows(
-                            (Trace::steady(state), shear[j]),
-                            share,
-                            self.mixture(),
-                            first + j,
-                            &mut put,
-                        );
-                        continue;
-                    }
-                    let share = self.gas_share(cells, k);
-                    let bound = self.mixture().bound_beta1::<true>(share);
-                    let [w, d_z, d_r] = [cells, s_z, s_r].map(|rows| at(&rows.split(), k));
-                    let (_, keep) = Prediction::<true>::new(
-                        w,
-                        d_z,
-                        d_r,
-                        inverse_h,
-                        inverse_r[k],
-                        0.5 * dt,
-                        bound,
-                        self.mixture(),
-                    )
-                    .half_step();
-                    let slope = d_r.map(|d| keep * d * inverse_h[1]);
-                    let mut rate = rates(
-                        w,
-                        d_z.map(|d| d * inverse_h[0]),
-                        d_r.map(|d| d * inverse_h[1]),
-                        inverse_r[k],
-                        share,
-                        self.mixture(),
-                    )
-                    .map(|rate| keep * rate);
-                    if let Some([gain_z, gain_r]) = self.model().terms.velocity_gain(1.0) {
-                        rate[V_Z] += gain_z;
-                        rate[V_R] += gain_r;
-                    }
-                    let mut state: PrimitiveCell = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
-                    let dispersion = context.model.dispersion(context.mesh.widths(id.level), dt, 0);
-                    let more = |c: usize, component: usize| {
-                        let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
-                        let stride = Padded::<N>::STRIDE;
-                        let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
-                        let modulus = self.mixture().bulk_modulus(w[RHO], w[PRESSURE], w[PHI], share);
-                        let sound = (modulus / w[RHO]).sqrt();
-                        let speed = w[V_Z].abs() + sound;
-                        let cell = [w[PRESSURE], w[PHI], d_z[PRESSURE]];
-                        keep * dispersion.on_wall(c, cell, speed, across, along)
-                    };
-                    state[V_Z] += more(0, V_Z);
-                    state[PRESSURE] += more(1, PRESSURE);
-                    // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
-                    // mixture's β₁ soon has the wrong sign, and γ with it.
-                    let phi = state[PHI];
-                    state[PHI] = phi.clamp(0.0, 1.0);
-                    let whole = Trace { state, rate, slope };
-                    let reach = [0.5 * dt, 0.5 / inverse_h[1]];
-                    let trace = whole.admissible(w, reach, self.mixture());
-                    let is_bounded = (phi - state[PHI]).abs() > TRACE_GAS;
-                    scaled += u64::from(is_bounded || trace != whole);
-                    put_rows((trace, shear[j]), share, self.mixture(), first + j, &mut put);
-                }
-            });
+        for (first, (traces, of_block)) in self.map_interface(due, of_block) {
+            scaled += of_block;
+            for (face, trace) in (first..).zip(&traces) {
+                trace.rows().for_each(|(row, value)| put(row, face, value));
+            }
         }
         self.model().tally.scaled_traces.add(scaled);
+    }
+
+    /// The traces on a block's faces, and how many of them were no states on the whole of the step.
+    fn traces_of_block(
+        &self,
+        context: &FluidStep<'_, N>,
+        slot: usize,
+        scratch: &mut BlockScratch<N>,
+    ) -> ([FaceTrace; N], u64) {
+        let dt = context.dt;
+        let widths = self.mesh().widths(self.mesh().tree().leaves()[slot].level);
+        let inverse_h = widths.map(|h| 1.0 / h);
+        reconstruct(context, slot, scratch);
+        let shear = self.shear_on_wall(context, slot, scratch);
+        let BlockScratch { cells, s_z, s_r, inverse_r, .. } = &*scratch;
+        let mut scaled = 0;
+        let traces = std::array::from_fn(|j| {
+            let k = Padded::<N>::index(0, j as isize);
+            if let Some((state, share)) = self.interface_trace(cells, inverse_r, inverse_h, k, dt) {
+                return face_trace((Trace::steady(state), shear[j]), share, self.mixture());
+            }
+            let share = self.gas_share(cells, k);
+            let bound = self.mixture().bound_beta1::<true>(share);
+            let [w, d_z, d_r] = [cells, s_z, s_r].map(|rows| at(&rows.split(), k));
+            let (_, keep) = Prediction::<true>::new(
+                w,
+                d_z,
+                d_r,
+                inverse_h,
+                inverse_r[k],
+                0.5 * dt,
+                bound,
+                self.mixture(),
+            )
+            .half_step();
+            let slope = d_r.map(|d| keep * d * inverse_h[1]);
+            let mut rate = rates(
+                w,
+                d_z.map(|d| d * inverse_h[0]),
+                d_r.map(|d| d * inverse_h[1]),
+                inverse_r[k],
+                share,
+                self.mixture(),
+            )
+            .map(|rate| keep * rate);
+            if let Some([gain_z, gain_r]) = self.model().terms.velocity_gain(1.0) {
+                rate[V_Z] += gain_z;
+                rate[V_R] += gain_r;
+            }
+            let mut state: PrimitiveCell = std::array::from_fn(|c| w[c] - 0.5 * keep * d_z[c]);
+            let dispersion = context.model.dispersion(widths, dt, 0);
+            let more = |c: usize, component: usize| {
+                let [z, r] = [&s_z, &s_r].map(|s| s.component(component));
+                let stride = Padded::<N>::STRIDE;
+                let (across, along) = (z[k + 1] - z[k], 0.5 * (r[k + stride] - r[k - stride]));
+                let modulus = self.mixture().bulk_modulus(w[RHO], w[PRESSURE], w[PHI], share);
+                let sound = (modulus / w[RHO]).sqrt();
+                let speed = w[V_Z].abs() + sound;
+                let cell = [w[PRESSURE], w[PHI], d_z[PRESSURE]];
+                keep * dispersion.on_wall(c, cell, speed, across, along)
+            };
+            state[V_Z] += more(0, V_Z);
+            state[PRESSURE] += more(1, PRESSURE);
+            // Next to the wall slopes are not limited from beyond it, so φ may leave [0, 1] on it; below 0 the
+            // mixture's β₁ soon has the wrong sign, and γ with it.
+            let phi = state[PHI];
+            state[PHI] = phi.clamp(0.0, 1.0);
+            let whole = Trace { state, rate, slope };
+            let reach = [0.5 * dt, 0.5 / inverse_h[1]];
+            let trace = whole.admissible(w, reach, self.mixture());
+            let is_bounded = (phi - state[PHI]).abs() > TRACE_GAS;
+            scaled += u64::from(is_bounded || trace != whole);
+            face_trace((trace, shear[j]), share, self.mixture())
+        });
+        (traces, scaled)
     }
 
     /// The shear stresses σ_zr on the wall's faces of a block in the middle of a step, Pa: what the fluid sticks to moves as it did in
@@ -236,22 +243,16 @@ impl<const N: usize> FluidSolver<N> {
     }
 }
 
-/// Writes the rows of a trace. Its density is that in the free volume, with which alone the star state is that of a stiffened gas.
+/// The rows of a trace. Its density is that in the free volume, with which alone the star state is that of a stiffened gas.
 ///
 /// - `share`: the gas's part of the mass; without a say where there is no covolume.
-fn put_rows(
-    (trace, shear): (Trace, f64),
-    share: f64,
-    mixture: &Mixture,
-    face: usize,
-    put: &mut impl FnMut(TraceRow, usize, f64),
-) {
+fn face_trace((trace, shear): (Trace, f64), share: f64, mixture: &Mixture) -> FaceTrace {
     let Trace { state: [rho, v_z, v_r, p, phi], rate, slope } = trace;
     let at = mixture.law_at(rho, phi, share);
     let impedance = (rho * mixture.bulk_modulus(rho, p, phi, share)).max(0.0).sqrt();
     // d(ρ/(1 − bρ)) = dρ/(1 − bρ)².
     let per_free = at.free_share(rho).powi(-2);
-    for (row, value) in [
+    FaceTrace::of([
         (TraceRow::Density, at.free_density(rho)),
         (TraceRow::NormalVelocity, v_z),
         (TraceRow::TangentialVelocity, v_r),
@@ -267,7 +268,5 @@ fn put_rows(
         (TraceRow::DensitySlope, per_free * slope[RHO]),
         (TraceRow::NormalVelocitySlope, slope[V_Z]),
         (TraceRow::PressureSlope, slope[PRESSURE]),
-    ] {
-        put(row, face, value);
-    }
+    ])
 }

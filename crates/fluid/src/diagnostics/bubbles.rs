@@ -9,6 +9,9 @@ use crate::{Bubble, BubbleCuts, FluidSolver, TRACE_GAS};
 /// Below this gas fraction gas does not belong to an interface.
 const THIN_GAS: f64 = 1e-2;
 
+/// So many blocks are worth it to wake a thread that adds up what is in them.
+const BLOCKS_TO_ADD: usize = 8;
+
 /// From this gas fraction on a cell counts as part of a bubble when the gaps between bubbles are looked for.
 const OF_A_BUBBLE: f64 = 0.5;
 
@@ -106,36 +109,61 @@ pub(crate) fn follow_sources<const N: usize>(fluid: &mut BlockSolver<Fluid, N>) 
 }
 
 fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) -> Vec<Sums> {
-    let (mesh, model) = (fluid.mesh(), fluid.model());
+    let (leaves, model) = (fluid.mesh().tree().leaves(), fluid.model());
     let mut all = vec![Sums::default(); cuts.bubbles()];
-    let gas_mass = model.scheme.phases.gas_component();
-    if gas_mass.is_none() {
+    if model.scheme.phases.gas_component().is_none() {
         all.iter_mut().for_each(|sums| sums.gas_mass = f64::NAN);
     }
-    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
-        if fluid.reports().finished[slot].extremes.phi <= 0.0 && !model.has_gas[slot] {
-            continue;
-        }
-        let gas = gas_mass.map(|component| fluid.component(slot, component));
-        for (j, row) in fluid.component(slot, PHI).chunks_exact(N).enumerate() {
-            let cell = mesh.volume(*id, j);
-            for (i, phi) in row.iter().enumerate() {
-                let z = mesh.centre(*id, i, j)[0];
-                let sums = &mut all[cuts.bubble_at(z)];
-                if *phi > TRACE_GAS {
-                    sums.volume += phi * cell;
-                    sums.thin += if *phi < THIN_GAS { phi * cell } else { 0.0 };
-                    sums.moment += phi * cell * z;
-                } else {
-                    sums.trace += phi.max(0.0) * cell;
-                }
-                if let Some(gas) = gas {
-                    sums.gas_mass += gas[j * N + i] * cell;
-                }
-            }
+    let may_have_gas =
+        |slot: &usize| fluid.reports().finished[*slot].extremes.phi > 0.0 || model.has_gas[*slot];
+    let slots: Vec<usize> = (0..leaves.len()).filter(may_have_gas).collect();
+    let columns = mesh::map_in_order(slots.len(), BLOCKS_TO_ADD, |number| columns_of(fluid, slots[number]));
+    for (slot, columns) in slots.into_iter().zip(columns) {
+        for (i, column) in columns.iter().enumerate() {
+            let z = fluid.mesh().centre(leaves[slot], i, 0)[0];
+            let sums = &mut all[cuts.bubble_at(z)];
+            sums.volume += column.volume;
+            sums.trace += column.trace;
+            sums.thin += column.thin;
+            sums.moment += column.volume * z;
+            sums.gas_mass += column.gas_mass;
         }
     }
     all
+}
+
+/// The gas in each column of cells of a block, which are at one z; without moments.
+fn columns_of<const N: usize>(fluid: &BlockSolver<Fluid, N>, slot: usize) -> [Sums; N] {
+    let mesh = fluid.mesh();
+    let gas = fluid.model().scheme.phases.gas_component();
+    let mut columns = [[0.0; N]; 4];
+    for (j, phi) in fluid.component(slot, PHI).chunks_exact(N).enumerate() {
+        let gas = gas.map(|gas| &fluid.component(slot, gas)[j * N..(j + 1) * N]);
+        add_row(phi, gas, mesh.volume(mesh.tree().leaves()[slot], j), &mut columns);
+    }
+    let [volume, trace, thin, gas_mass] = columns;
+    std::array::from_fn(|i| Sums {
+        volume: volume[i],
+        trace: trace[i],
+        thin: thin[i],
+        moment: 0.0,
+        gas_mass: gas_mass[i],
+    })
+}
+
+/// Adds a row of cells of the same volume to volume, traces, thin gas and mass in the columns.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+fn add_row<const N: usize>(phi: &[f64], gas: Option<&[f64]>, cell: f64, columns: &mut [[f64; N]; 4]) {
+    let [volume, trace, thin, mass] = columns;
+    for (i, phi) in phi[..N].iter().enumerate() {
+        let is_trace = *phi <= TRACE_GAS;
+        volume[i] += if is_trace { 0.0 } else { phi * cell };
+        thin[i] += if is_trace || *phi >= THIN_GAS { 0.0 } else { phi * cell };
+        trace[i] += if is_trace { phi.max(0.0) * cell } else { 0.0 };
+    }
+    if let Some(gas) = gas {
+        mass.iter_mut().zip(gas).for_each(|(mass, gas)| *mass += gas * cell);
+    }
 }
 
 #[cfg(test)]

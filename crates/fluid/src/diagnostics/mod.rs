@@ -15,6 +15,9 @@ use crate::step::{BlockScratch, reconstruct};
 use crate::thermodynamics::temperature::cell_temperature;
 use crate::{FluidSolver, Primitive};
 
+/// So many blocks are worth it to wake a thread that adds up what is in them.
+const BLOCKS_TO_ADD: usize = 32;
+
 /// The gas as a whole, or of one of several bubbles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bubble {
@@ -205,16 +208,20 @@ impl<const N: usize> FluidSolver<N> {
         let has_phases = self.model().analysis.has_phases;
         let components = [RHO, MOMENTUM_Z, ENERGY, GAS];
         let components = if has_phases { &components[..] } else { &components[..3] };
-        let mut totals = Totals { gas_mass: if has_phases { 0.0 } else { f64::NAN }, ..Totals::default() };
-        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
+        let leaves = self.mesh().tree().leaves();
+        let of_block = |slot: usize| {
             let mut block = [0.0; 4];
             for j in 0..N {
-                let volume = self.mesh().volume(*id, j);
+                let volume = self.mesh().volume(leaves[slot], j);
                 for (sum, component) in block.iter_mut().zip(components) {
                     let row = &self.component(slot, *component)[j * N..(j + 1) * N];
                     *sum += volume * row.iter().sum::<f64>();
                 }
             }
+            block
+        };
+        let mut totals = Totals { gas_mass: if has_phases { 0.0 } else { f64::NAN }, ..Totals::default() };
+        for block in mesh::map_in_order(leaves.len(), BLOCKS_TO_ADD, of_block) {
             totals.mass += block[0];
             totals.momentum_z += block[1];
             totals.energy += block[2];

@@ -130,6 +130,16 @@ impl<const N: usize> Clone for BlockReport<N> {
 }
 
 impl<const N: usize> BlockReport<N> {
+    /// Whether there is anything in it to be added up over the run: what passed a side of the domain, or a fix-up.
+    pub fn has_news(&self) -> bool {
+        self.sides.is_some()
+            || self.fallbacks + self.redone + self.floored > 0
+            || self.phase_mass_added != [0.0; 2]
+            || self.tension != [0.0; 2]
+            || self.clips != Clips::default()
+            || self.exchange != BlockExchange::default()
+    }
+
     /// Takes down that a cell was lifted to the pressure floor.
     ///
     /// - `added`: the energy for it, J/m³; `volume`: the cell's.

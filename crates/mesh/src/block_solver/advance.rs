@@ -3,8 +3,12 @@
 //! A whole step is begun, then made in sub-steps of the finest level; a coarser level starts its own first and is finished when
 //! the finer ones have caught up. Without local time steps one sub-step is the whole.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
 use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Scratches, Step};
-use crate::kernels::parallel::{for_each_tile, for_some_blocks_lightly};
+use crate::kernels::parallel::{LOOKS_AT_ONCE, for_each_tile, for_some_blocks_lightly};
 use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part};
 
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
@@ -86,6 +90,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             progress,
             prepared,
             due_tiles,
+            is_suspect,
             ..
         } = self;
         let (clock, registers) = levels.parts();
@@ -101,19 +106,21 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         for_each_tile(due_tiles, next, register.values_mut(), pending, |tile, new, fluxes, reports| {
             if tile.slots().all(is_due) {
                 workers.with(|worker| model.step_tile(&context, tile, worker.begin(new, fluxes), reports));
-                return;
+            } else {
+                let parts = new.chunks_exact_mut(lens[0]).zip(fluxes.chunks_exact_mut(lens[1]));
+                let of_slots = tile.slots().zip(parts.zip(&mut *reports));
+                for (slot, ((new, fluxes), report)) in of_slots.filter(|(slot, _)| is_due(*slot)) {
+                    *report =
+                        workers.with(|worker| model.step_block(&context, slot, worker.begin(new, fluxes)));
+                }
             }
-            let parts = new.chunks_exact_mut(lens[0]).zip(fluxes.chunks_exact_mut(lens[1])).zip(reports);
-            for (slot, ((new, fluxes), report)) in tile.slots().zip(parts).filter(|(slot, _)| is_due(*slot)) {
-                *report = workers.with(|worker| model.step_block(&context, slot, worker.begin(new, fluxes)));
-            }
+            look_at(model, reports, is_suspect);
         });
         // A cell that falls back changes what its neighbours get: first all parts must be there.
-        let is_whole = part != Part::AwayFromInterface;
-        if M::RETRIES && is_whole {
-            context.retry(next, register, pending, in_group, workers);
-        }
-        if !M::RETRIES || is_whole {
+        if (!M::RETRIES || part != Part::AwayFromInterface) && std::mem::take(is_suspect.get_mut()) {
+            if M::RETRIES {
+                context.retry(next, register, pending, in_group, workers);
+            }
             check(model, mesh, next, pending, (progress.time + step.dt, progress.steps + 1))?;
         }
         let due: usize = due_tiles.iter().map(|tile| tile.slots().filter(|slot| is_due(*slot)).count()).sum();
@@ -134,15 +141,22 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
                 self.correct(group)?;
             }
         }
-        let Self { model, mesh, state, next, levels, reports, interface, progress, .. } = self;
-        // In the order of the slots, so that sums do not depend on threads.
-        for slot in 0..mesh.blocks() {
-            let group = levels.clock().group_of(mesh, slot);
-            if ended(levels.clock(), group) {
-                reports.finished[slot].clone_from(&reports.pending[slot]);
-                let dt = levels.clock().length(group);
-                model.account(mesh, slot, dt, &reports.finished[slot], interface);
+        let Self { model, mesh, state, next, levels, reports, interface, progress, news, .. } = self;
+        let clock = levels.clock();
+        let Reports { finished, pending } = &mut *reports;
+        let both = finished.par_iter_mut().zip(&*pending).enumerate().with_min_len(LOOKS_AT_ONCE);
+        both.map(|(slot, (finished, pending))| {
+            let has_ended = ended(clock, clock.group_of(mesh, slot));
+            if has_ended {
+                finished.clone_from(pending);
             }
+            has_ended && model.has_news(mesh, slot, pending)
+        })
+        .collect_into_vec(news);
+        // In the order of the slots, so that sums do not depend on threads.
+        for (slot, _) in news.iter().enumerate().filter(|(_, has_news)| **has_news) {
+            let dt = clock.length(clock.group_of(mesh, slot));
+            model.account(mesh, slot, dt, &finished[slot], interface);
         }
         levels.finish_step(mesh, state, next);
         model.reports_changed(reports);
@@ -157,7 +171,9 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
 
     /// Corrects the cells of a group along finer neighbours.
     fn correct(&mut self, group: usize) -> Result<(), M::Error> {
-        let Self { model, mesh, state, next, levels, reports, interface, progress, prepared, .. } = self;
+        let Self {
+            model, mesh, state, next, levels, reports, interface, progress, prepared, is_suspect, ..
+        } = self;
         let (clock, registers) = levels.parts();
         let (time, dt, marks) = (progress.time, clock.length(group), &NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
@@ -165,8 +181,19 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         for_some_blocks_lightly(next, &mut reports.pending, is_due, |slot, new, report| {
             let finer = registers.finer_side(clock, mesh.tree().leaves()[slot].level);
             model.correct(&context, finer, slot, new, report);
+            look_at(model, std::slice::from_ref(report), is_suspect);
         });
+        if !std::mem::take(is_suspect.get_mut()) {
+            return Ok(());
+        }
         check(model, mesh, next, &reports.pending, (clock.next(), progress.steps + 1))
+    }
+}
+
+/// Notes whether some of the blocks that these reports are of have to be looked at.
+fn look_at<M: Model<N>, const N: usize>(model: &M, reports: &[M::Report], is_suspect: &AtomicBool) {
+    if !reports.iter().all(|report| model.is_clean(report)) {
+        is_suspect.store(true, Ordering::Relaxed);
     }
 }
 

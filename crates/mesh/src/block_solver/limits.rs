@@ -1,6 +1,7 @@
 //! How long steps may be.
 
 use super::{BlockSolver, Model};
+use crate::kernels::parallel::least;
 use crate::{MOST_HALVINGS, longest_step};
 
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
@@ -21,27 +22,23 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
 
     /// The largest step that the Courant number allows all cells, s, see [`longest_step`].
     pub fn time_step_limit(&self, cfl: f64) -> f64 {
-        (0..self.mesh.blocks()).fold(f64::INFINITY, |limit, slot| limit.min(self.limit_of(slot, cfl)))
+        least(self.mesh.blocks(), |slot| self.limit_of(slot, cfl))
     }
 
     /// The largest step of the whole that the Courant number allows if each level finer than `base` halves it once more, s.
     pub fn local_step_limit(&self, cfl: f64, base: u8) -> f64 {
         let leaves = self.mesh.tree().leaves();
-        let (mut limit, mut shortest) = (f64::INFINITY, f64::INFINITY);
-        for (slot, id) in leaves.iter().enumerate() {
-            let own = self.limit_of(slot, cfl);
-            shortest = shortest.min(own);
-            limit = limit.min(own * f64::from(1_u32 << id.level.saturating_sub(base).min(MOST_HALVINGS)));
-        }
-        limit.min(shortest * f64::from(1_u32 << MOST_HALVINGS))
+        least(leaves.len(), |slot| {
+            let halvings = leaves[slot].level.saturating_sub(base).min(MOST_HALVINGS);
+            self.limit_of(slot, cfl) * f64::from(1_u32 << halvings)
+        })
     }
 
     /// The longest step of the group of levels that is due, s.
     pub fn due_limit(&self, cfl: f64) -> f64 {
         let Some(group) = self.clock().due().filter(|_| cfl.is_finite()) else { return cfl };
-        (0..self.mesh.blocks())
-            .filter(|slot| self.clock().group_of(&self.mesh, *slot) == group)
-            .fold(f64::INFINITY, |limit, slot| limit.min(self.limit_of(slot, cfl)))
+        let is_due = |slot: usize| self.clock().group_of(&self.mesh, slot) == group;
+        least(self.mesh.blocks(), |slot| if is_due(slot) { self.limit_of(slot, cfl) } else { f64::INFINITY })
     }
 
     /// The time in which signals cross a cell of the block in `slot`, s.

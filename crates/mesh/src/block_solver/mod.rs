@@ -10,12 +10,15 @@ mod model;
 mod retry;
 mod saved;
 
+use std::sync::atomic::AtomicBool;
+
 use serde::{Deserialize, Serialize};
 
 pub use interface::{FaceState, Interface};
 pub use model::{BlockWork, Marks, Model, Place, Scratches, Step};
 pub use saved::SavedBlocks;
 
+use crate::kernels::parallel::map_in_order;
 use crate::{
     Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side,
     StageTimer, Tile,
@@ -39,6 +42,10 @@ pub struct BlockSolver<M: Model<N>, const N: usize> {
     prepared: M::Prepared,
     /// Those of the part of a step that is being made, kept for their memory.
     due_tiles: Vec<Tile>,
+    /// Whether a block of the step under way has to be looked at, see [`Model::is_clean`].
+    is_suspect: AtomicBool,
+    /// Which blocks have something to account for at the end of a step, kept for its memory.
+    news: Vec<bool>,
 }
 
 /// No cell falls back.
@@ -114,6 +121,8 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             workers: ScratchPool::new(|| Worker { scratch: scratch(), timer: StageTimer::default() }),
             prepared: M::Prepared::default(),
             due_tiles: Vec::new(),
+            is_suspect: AtomicBool::new(false),
+            news: Vec::new(),
             model,
             mesh,
             state,
@@ -224,6 +233,22 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// The finest level at the interface.
     pub fn finest_at_interface(&self) -> u8 {
         self.mesh.finest_among(self.interface.blocks())
+    }
+
+    /// What `work` makes of each block at the interface that is due, in the order of r, with the number of the block's first face; in
+    /// parallel on the current rayon pool. Nothing without another medium.
+    pub fn map_interface<T: Send>(
+        &self,
+        is_due: impl Fn(usize) -> bool,
+        work: impl Fn(usize) -> T + Sync + Send,
+    ) -> impl Iterator<Item = (usize, T)> {
+        /// So many are worth it to wake a thread.
+        const BLOCKS_AT_ONCE: usize = 2;
+        let with_face = |slot: &usize| Some((self.interface.first_face(*slot)?, *slot));
+        let due = self.interface.blocks().iter().filter(|slot| is_due(**slot));
+        let due: Vec<(usize, usize)> = due.filter_map(with_face).collect();
+        let made = map_in_order(due.len(), BLOCKS_AT_ONCE, |number| work(due[number].1));
+        due.into_iter().map(|(first, _)| first).zip(made)
     }
 
     /// The group of levels that a face of the interface belongs to.

@@ -98,6 +98,8 @@ pub trait Model<const N: usize>: Sized + Sync {
         f64::INFINITY
     }
 
+    /// Whether a report alone says that no cell of the block is inadmissible, and none is to be redone: the block is not looked at then.
+    fn is_clean(&self, report: &Self::Report) -> bool;
     /// The first cell of a block that is no admissible state.
     fn inadmissible_cell(&self, report: &Self::Report, block: &[f64]) -> Option<usize>;
     /// That a cell of a block is not, and where.
@@ -111,6 +113,8 @@ pub trait Model<const N: usize>: Sized + Sync {
     /// Takes into a report that so many cells of this volume have made their step again.
     fn note_redone(&self, _report: &mut Self::Report, _cells: usize, _volume: f64) {}
 
+    /// Whether there is anything in the report of a block's step for [`Model::account`].
+    fn has_news(&self, mesh: &Mesh<N>, slot: usize, report: &Self::Report) -> bool;
     /// Takes the report of a block's step of length `dt` into what is added up over the run; in the order of the slots.
     fn account(&mut self, mesh: &Mesh<N>, slot: usize, dt: f64, report: &Self::Report, interface: &Interface);
     /// Takes notice that the blocks have new reports.

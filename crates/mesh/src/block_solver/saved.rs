@@ -43,6 +43,8 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             workers: _,
             prepared: _,
             due_tiles: _,
+            is_suspect: _,
+            news: _,
         } = self;
         SavedBlocks {
             leaves: Cow::Borrowed(mesh.tree().leaves()),

@@ -12,6 +12,9 @@ const BLOCKS_AT_ONCE: usize = 4;
 /// So many are worth it to wake a thread for light work.
 const FEW_BLOCKS: usize = 16;
 
+/// So many are worth it to wake a thread that only looks at what is told of them.
+pub(crate) const LOOKS_AT_ONCE: usize = 256;
+
 /// Runs `work(tile, blocks, blocks of second, reports)` for tiles of two fields, in parallel on the current rayon pool. The result cannot
 /// depend on the number of threads: each tile has its own part of the fields and its own reports.
 ///
@@ -123,6 +126,31 @@ pub(crate) fn for_some_blocks_lightly<R: Send>(
     for (slot, report) in reports.iter_mut().enumerate().filter(|(slot, _)| is_due(*slot)) {
         work(slot, field.block_mut(slot), report);
     }
+}
+
+/// What `work` makes of the numbers below `count`, in their order, in parallel on the current rayon pool.
+///
+/// - `at_once`: so many are worth it to wake a thread.
+pub fn map_in_order<T: Send>(
+    count: usize,
+    at_once: usize,
+    work: impl Fn(usize) -> T + Sync + Send,
+) -> Vec<T> {
+    if count <= at_once || rayon::current_num_threads() == 1 {
+        return (0..count).map(work).collect();
+    }
+    (0..count).into_par_iter().with_min_len(at_once).map(work).collect()
+}
+
+/// [`map_in_order`] of a look at each block's report, into memory at hand.
+pub fn map_into<T: Send>(count: usize, look: impl Fn(usize) -> T + Sync + Send, to: &mut Vec<T>) {
+    (0..count).into_par_iter().with_min_len(LOOKS_AT_ONCE).map(look).collect_into_vec(to);
+}
+
+/// The least of what `of` says of the numbers below `count`; infinite of none.
+pub fn least(count: usize, of: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
+    let numbers = (0..count).into_par_iter().with_min_len(LOOKS_AT_ONCE);
+    numbers.map(of).reduce(|| f64::INFINITY, f64::min)
 }
 
 /// One scratch object per worker thread, so that a step allocates nothing.

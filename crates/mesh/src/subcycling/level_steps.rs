@@ -178,16 +178,26 @@ impl<const N: usize> LevelSteps<N> {
             return;
         }
         let (clock, weight) = (&self.clock, self.clock.weight(group));
+        let is_read = |slot: usize, side: Side| {
+            matches!(mesh.tree().neighbours(slot)[side as usize], Neighbour::Coarser(_))
+        };
         let is_due = |slot: usize| {
-            clock.group_of(mesh, slot) == group
-                && mesh.tree().neighbours(slot).iter().any(|n| matches!(n, Neighbour::Coarser(_)))
+            clock.group_of(mesh, slot) == group && Side::ALL.into_iter().any(|side| is_read(slot, side))
         };
         let Registers { own, means } = &mut self.registers;
         let means = means.values_mut();
         for_some_blocks_lightly(means, &mut vec![(); mesh.blocks()], is_due, |slot, means, ()| {
-            for (mean, value) in means.iter_mut().zip(own.values().block(slot)) {
-                // By differences, so that the mean of what stays the same is the same to the last bit.
-                *mean = if weight == 1.0 { *value } else { *mean + weight * (*value - *mean) };
+            for side in Side::ALL.into_iter().filter(|side| is_read(slot, *side)) {
+                let means = FluxRegister::<N>::rows(means, side);
+                let values = own.side(slot, side);
+                if weight == 1.0 {
+                    means.copy_from_slice(values);
+                    continue;
+                }
+                for (mean, value) in means.iter_mut().zip(values) {
+                    // By differences, so that the mean of what stays the same is the same to the last bit.
+                    *mean += weight * (*value - *mean);
+                }
             }
         });
     }

@@ -137,6 +137,13 @@ impl<const N: usize> FluxRegister<N> {
             .expect("a row has as many faces as a block has cells along a side")
     }
 
+    /// All quantities along one side of a block, one after the other, of those that are kept.
+    pub fn side(&self, slot: usize, side: Side) -> &[f64] {
+        let block = self.values.block(slot);
+        let len = block.len() / Side::ALL.len();
+        &block[side as usize * len..][..len]
+    }
+
     /// The rows of one side in a block's part of the register: quantity by quantity, along the side.
     pub fn rows(block: &mut [f64], side: Side) -> &mut [f64] {
         let len = block.len() / Side::ALL.len();

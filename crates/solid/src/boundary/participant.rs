@@ -1,11 +1,12 @@
 //! The solid as one side of the interface: the only place where it meets the coupler.
 
-use coupler::{CommonRefinement, InterfaceStar, RegisterRow, TraceRow};
+use coupler::{CommonRefinement, FaceTrace, InterfaceStar, RegisterRow, TraceRow};
 use mesh::{Geometry, GroupStep, Padded, Side};
 
 use crate::SolidSolver;
 use crate::boundary::Boundaries;
 use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
+use crate::physics::SolidStep;
 use crate::plasticity::{Plasticity, Returned, Stress};
 use crate::state::component::{S_NORMAL, S_PHIPHI, S_ZR, V_R, V_Z};
 use crate::step::rows::{Elasticity, rates};
@@ -55,61 +56,69 @@ impl<const N: usize> SolidSolver<N> {
         mut put: impl FnMut(TraceRow, usize, f64),
     ) {
         let context = self.context(dt);
-        for slot in self.interface().blocks().iter().copied().filter(|slot| due(*slot)) {
-            let Some(first) = self.interface().first_face(slot) else { continue };
-            let id = self.mesh().tree().leaves()[slot];
-            let inverse_h = self.mesh().widths(id.level).map(|h| 1.0 / h);
-            self.with_scratch(|scratch| {
-                let [share, _] = context.model.dispersion(context.mesh.widths(id.level), dt, 0);
-                reconstruct(&context, slot, scratch);
-                let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
-                Boundaries::complete_shear_differences(self.setup().limiter, |c| cells.component(c), s_z);
-                for j in 0..N {
-                    let k = Padded::<N>::index(N as isize - 1, j as isize);
-                    let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);
-                    // The hoop stress has no difference: no derivative of it enters.
-                    let of =
-                        |rows: &Padded<N>, c: usize| if c == S_PHIPHI { 0.0 } else { rows.component(c)[k] };
-                    let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
-                    let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
-                    let mut rate = rates(w, d_z, d_r, inverse_r[k], &self.model().elasticity);
-                    let mut impedance = self.model().elasticity.z1;
-                    if let Some(plasticity) = &self.model().plasticity {
-                        let count = cells.components();
-                        let own = |c: usize| if c < count { cells.component(c)[k] } else { 0.0 };
-                        let state = [own(PLASTIC_STRAIN), own(TEMPERATURE)];
-                        if let Some(end) = rate_with_flow(plasticity, w, state, 0.5 * dt, &mut rate) {
-                            let Elasticity { p_modulus, inverse_density, .. } = self.model().elasticity;
-                            let modulus = plasticity.tangent_modulus(p_modulus, &end, 0.5 * dt);
-                            impedance = (modulus / inverse_density).sqrt();
-                        }
-                    }
-                    if let Some([gain_z, gain_r]) = self.model().terms.velocity_gain(1.0) {
-                        rate[V_Z] += gain_z;
-                        rate[V_R] += gain_r;
-                    }
-                    let trace = |c: usize| w[c] + 0.5 * of(s_z, c);
-                    // What face states within get besides, with the differences continued in a line beyond the surface.
-                    let more = |c: usize| share * (of(s_z, c) - s_z.component(c)[k - 1]);
-                    let face = first + j;
-                    put(TraceRow::Pressure, face, -(trace(S_NORMAL[0]) + more(S_NORMAL[0])));
-                    put(TraceRow::NormalVelocity, face, trace(V_Z) + more(V_Z));
-                    put(TraceRow::TangentialVelocity, face, trace(V_R));
-                    put(TraceRow::Shear, face, trace(S_ZR));
-                    put(TraceRow::Density, face, self.setup().speeds.density);
-                    put(TraceRow::PressureRate, face, -rate[S_NORMAL[0]]);
-                    put(TraceRow::NormalVelocityRate, face, rate[V_Z]);
-                    put(TraceRow::TangentialVelocityRate, face, rate[V_R]);
-                    put(TraceRow::PressureSlope, face, -of(s_r, S_NORMAL[0]) * inverse_h[1]);
-                    put(TraceRow::NormalVelocitySlope, face, d_r[V_Z]);
-                    put(TraceRow::Impedance, face, impedance);
-                    for row in [TraceRow::DensityRate, TraceRow::DensitySlope, TraceRow::Gamma, TraceRow::Pi]
-                    {
-                        put(row, face, 0.0);
-                    }
-                }
-            });
+        let of_block =
+            |slot: usize| self.with_scratch(|scratch| self.traces_of_block(&context, slot, scratch));
+        for (first, traces) in self.map_interface(due, of_block) {
+            for (face, trace) in (first..).zip(&traces) {
+                trace.rows().for_each(|(row, value)| put(row, face, value));
+            }
         }
+    }
+
+    /// The traces on a block's faces.
+    fn traces_of_block(
+        &self,
+        context: &SolidStep<'_, N>,
+        slot: usize,
+        scratch: &mut BlockScratch<N>,
+    ) -> [FaceTrace; N] {
+        let widths = self.mesh().widths(self.mesh().tree().leaves()[slot].level);
+        let inverse_h = widths.map(|h| 1.0 / h);
+        let dt = context.dt;
+        let [share, _] = context.model.dispersion(widths, dt, 0);
+        reconstruct(context, slot, scratch);
+        let BlockScratch { cells, s_z, s_r, inverse_r, .. } = scratch;
+        Boundaries::complete_shear_differences(self.setup().limiter, |c| cells.component(c), s_z);
+        std::array::from_fn(|j| {
+            let k = Padded::<N>::index(N as isize - 1, j as isize);
+            let w: [f64; 6] = std::array::from_fn(|c| cells.component(c)[k]);
+            // The hoop stress has no difference: no derivative of it enters.
+            let of = |rows: &Padded<N>, c: usize| if c == S_PHIPHI { 0.0 } else { rows.component(c)[k] };
+            let d_z: [f64; 6] = std::array::from_fn(|c| of(s_z, c) * inverse_h[0]);
+            let d_r: [f64; 6] = std::array::from_fn(|c| of(s_r, c) * inverse_h[1]);
+            let mut rate = rates(w, d_z, d_r, inverse_r[k], &self.model().elasticity);
+            let mut impedance = self.model().elasticity.z1;
+            if let Some(plasticity) = &self.model().plasticity {
+                let count = cells.components();
+                let own = |c: usize| if c < count { cells.component(c)[k] } else { 0.0 };
+                let state = [own(PLASTIC_STRAIN), own(TEMPERATURE)];
+                if let Some(end) = rate_with_flow(plasticity, w, state, 0.5 * dt, &mut rate) {
+                    let Elasticity { p_modulus, inverse_density, .. } = self.model().elasticity;
+                    let modulus = plasticity.tangent_modulus(p_modulus, &end, 0.5 * dt);
+                    impedance = (modulus / inverse_density).sqrt();
+                }
+            }
+            if let Some([gain_z, gain_r]) = self.model().terms.velocity_gain(1.0) {
+                rate[V_Z] += gain_z;
+                rate[V_R] += gain_r;
+            }
+            let trace = |c: usize| w[c] + 0.5 * of(s_z, c);
+            // What face states within get besides, with the differences continued in a line beyond the surface.
+            let more = |c: usize| share * (of(s_z, c) - s_z.component(c)[k - 1]);
+            FaceTrace::of([
+                (TraceRow::Pressure, -(trace(S_NORMAL[0]) + more(S_NORMAL[0]))),
+                (TraceRow::NormalVelocity, trace(V_Z) + more(V_Z)),
+                (TraceRow::TangentialVelocity, trace(V_R)),
+                (TraceRow::Shear, trace(S_ZR)),
+                (TraceRow::Density, self.setup().speeds.density),
+                (TraceRow::PressureRate, -rate[S_NORMAL[0]]),
+                (TraceRow::NormalVelocityRate, rate[V_Z]),
+                (TraceRow::TangentialVelocityRate, rate[V_R]),
+                (TraceRow::PressureSlope, -of(s_r, S_NORMAL[0]) * inverse_h[1]),
+                (TraceRow::NormalVelocitySlope, d_r[V_Z]),
+                (TraceRow::Impedance, impedance),
+            ])
+        })
     }
 
     /// The weak scheme's half of a step, paper eq. (37): the fluid's new pressure is the normal traction, while

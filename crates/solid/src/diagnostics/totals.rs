@@ -3,6 +3,9 @@
 use crate::SolidSolver;
 use crate::state::component::COUNT;
 
+/// So many blocks are worth it to wake a thread that adds up what is in them.
+const BLOCKS_TO_ADD: usize = 32;
+
 /// Integrals over the domain, per radian in axial symmetry, per metre of depth in planar geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Totals {
@@ -23,11 +26,11 @@ impl<const N: usize> SolidSolver<N> {
     pub fn totals(&self) -> Totals {
         let (density, mu) = (self.setup().speeds.density, self.model().elasticity.mu);
         let bulk = self.model().elasticity.lambda + 2.0 / 3.0 * mu;
-        let mut totals = Totals::default();
-        for (slot, id) in self.mesh().tree().leaves().iter().enumerate() {
+        let leaves = self.mesh().tree().leaves();
+        let of_block = |slot: usize| {
             let mut block = [0.0; 4];
             for j in 0..N {
-                let volume = self.mesh().volume(*id, j);
+                let volume = self.mesh().volume(leaves[slot], j);
                 let [v_z, v_r, zz, zr, rr, pp]: [&[f64]; COUNT] =
                     std::array::from_fn(|c| &self.component(slot, c)[j * N..(j + 1) * N]);
                 let (mut velocity, mut speed_squared, mut strain) = (0.0, 0.0, 0.0);
@@ -44,6 +47,10 @@ impl<const N: usize> SolidSolver<N> {
                 block[2] += volume * 0.5 * density * speed_squared;
                 block[3] += volume * strain;
             }
+            block
+        };
+        let mut totals = Totals::default();
+        for block in mesh::map_in_order(leaves.len(), BLOCKS_TO_ADD, of_block) {
             totals.mass += block[0];
             totals.momentum_z += block[1];
             totals.kinetic += block[2];

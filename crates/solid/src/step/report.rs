@@ -39,6 +39,13 @@ pub struct PlasticReport {
     pub(crate) temperature: f64,
 }
 
+impl PlasticReport {
+    /// Whether anything flowed in the step.
+    pub(crate) fn has_flow(&self) -> bool {
+        self.returned + self.corrected > 0 || [self.work, self.released, self.rate] != [0.0; 3]
+    }
+}
+
 /// Reports the von Mises stresses of a block anew.
 ///
 /// - `yield_squared`: squared yield strength, Pa².
