@@ -18,6 +18,7 @@ import argparse
 import json
 import shutil
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
@@ -182,7 +183,8 @@ def main():
     parser.add_argument("--walls", nargs="+", help="rigid, or materials of the library")
     parser.add_argument("--stand-offs", type=float, nargs="+", default=STAND_OFFS, help="d/R")
     parser.add_argument("--until", type=float, help="end in Rayleigh times")
-    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--threads", type=int, default=1, help="of each run")
+    parser.add_argument("--processes", type=int, default=1, help="runs of a row at a time")
     parser.add_argument("--table", action="store_true", help="run nothing")
     options = parser.parse_args()
     if options.load and (options.walls or options.pressures):
@@ -200,8 +202,9 @@ def main():
     for cells in options.cells:
         for wall in options.walls:
             for pressure in options.pressures:
-                found = [(d, solve(options, pressure, wall, d, cells)) for d in options.stand_offs]
-                found = [(d, f) for d, f in found if f is not None]
+                with ThreadPoolExecutor(options.processes) as pool:
+                    solved = pool.map(lambda d: solve(options, pressure, wall, d, cells), options.stand_offs)
+                    found = [(d, f) for d, f in zip(options.stand_offs, solved) if f is not None]
                 if found:
                     print(row(pressure, wall, cells, found), flush=True)
                 worst = max([worst, *(f["code"] for _, f in found)])

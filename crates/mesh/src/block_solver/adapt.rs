@@ -1,7 +1,9 @@
 //! The step from one mesh to the next.
 
+use super::limits::limits_of;
 use super::{BlockSolver, Model};
 use crate::Remap;
+use crate::kernels::parallel::map_in_order;
 
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Adapts the grid if it is time to; to be called after a step. Returns whether the mesh changed: slots, faces of the interface
@@ -66,11 +68,21 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
 
     /// Takes the reports of some blocks from their cells, and those of all for the steps to come.
     pub(super) fn measure(&mut self, slots: impl IntoIterator<Item = usize>) {
-        let Self { model, mesh, state, reports, .. } = self;
-        for slot in slots {
-            model.measure(mesh, slot, state.block(slot), &mut reports.finished[slot]);
+        /// So many are worth it to wake a thread.
+        const BLOCKS_AT_ONCE: usize = 4;
+        let Self { model, mesh, state, reports, limits, .. } = self;
+        let slots: Vec<usize> = slots.into_iter().collect();
+        let measured = map_in_order(slots.len(), BLOCKS_AT_ONCE, |number| {
+            let slot = slots[number];
+            let mut report = reports.finished[slot].clone();
+            model.measure(mesh, slot, state.block(slot), &mut report);
+            report
+        });
+        for (slot, report) in slots.into_iter().zip(measured) {
+            reports.finished[slot] = report;
         }
         reports.pending.clone_from(&reports.finished);
+        *limits = limits_of(model, mesh, 0, &reports.finished);
         model.reports_changed(reports);
     }
 }

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use super::limits::{Limits, limits_of, together};
 use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Scratches, Step};
 use crate::kernels::parallel::{LOOKS_AT_ONCE, for_each_tile, for_some_blocks_lightly};
 use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part};
@@ -126,7 +127,10 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let due: usize = due_tiles.iter().map(|tile| tile.slots().filter(|slot| is_due(*slot)).count()).sum();
         progress.cell_updates += (due * N * N) as u64;
         levels.gather(mesh, step.group);
-        model.reports_changed(reports);
+        // Where all levels step alike no block reads another one's new state before they have finished.
+        if levels.clock().groups() > 1 {
+            model.reports_changed(reports);
+        }
         Ok(())
     }
 
@@ -136,23 +140,34 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     pub fn finish(&mut self) -> Result<(), M::Error> {
         let later = self.clock().next();
         let ended = |clock: &LevelClock, group: usize| clock.end(group) == later;
+        self.levels.before_corrections(&self.mesh, &mut self.state, &mut self.next);
         for group in (0..self.clock().groups()).rev() {
             if ended(self.clock(), group) {
                 self.correct(group)?;
             }
         }
-        let Self { model, mesh, state, next, levels, reports, interface, progress, news, .. } = self;
+        let Self { model, mesh, state, next, levels, reports, interface, progress, limits, news, .. } = self;
         let clock = levels.clock();
         let Reports { finished, pending } = &mut *reports;
-        let both = finished.par_iter_mut().zip(&*pending).enumerate().with_min_len(LOOKS_AT_ONCE);
-        both.map(|(slot, (finished, pending))| {
-            let has_ended = ended(clock, clock.group_of(mesh, slot));
-            if has_ended {
-                finished.clone_from(pending);
-            }
-            has_ended && model.has_news(mesh, slot, pending)
-        })
-        .collect_into_vec(news);
+        news.clear();
+        news.resize(finished.len(), false);
+        let parts = (finished.par_chunks_mut(LOOKS_AT_ONCE))
+            .zip(pending.par_chunks(LOOKS_AT_ONCE))
+            .zip(news.par_chunks_mut(LOOKS_AT_ONCE));
+        let of_parts: Vec<Limits> = (parts.enumerate())
+            .map(|(part, ((finished, pending), news))| {
+                let first = part * LOOKS_AT_ONCE;
+                let both = finished.iter_mut().zip(pending).zip(news);
+                for (slot, ((finished, pending), has_news)) in (first..).zip(both) {
+                    if ended(clock, clock.group_of(mesh, slot)) {
+                        finished.clone_from(pending);
+                        *has_news = model.has_news(mesh, slot, pending);
+                    }
+                }
+                limits_of(model, mesh, first, finished)
+            })
+            .collect();
+        *limits = together(mesh, of_parts);
         // In the order of the slots, so that sums do not depend on threads.
         for (slot, _) in news.iter().enumerate().filter(|(_, has_news)| **has_news) {
             let dt = clock.length(clock.group_of(mesh, slot));

@@ -18,6 +18,8 @@ pub use interface::{FaceState, Interface};
 pub use model::{BlockWork, Marks, Model, Place, Scratches, Step};
 pub use saved::SavedBlocks;
 
+use limits::Limits;
+
 use crate::kernels::parallel::map_in_order;
 use crate::{
     Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side,
@@ -44,6 +46,8 @@ pub struct BlockSolver<M: Model<N>, const N: usize> {
     due_tiles: Vec<Tile>,
     /// Whether a block of the step under way has to be looked at, see [`Model::is_clean`].
     is_suspect: AtomicBool,
+    /// How long steps may be, from [`Reports::finished`].
+    limits: Limits,
     /// Which blocks have something to account for at the end of a step, kept for its memory.
     news: Vec<bool>,
 }
@@ -122,6 +126,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             prepared: M::Prepared::default(),
             due_tiles: Vec::new(),
             is_suspect: AtomicBool::new(false),
+            limits: Limits::new(),
             news: Vec::new(),
             model,
             mesh,

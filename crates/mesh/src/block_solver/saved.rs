@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use super::limits::limits_of;
 use super::{Adapting, BlockSolver, Model, Progress, Reports};
 use crate::{BlockId, FaceState, Field, Horizon, Misfit};
 
@@ -44,6 +45,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             prepared: _,
             due_tiles: _,
             is_suspect: _,
+            limits: _,
             news: _,
         } = self;
         SavedBlocks {
@@ -92,6 +94,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         self.levels.resize(blocks);
         self.reports = Reports { finished: finished.into_owned(), pending: pending.into_owned() };
         self.model.reports_changed(&self.reports);
+        self.limits = limits_of(&self.model, &self.mesh, 0, &self.reports.finished);
         self.adapting.horizon = horizon;
         self.progress = progress;
         Ok(())

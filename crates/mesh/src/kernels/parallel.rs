@@ -13,7 +13,7 @@ const BLOCKS_AT_ONCE: usize = 4;
 const FEW_BLOCKS: usize = 16;
 
 /// So many are worth it to wake a thread that only looks at what is told of them.
-pub(crate) const LOOKS_AT_ONCE: usize = 256;
+pub(crate) const LOOKS_AT_ONCE: usize = 128;
 
 /// Runs `work(tile, blocks, blocks of second, reports)` for tiles of two fields, in parallel on the current rayon pool. The result cannot
 /// depend on the number of threads: each tile has its own part of the fields and its own reports.
@@ -142,15 +142,9 @@ pub fn map_in_order<T: Send>(
     (0..count).into_par_iter().with_min_len(at_once).map(work).collect()
 }
 
-/// [`map_in_order`] of a look at each block's report, into memory at hand.
+/// [`map_in_order`] of a glance at each block's report, into memory at hand.
 pub fn map_into<T: Send>(count: usize, look: impl Fn(usize) -> T + Sync + Send, to: &mut Vec<T>) {
-    (0..count).into_par_iter().with_min_len(LOOKS_AT_ONCE).map(look).collect_into_vec(to);
-}
-
-/// The least of what `of` says of the numbers below `count`; infinite of none.
-pub fn least(count: usize, of: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
-    let numbers = (0..count).into_par_iter().with_min_len(LOOKS_AT_ONCE);
-    numbers.map(of).reduce(|| f64::INFINITY, f64::min)
+    (0..count).into_par_iter().with_min_len(8 * LOOKS_AT_ONCE).map(look).collect_into_vec(to);
 }
 
 /// One scratch object per worker thread, so that a step allocates nothing.

@@ -9,17 +9,61 @@ use crate::{CorrectedFace, Field, FluxRegister, GroupStep, LevelClock, Mesh, Nei
 ///
 /// All groups of levels read `state` and write `next`, and the two are exchanged after each step of the finest. Within the
 /// step of a coarser group those of its blocks that finer ones read move to its end linearly in time (Osher & Sanders 1983;
-/// Berger & Colella 1989): of them `state` has the present and `next` the end. Of the others nobody asks before the end,
-/// so they stay where they are, whatever the two fields are called meanwhile. What finer blocks pass to coarser ones is
-/// kept as the mean over the coarser one's step.
+/// Berger & Colella 1989), whenever the next finer group begins a step: of them `state` then has the present and `next` the end.
+/// Nobody asks in between, nor of the other blocks before the end, so they stay where they are, whatever the two fields are
+/// called meanwhile. What finer blocks pass to coarser ones is kept as the mean over the coarser one's step.
 #[derive(Clone, Debug)]
 pub struct LevelSteps<const N: usize> {
     clock: LevelClock,
     registers: Registers<N>,
-    follows: Vec<bool>,
+    follows: Vec<Follows>,
     /// Whether the fields have been exchanged an odd number of times since each group began its step.
     is_exchanged: Vec<bool>,
+    /// The same, since its blocks that finer ones read were moved to where the next finer group began a step; and when that was, s.
+    moved: Vec<(bool, f64)>,
     points: Vec<[f64; 2]>,
+}
+
+/// When the state of a block is asked for within its level's step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Follows {
+    /// Not before the end.
+    Never,
+    /// When the next finer group begins a step.
+    WhenRead,
+    /// At the end of each step of the finest group.
+    Always,
+}
+
+/// What becomes of a block at the end of a step of the finest group, before the fields are exchanged.
+#[derive(Clone, Copy, Debug)]
+enum Move {
+    Nowhere,
+    /// `state` has the end of its step, which has come: `next` gets it, too.
+    ToEnd,
+    /// `state` has the present and `next` the end: both are put where they are looked for next, the present moved by this share.
+    By(f64),
+    /// The other way round: the present is moved by this share.
+    InNext(f64),
+}
+
+impl Move {
+    fn make(self, state: &mut [f64], next: &mut [f64]) {
+        match self {
+            Self::Nowhere => {}
+            Self::ToEnd => next.copy_from_slice(state),
+            Self::By(share) => {
+                for (next, state) in next.iter_mut().zip(state) {
+                    let end = *next;
+                    *next = *state + share * (end - *state);
+                    *state = end;
+                }
+            }
+            Self::InNext(share) => {
+                next.iter_mut().zip(state).for_each(|(next, end)| *next += share * (*end - *next));
+            }
+        }
+    }
 }
 
 /// What the blocks have passed over faces between levels in their own steps, and its means over the steps of coarser ones.
@@ -84,6 +128,7 @@ impl<const N: usize> LevelSteps<N> {
             },
             follows: Vec::new(),
             is_exchanged: Vec::new(),
+            moved: Vec::new(),
             points: Vec::new(),
         }
     }
@@ -114,6 +159,8 @@ impl<const N: usize> LevelSteps<N> {
         self.clock.begin(base.max(coarsest).min(finest), finest, now, dt);
         self.is_exchanged.clear();
         self.is_exchanged.resize(self.clock.groups(), false);
+        self.moved.clear();
+        self.moved.resize(self.clock.groups(), (false, now));
         if self.clock.groups() == 1 {
             return;
         }
@@ -122,15 +169,16 @@ impl<const N: usize> LevelSteps<N> {
             mesh.tree().neighbours(slot).iter().any(|neighbour| matches!(neighbour, Neighbour::Finer(_)))
         };
         self.follows.clear();
-        self.follows.extend((0..mesh.blocks()).map(is_read));
+        let follows = |slot: usize| if is_read(slot) { Follows::WhenRead } else { Follows::Never };
+        self.follows.extend((0..mesh.blocks()).map(follows));
         for slot in watched.into_iter().copied() {
-            self.follows[slot] = true;
+            self.follows[slot] = Follows::Always;
         }
         // The slopes at a point are made with the neighbours, too.
         for (slot, ..) in self.points.iter().filter_map(|point| mesh.locate(*point)) {
             let around = mesh.tree().neighbours(slot).iter().flat_map(Neighbour::slots);
             for slot in std::iter::once(slot).chain(around) {
-                self.follows[slot] = true;
+                self.follows[slot] = Follows::Always;
             }
         }
     }
@@ -149,6 +197,7 @@ impl<const N: usize> LevelSteps<N> {
     pub fn start(&mut self, limit: f64) -> GroupStep {
         let step = self.clock.start(limit);
         self.is_exchanged[step.group] = false;
+        self.moved[step.group] = (false, step.begin);
         step
     }
 
@@ -157,8 +206,7 @@ impl<const N: usize> LevelSteps<N> {
         (&self.clock, &mut self.registers)
     }
 
-    /// Whether a block is at present in the field of the new states: nobody reads it within its level's step, and the fields have been
-    /// exchanged meanwhile.
+    /// Whether a block is at present in the field of the new states: nobody has read it since the fields were exchanged.
     pub fn is_aside(&self, mesh: &Mesh<N>, slot: usize) -> bool {
         let clock = &self.clock;
         // Between steps nothing is aside, and the mesh may be another than the last step's.
@@ -166,10 +214,12 @@ impl<const N: usize> LevelSteps<N> {
             return false;
         }
         let group = clock.group_of(mesh, slot);
-        group != clock.finest()
-            && !self.follows[slot]
-            && self.is_exchanged[group]
-            && clock.end(group) > clock.now()
+        let is_exchanged = match self.follows[slot] {
+            Follows::Never => self.is_exchanged[group],
+            Follows::WhenRead => self.moved[group].0,
+            Follows::Always => false,
+        };
+        group != clock.finest() && is_exchanged && clock.end(group) > clock.now()
     }
 
     /// Takes what the blocks of a group have passed in their step into the means over the coarser group's step.
@@ -202,41 +252,76 @@ impl<const N: usize> LevelSteps<N> {
         });
     }
 
+    /// Puts those blocks whose level ends its step with the finest where corrections look for them: what they began with, or have been
+    /// moved to since, in `state`, the end in `next`.
+    pub fn before_corrections(&mut self, mesh: &Mesh<N>, state: &mut Field, next: &mut Field) {
+        let Self { clock, follows, moved, .. } = self;
+        let later = clock.next();
+        let is_due = |group: usize, is_exchanged: bool| is_exchanged && clock.end(group) == later;
+        if !moved.iter().enumerate().any(|(group, (is_exchanged, _))| is_due(group, *is_exchanged)) {
+            return;
+        }
+        for_both(state, next, |slot, state, next| {
+            let group = clock.group_of(mesh, slot);
+            if follows[slot] == Follows::WhenRead && is_due(group, moved[group].0) {
+                state.swap_with_slice(next);
+            }
+        });
+        for (group, (is_exchanged, _)) in moved.iter_mut().enumerate() {
+            *is_exchanged &= clock.end(group) != later;
+        }
+    }
+
     /// Ends the finest group's step: `state` is then that of its end.
     ///
     /// To be called when the clock still shows the beginning, after all corrections.
     pub fn finish_step(&mut self, mesh: &Mesh<N>, state: &mut Field, next: &mut Field) {
-        let (clock, follows, is_exchanged) = (&self.clock, &self.follows, &self.is_exchanged);
+        let Self { clock, follows, is_exchanged, moved, .. } = self;
         let (finest, later) = (clock.finest(), clock.next());
+        let is_read = |group: usize| clock.end(group) > later && clock.end(group + 1) <= later;
         if finest > 0 {
-            let len = state.block_len();
-            (state.as_mut_slice().par_chunks_mut(len))
-                .zip(next.as_mut_slice().par_chunks_mut(len))
-                .enumerate()
-                .with_min_len(16)
-                .for_each(|(slot, (old, new))| {
-                    let group = clock.group(mesh.tree().leaves()[slot].level);
-                    if group == finest {
-                        return;
-                    }
-                    let share = clock.share_until(group, later);
-                    if !follows[slot] {
-                        if share >= 1.0 && is_exchanged[group] {
-                            new.copy_from_slice(old);
-                        }
-                    } else if share < 1.0 {
-                        for (new, old) in new.iter_mut().zip(old) {
-                            let end = *new;
-                            *new = *old + share * (end - *old);
-                            *old = end;
-                        }
-                    }
-                });
+            let moves = |group: usize| {
+                let (is_moved, since) = moved[group];
+                if clock.end(group) <= later {
+                    let to_end = |is_exchanged| if is_exchanged { Move::ToEnd } else { Move::Nowhere };
+                    return [to_end(is_exchanged[group]), to_end(is_moved), Move::Nowhere];
+                }
+                let share = (later - since) / (clock.end(group) - since);
+                let when_read = match (is_read(group), is_moved) {
+                    (false, _) => Move::Nowhere,
+                    (true, false) => Move::By(share),
+                    (true, true) => Move::InNext(share),
+                };
+                [Move::Nowhere, when_read, Move::By(clock.share_until(group, later))]
+            };
+            let moves: Vec<[Move; 3]> = (0..finest).map(moves).collect();
+            for_both(state, next, |slot, state, next| {
+                if let Some(moves) = moves.get(clock.group_of(mesh, slot)) {
+                    moves[follows[slot] as usize].make(state, next);
+                }
+            });
+            for group in 0..finest {
+                let (is_exchanged, since) = &mut moved[group];
+                *is_exchanged = !*is_exchanged;
+                if is_read(group) {
+                    (*is_exchanged, *since) = (false, later);
+                }
+            }
         }
-        self.is_exchanged.iter_mut().for_each(|is_exchanged| *is_exchanged = !*is_exchanged);
+        is_exchanged.iter_mut().for_each(|is_exchanged| *is_exchanged = !*is_exchanged);
         std::mem::swap(state, next);
         self.clock.advance();
     }
+}
+
+/// Calls `work(slot, block of state, block of next)` for all blocks, in parallel.
+fn for_both(state: &mut Field, next: &mut Field, work: impl Fn(usize, &mut [f64], &mut [f64]) + Sync) {
+    let len = state.block_len();
+    (state.as_mut_slice().par_chunks_mut(len))
+        .zip(next.as_mut_slice().par_chunks_mut(len))
+        .enumerate()
+        .with_min_len(16)
+        .for_each(|(slot, (state, next))| work(slot, state, next));
 }
 
 impl LevelClock {
