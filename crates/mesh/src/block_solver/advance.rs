@@ -212,6 +212,12 @@ fn look_at<M: Model<N>, const N: usize>(model: &M, reports: &[M::Report], is_sus
     }
 }
 
+/// The slots of the blocks that have to be looked at, ascending.
+pub(super) fn to_be_looked_at<M: Model<N>, const N: usize>(model: &M, reports: &[M::Report]) -> Vec<usize> {
+    let slots = (0..reports.len()).into_par_iter().with_min_len(LOOKS_AT_ONCE);
+    slots.filter(|slot| !model.is_clean(&reports[*slot])).collect()
+}
+
 /// Fails if a cell of a new state is not admissible.
 ///
 /// - `time`, `step`: of that state.
@@ -222,10 +228,10 @@ pub(super) fn check<M: Model<N>, const N: usize>(
     reports: &[M::Report],
     (time, step): (f64, u64),
 ) -> Result<(), M::Error> {
-    for (slot, id) in mesh.tree().leaves().iter().enumerate() {
-        let block = state.block(slot);
+    for slot in to_be_looked_at(model, reports) {
+        let (id, block) = (mesh.tree().leaves()[slot], state.block(slot));
         if let Some(cell) = model.inadmissible_cell(&reports[slot], block) {
-            let [z, r] = mesh.centre(*id, cell % N, cell / N);
+            let [z, r] = mesh.centre(id, cell % N, cell / N);
             return Err(model.error(block, cell, Place { z, r, time, step }));
         }
     }

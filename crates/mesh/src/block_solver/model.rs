@@ -98,7 +98,8 @@ pub trait Model<const N: usize>: Sized + Sync {
         f64::INFINITY
     }
 
-    /// Whether a report alone says that no cell of the block is inadmissible, and none is to be redone: the block is not looked at then.
+    /// Whether a report alone says that no cell of the block is inadmissible, and none is to be redone: [`Model::inadmissible_cell`]
+    /// and [`Model::cells_to_redo`] are not asked then.
     fn is_clean(&self, report: &Self::Report) -> bool;
     /// The first cell of a block that is no admissible state.
     fn inadmissible_cell(&self, report: &Self::Report, block: &[f64]) -> Option<usize>;

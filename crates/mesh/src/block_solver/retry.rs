@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::advance::to_be_looked_at;
 use super::{Marks, Model, Step, Worker};
 use crate::{Field, FluxRegister, Mesh, ScratchPool, for_each_block};
 
@@ -21,7 +22,7 @@ impl<M: Model<N>, const N: usize> Step<'_, M, N> {
         let mut marks = Marks::new();
         for _ in 0..ROUNDS {
             let mut is_new = false;
-            for slot in (0..self.mesh.blocks()).filter(|slot| is_due(*slot)) {
+            for slot in to_be_looked_at(self.model, reports).into_iter().filter(|slot| is_due(*slot)) {
                 for cell in self.model.cells_to_redo(&reports[slot], next.block(slot)) {
                     let known = marks.entry(slot).or_default();
                     if !known.contains(&cell) {
