@@ -29,7 +29,7 @@ impl LevelLimit {
         }
     }
 
-    /// The least of [`longest_step`] over the blocks: each of its terms falls with what this holds the most of, also when rounded.
+    /// The least of [`crate::longest_step`] over the blocks: each of its terms falls with what this holds the most of, also when rounded.
     fn longest_step(&self, cfl: f64, [h_z, h_r]: [f64; 2]) -> f64 {
         let [s_z, s_r] = self.speeds;
         (cfl * h_z / s_z).min(cfl * h_r / s_r).min(1.0 / self.crossings).min(self.besides)
@@ -88,7 +88,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         self.limits.iter().fold(LevelLimit::NONE, |all, limit| all.and(*limit)).speeds
     }
 
-    /// The largest step that the Courant number allows all cells, s, see [`longest_step`].
+    /// The largest step that the Courant number allows all cells, s, see [`crate::longest_step`].
     pub fn time_step_limit(&self, cfl: f64) -> f64 {
         self.levels().fold(f64::INFINITY, |limit, level| limit.min(self.limit_of(level, cfl)))
     }
