@@ -1,10 +1,13 @@
 //! `FluidSolver`: how a fluid is made.
 
+use std::sync::Mutex;
+
 use mesh::{BlockSolver, Domain, Mesh, SavedBlocks, Side, SideStates, Tile};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::far_field::FarFieldMemory;
+use crate::boundary::participant::BlockTraces;
 use crate::bubble::follow::Follower;
 use crate::bubble::look::follow_bubble;
 use crate::capillarity::level_mixed_cells;
@@ -29,8 +32,8 @@ use crate::{
 
 /// The fluid: a [`BlockSolver`] of compressible two-phase flow, which says how it is advanced, adapted, kept and taken up again.
 ///
-/// `N` is the number of cells along a block's side.
-pub struct FluidSolver<const N: usize>(BlockSolver<Fluid, N>);
+/// `N` is the number of cells along a block's side. What is shown on the interface is made in memory that is kept.
+pub struct FluidSolver<const N: usize>(BlockSolver<Fluid, N>, pub(crate) Mutex<Vec<BlockTraces<N>>>);
 
 /// What of a fluid changes in time.
 pub type FluidState<'a, const N: usize> = SavedBlocks<'a, BlockReport<N>, FluidMemory>;
@@ -134,7 +137,7 @@ impl<const N: usize> FluidSolver<N> {
         let mut blocks = BlockSolver::new(fluid, mesh, state, setup.adaptation.clone(), scratch)?;
         follow_bubble(&mut blocks);
         follow_sources(&mut blocks);
-        Ok(Self(blocks))
+        Ok(Self(blocks, Mutex::default()))
     }
 
     /// The equations of state.

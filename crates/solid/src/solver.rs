@@ -1,5 +1,8 @@
 //! `SolidSolver`: how a solid is made.
 
+use std::sync::Mutex;
+
+use coupler::FaceTrace;
 use mesh::{BlockId, BlockSolver, Field, Mesh, MeshError, SavedBlocks, SideStates, Tile};
 
 use crate::analysis::Analysis;
@@ -20,8 +23,8 @@ use crate::{BoundaryLedger, ElasticState, PlasticLedger, SolidError, SolidSetup}
 
 /// The solid: a [`BlockSolver`] of elastic and plastic waves, which says how it is advanced, adapted, kept and taken up again.
 ///
-/// `N` is the number of cells along a block's side.
-pub struct SolidSolver<const N: usize>(BlockSolver<Solid, N>);
+/// `N` is the number of cells along a block's side. What is shown on the interface is made in memory that is kept.
+pub struct SolidSolver<const N: usize>(BlockSolver<Solid, N>, pub(crate) Mutex<Vec<[FaceTrace; N]>>);
 
 /// What of a solid changes in time.
 pub type SolidState<'a> = SavedBlocks<'a, BlockReport, SolidMemory>;
@@ -112,7 +115,8 @@ impl<const N: usize> SolidSolver<N> {
             ways: Ways { has_tiles: Tile::holds_four::<N>(), has_sweeps: N <= Tile::MOST_CELLS },
             setup,
         };
-        Ok(Self(BlockSolver::new(solid, mesh, state, adaptation, || BlockScratch::new(count))?))
+        let blocks = BlockSolver::new(solid, mesh, state, adaptation, || BlockScratch::new(count))?;
+        Ok(Self(blocks, Mutex::default()))
     }
 
     /// What it is made of.

@@ -1,5 +1,7 @@
 //! The fluid as one side of the interface: the only place where it meets the coupler.
 
+use std::sync::PoisonError;
+
 use coupler::{FaceTrace, FluidTrace, TraceRow};
 use mesh::{Padded, TileRows};
 
@@ -16,6 +18,9 @@ use crate::step::{BlockScratch, reconstruct, take_wall};
 use crate::terms::{GasMass, HeatBeyond, TermBlock, WallCell};
 use crate::two_phase::{Cells, FaceStates, Window, face_states};
 use crate::{FluidSolver, Mixture, TRACE_GAS};
+
+/// The traces on a block's faces, and how many of them were no states on the whole of the step.
+pub(crate) type BlockTraces<const N: usize> = ([FaceTrace; N], u64);
 
 impl<const N: usize> FluidSolver<N> {
     /// Writes the traces on the wall at the present time and their rates of change.
@@ -37,9 +42,11 @@ impl<const N: usize> FluidSolver<N> {
         let of_block =
             |slot: usize| self.with_scratch(|scratch| self.traces_of_block(&context, slot, scratch));
         let mut scaled = 0;
-        for (first, (traces, of_block)) in self.map_interface(due, of_block) {
+        let mut made = self.1.lock().unwrap_or_else(PoisonError::into_inner);
+        let firsts = self.map_interface(due, of_block, &mut made);
+        for (first, (traces, of_block)) in firsts.into_iter().zip(&*made) {
             scaled += of_block;
-            for (face, trace) in (first..).zip(&traces) {
+            for (face, trace) in (first..).zip(traces) {
                 trace.rows().for_each(|(row, value)| put(row, face, value));
             }
         }
@@ -52,7 +59,7 @@ impl<const N: usize> FluidSolver<N> {
         context: &FluidStep<'_, N>,
         slot: usize,
         scratch: &mut BlockScratch<N>,
-    ) -> ([FaceTrace; N], u64) {
+    ) -> BlockTraces<N> {
         let dt = context.dt;
         let widths = self.mesh().widths(self.mesh().tree().leaves()[slot].level);
         let inverse_h = widths.map(|h| 1.0 / h);

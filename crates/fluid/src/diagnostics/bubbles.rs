@@ -64,6 +64,14 @@ struct Sums {
 }
 
 impl Sums {
+    fn add(&mut self, other: &Self) {
+        self.volume += other.volume;
+        self.trace += other.trace;
+        self.thin += other.thin;
+        self.moment += other.moment;
+        self.gas_mass += other.gas_mass;
+    }
+
     fn bubble(self, geometry: Geometry) -> Bubble {
         let (angle, equivalent_radius) = match geometry {
             Geometry::Axisymmetric => (std::f64::consts::TAU, (1.5 * self.volume).cbrt()),
@@ -117,19 +125,31 @@ fn gas_sums<const N: usize>(fluid: &BlockSolver<Fluid, N>, cuts: &BubbleCuts) ->
     let may_have_gas =
         |slot: &usize| fluid.reports().finished[*slot].extremes.phi > 0.0 || model.has_gas[*slot];
     let slots: Vec<usize> = (0..leaves.len()).filter(may_have_gas).collect();
-    let columns = mesh::map_in_order(slots.len(), BLOCKS_TO_ADD, |number| columns_of(fluid, slots[number]));
-    for (slot, columns) in slots.into_iter().zip(columns) {
-        for (i, column) in columns.iter().enumerate() {
-            let z = fluid.mesh().centre(leaves[slot], i, 0)[0];
-            let sums = &mut all[cuts.bubble_at(z)];
-            sums.volume += column.volume;
-            sums.trace += column.trace;
-            sums.thin += column.thin;
-            sums.moment += column.volume * z;
-            sums.gas_mass += column.gas_mass;
-        }
+    let of_blocks =
+        mesh::map_in_order(slots.len(), BLOCKS_TO_ADD, |number| bubbles_of(fluid, cuts, slots[number]));
+    for (bubble, sums) in of_blocks.into_iter().flatten() {
+        all[bubble].add(&sums);
     }
     all
+}
+
+/// The gas of a block: the bubbles that it belongs to, and how much of it.
+fn bubbles_of<const N: usize>(
+    fluid: &BlockSolver<Fluid, N>,
+    cuts: &BubbleCuts,
+    slot: usize,
+) -> Vec<(usize, Sums)> {
+    let id = fluid.mesh().tree().leaves()[slot];
+    let mut found: Vec<(usize, Sums)> = Vec::new();
+    for (i, column) in columns_of(fluid, slot).into_iter().enumerate() {
+        let z = fluid.mesh().centre(id, i, 0)[0];
+        let (bubble, column) = (cuts.bubble_at(z), Sums { moment: column.volume * z, ..column });
+        match found.last_mut().filter(|(last, _)| *last == bubble) {
+            Some((_, sums)) => sums.add(&column),
+            None => found.push((bubble, column)),
+        }
+    }
+    found
 }
 
 /// The gas in each column of cells of a block, which are at one z; without moments.

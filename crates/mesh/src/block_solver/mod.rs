@@ -12,6 +12,7 @@ mod saved;
 
 use std::sync::atomic::AtomicBool;
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 pub use interface::{FaceState, Interface};
@@ -20,7 +21,6 @@ pub use saved::SavedBlocks;
 
 use limits::Limits;
 
-use crate::kernels::parallel::map_in_order;
 use crate::{
     Adaptation, Field, GroupStep, Horizon, LevelClock, LevelSteps, Mesh, Patch, ScratchPool, Side,
     StageTimer, Tile,
@@ -240,20 +240,24 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         self.mesh.finest_among(self.interface.blocks())
     }
 
-    /// What `work` makes of each block at the interface that is due, in the order of r, with the number of the block's first face; in
-    /// parallel on the current rayon pool. Nothing without another medium.
+    /// What `work` makes of each block at the interface that is due, in the order of r, in parallel on the current rayon pool. Nothing
+    /// without another medium.
+    ///
+    /// - `made`: gets it, block by block; a step should allocate nothing of that size.
+    /// - returns: the numbers of the blocks' first faces.
     pub fn map_interface<T: Send>(
         &self,
         is_due: impl Fn(usize) -> bool,
         work: impl Fn(usize) -> T + Sync + Send,
-    ) -> impl Iterator<Item = (usize, T)> {
+        made: &mut Vec<T>,
+    ) -> Vec<usize> {
         /// So many are worth it to wake a thread.
         const BLOCKS_AT_ONCE: usize = 2;
         let with_face = |slot: &usize| Some((self.interface.first_face(*slot)?, *slot));
         let due = self.interface.blocks().iter().filter(|slot| is_due(**slot));
         let due: Vec<(usize, usize)> = due.filter_map(with_face).collect();
-        let made = map_in_order(due.len(), BLOCKS_AT_ONCE, |number| work(due[number].1));
-        due.into_iter().map(|(first, _)| first).zip(made)
+        due.par_iter().with_min_len(BLOCKS_AT_ONCE).map(|(_, slot)| work(*slot)).collect_into_vec(made);
+        due.into_iter().map(|(first, _)| first).collect()
     }
 
     /// The group of levels that a face of the interface belongs to.

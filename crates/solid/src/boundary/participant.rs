@@ -1,5 +1,7 @@
 //! The solid as one side of the interface: the only place where it meets the coupler.
 
+use std::sync::PoisonError;
+
 use coupler::{CommonRefinement, FaceTrace, InterfaceStar, RegisterRow, TraceRow};
 use mesh::{Geometry, GroupStep, Padded, Side};
 
@@ -58,8 +60,10 @@ impl<const N: usize> SolidSolver<N> {
         let context = self.context(dt);
         let of_block =
             |slot: usize| self.with_scratch(|scratch| self.traces_of_block(&context, slot, scratch));
-        for (first, traces) in self.map_interface(due, of_block) {
-            for (face, trace) in (first..).zip(&traces) {
+        let mut made = self.1.lock().unwrap_or_else(PoisonError::into_inner);
+        let firsts = self.map_interface(due, of_block, &mut made);
+        for (first, traces) in firsts.into_iter().zip(&*made) {
+            for (face, trace) in (first..).zip(traces) {
                 trace.rows().for_each(|(row, value)| put(row, face, value));
             }
         }
