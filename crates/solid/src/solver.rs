@@ -2,13 +2,13 @@
 
 use std::sync::Mutex;
 
-use coupler::FaceTrace;
 use mesh::{BlockId, BlockSolver, Field, Mesh, MeshError, SavedBlocks, SideStates, Tile};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::absorbing::SideMemory;
 use crate::boundary::held::Held;
+use crate::boundary::participant::BlockTraces;
 use crate::components::following::Following;
 use crate::components::untouched::Untouched;
 use crate::components::{self, Component};
@@ -24,7 +24,7 @@ use crate::{BoundaryLedger, ElasticState, PlasticLedger, SolidError, SolidSetup}
 /// The solid: a [`BlockSolver`] of elastic and plastic waves, which says how it is advanced, adapted, kept and taken up again.
 ///
 /// `N` is the number of cells along a block's side. What is shown on the interface is made in memory that is kept.
-pub struct SolidSolver<const N: usize>(BlockSolver<Solid, N>, pub(crate) Mutex<Vec<[FaceTrace; N]>>);
+pub struct SolidSolver<const N: usize>(BlockSolver<Solid, N>, pub(crate) Mutex<Vec<BlockTraces<N>>>);
 
 /// What of a solid changes in time.
 pub type SolidState<'a> = SavedBlocks<'a, BlockReport, SolidMemory>;

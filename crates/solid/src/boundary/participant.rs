@@ -42,6 +42,9 @@ pub struct SurfaceTrace {
     pub impedance: f64,
 }
 
+/// The traces on a block's faces.
+pub(crate) type BlockTraces<const N: usize> = [FaceTrace; N];
+
 impl<const N: usize> SolidSolver<N> {
     /// Writes the traces on the surface at the present time and their rates of change.
     ///
@@ -75,7 +78,7 @@ impl<const N: usize> SolidSolver<N> {
         context: &SolidStep<'_, N>,
         slot: usize,
         scratch: &mut BlockScratch<N>,
-    ) -> [FaceTrace; N] {
+    ) -> BlockTraces<N> {
         let widths = self.mesh().widths(self.mesh().tree().leaves()[slot].level);
         let inverse_h = widths.map(|h| 1.0 / h);
         let dt = context.dt;
