@@ -11,9 +11,7 @@ Peaks are those that the operating system tells of a process. Prints Markdown. N
 """
 
 import json
-import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -59,13 +57,9 @@ def peak(cav, case, changes, directory):
     path, out = directory / "case.toml", directory / "run"
     path.write_text(case)
     command = program.command(cav, path, out, [f"{key}={value}" for key, value in changes.items()], "--in-process")
-    process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        sys.exit(f"{' '.join(command)} ended with {process.returncode}")
+    _, used = program.usage(command, stderr=subprocess.DEVNULL)
     cells = json.loads((out / "summary.json").read_text())["cells"]
-    return 1024 * usage.ru_maxrss, sum(side["largest"] for side in cells.values())
+    return 1024 * used.ru_maxrss, sum(side["largest"] for side in cells.values())
 
 
 def main():

@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pycav
@@ -36,6 +37,17 @@ def command(cav, case, out, changes=(), *more):
     """`cav run` of a case with changes as --set has them, KEY=VALUE."""
     sets = [part for change in changes for part in ("--set", change)]
     return [str(cav), "run", str(case), "--out", str(out), "--quiet", "--force", *more, *sets]
+
+
+def usage(command, **options):
+    """Runs a command, with options as `subprocess.Popen` has them, and ends the script where it fails; wall time, s, and the system's account."""
+    start = time.perf_counter()
+    process = subprocess.Popen(command, **options)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        sys.exit(f"{' '.join(command)} ended with {process.returncode}")
+    return time.perf_counter() - start, used
 
 
 def is_complete(directory):

@@ -9,11 +9,7 @@ Prints Markdown: wall time, speed-up over one thread, processor time, and the se
 threads each. Every run is made --repeat times, the fastest counts. Needs pycav and target/release/cav (or --cav).
 """
 
-import os
-import subprocess
-import sys
 import tempfile
-import time
 from pathlib import Path
 
 import program
@@ -28,13 +24,8 @@ CASES = {
 
 def timed(command):
     """Wall and processor time of a command, s."""
-    start = time.perf_counter()
-    process = subprocess.Popen(command)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        sys.exit(f"{' '.join(command)} ended with {process.returncode}")
-    return time.perf_counter() - start, usage.ru_utime + usage.ru_stime
+    wall, used = program.usage(command)
+    return wall, used.ru_utime + used.ru_stime
 
 
 def fastest(options, threads, *more):

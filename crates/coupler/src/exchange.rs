@@ -117,9 +117,13 @@ impl FaceTrace {
         trace
     }
 
-    /// All rows with their values.
-    pub fn rows(&self) -> impl Iterator<Item = (TraceRow, f64)> {
-        TraceRow::OF_A_FACE.into_iter().map(|row| (row, self.0[row as usize]))
+    /// Calls `put(row, face, value)` for all rows of some faces.
+    ///
+    /// - `first`: the number of the first of them.
+    pub fn put_all(traces: &[Self], first: usize, mut put: impl FnMut(TraceRow, usize, f64)) {
+        for (face, trace) in (first..).zip(traces) {
+            TraceRow::OF_A_FACE.into_iter().for_each(|row| put(row, face, trace.0[row as usize]));
+        }
     }
 }
 

@@ -38,17 +38,6 @@ struct Means {
 /// So many sub-faces are worth it to wake a thread: some 20 microseconds.
 const FACES_AT_ONCE: usize = 64;
 
-/// What is found on a sub-face.
-type OnSubFace<'a> = (&'a mut InterfaceStar, &'a mut Friction, &'a mut Means);
-
-fn stars_of<'a>(
-    stars: &'a mut [InterfaceStar],
-    frictions: &'a mut [Friction],
-    means: &'a mut [Means],
-) -> impl Iterator<Item = OnSubFace<'a>> {
-    stars.iter_mut().zip(frictions).zip(means).map(|((star, friction), mean)| (star, friction, mean))
-}
-
 /// What friction does on a sub-face.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Friction {
@@ -140,7 +129,7 @@ impl Meeting {
         let Self { refinement, trace, others, own: own_trace, edges, stars, frictions, means, low, .. } =
             self;
         let (trace, own_trace) = (&*trace, &*own_trace);
-        let meet = |sub: &SubFace, (star, friction, mean): OnSubFace<'_>| {
+        let meet = |sub: &SubFace, star: &mut InterfaceStar, friction: &mut Friction, mean: &mut Means| {
             let SubFace { first, second, offset_in_first, offset_in_second, .. } = *sub;
             // Traces are linear along a face: a face that meets several of the other side shows each its own part.
             let theirs =
@@ -196,12 +185,13 @@ impl Meeting {
             .zip(stars.par_chunks_mut(FACES_AT_ONCE))
             .zip(frictions.par_chunks_mut(FACES_AT_ONCE))
             .zip(means.par_chunks_mut(FACES_AT_ONCE));
-        let meet_all = |(((subs, stars), frictions), means): (((&[SubFace], _), _), _)| {
-            let places = stars_of(stars, frictions, means);
-            let due = subs.iter().zip(places).filter(|(sub, _)| is_due(sub.second));
-            due.map(|(sub, place)| meet(sub, place)).sum::<Result<u64, CouplerError>>()
-        };
-        let met: Vec<Result<u64, CouplerError>> = parts.map(meet_all).collect();
+        let met: Vec<Result<u64, CouplerError>> = (parts)
+            .map(|(((subs, stars), frictions), means)| {
+                let places = subs.iter().zip(stars).zip(frictions).zip(means);
+                let due = places.filter(|(((sub, _), _), _)| is_due(sub.second));
+                due.map(|(((sub, star), friction), mean)| meet(sub, star, friction, mean)).sum()
+            })
+            .collect();
         // The first that fails is told of, whoever was first to find one.
         self.floored += met.into_iter().sum::<Result<u64, CouplerError>>()?;
         Ok(())

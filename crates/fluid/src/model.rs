@@ -306,10 +306,9 @@ impl<const N: usize> Model<N> for Fluid {
     }
 
     fn reports_changed(&mut self, reports: &Reports<BlockReport<N>>) {
-        let Reports { finished, pending } = reports;
-        let has_gas =
-            |slot: usize| finished[slot].has_gas || pending.get(slot).is_some_and(|pending| pending.has_gas);
-        mesh::map_into(finished.len(), has_gas, &mut self.has_gas);
+        self.has_gas.clear();
+        let both = reports.finished.iter().zip(&reports.pending);
+        self.has_gas.extend(both.map(|(finished, pending)| finished.has_gas | pending.has_gas));
     }
 
     fn mesh_changed(&mut self, mesh: &Mesh<N>) {

@@ -46,9 +46,7 @@ impl<const N: usize> FluidSolver<N> {
         let firsts = self.map_interface(due, of_block, &mut made);
         for (first, (traces, of_block)) in firsts.into_iter().zip(&*made) {
             scaled += of_block;
-            for (face, trace) in (first..).zip(traces) {
-                trace.rows().for_each(|(row, value)| put(row, face, value));
-            }
+            FaceTrace::put_all(traces, first, &mut put);
         }
         self.model().tally.scaled_traces.add(scaled);
     }

@@ -15,9 +15,6 @@ use crate::step::{BlockScratch, reconstruct};
 use crate::thermodynamics::temperature::cell_temperature;
 use crate::{FluidSolver, Primitive};
 
-/// So many blocks are worth it to wake a thread that adds up what is in them.
-const BLOCKS_TO_ADD: usize = 32;
-
 /// The gas as a whole, or of one of several bubbles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bubble {
@@ -221,7 +218,7 @@ impl<const N: usize> FluidSolver<N> {
             block
         };
         let mut totals = Totals { gas_mass: if has_phases { 0.0 } else { f64::NAN }, ..Totals::default() };
-        for block in mesh::map_in_order(leaves.len(), BLOCKS_TO_ADD, of_block) {
+        for block in mesh::map_in_order(leaves.len(), mesh::SUMS_AT_ONCE, of_block) {
             totals.mass += block[0];
             totals.momentum_z += block[1];
             totals.energy += block[2];

@@ -128,6 +128,9 @@ pub(crate) fn for_some_blocks_lightly<R: Send>(
     }
 }
 
+/// So many blocks are worth it to wake a thread that adds up what is in them.
+pub const SUMS_AT_ONCE: usize = 32;
+
 /// What `work` makes of the numbers below `count`, in their order, in parallel on the current rayon pool.
 ///
 /// - `at_once`: so many are worth it to wake a thread.
@@ -140,11 +143,6 @@ pub fn map_in_order<T: Send>(
         return (0..count).map(work).collect();
     }
     (0..count).into_par_iter().with_min_len(at_once).map(work).collect()
-}
-
-/// [`map_in_order`] of a glance at each block's report, into memory at hand.
-pub fn map_into<T: Send>(count: usize, look: impl Fn(usize) -> T + Sync + Send, to: &mut Vec<T>) {
-    (0..count).into_par_iter().with_min_len(8 * LOOKS_AT_ONCE).map(look).collect_into_vec(to);
 }
 
 /// One scratch object per worker thread, so that a step allocates nothing.

@@ -66,9 +66,7 @@ impl<const N: usize> SolidSolver<N> {
         let mut made = self.1.lock().unwrap_or_else(PoisonError::into_inner);
         let firsts = self.map_interface(due, of_block, &mut made);
         for (first, traces) in firsts.into_iter().zip(&*made) {
-            for (face, trace) in (first..).zip(traces) {
-                trace.rows().for_each(|(row, value)| put(row, face, value));
-            }
+            FaceTrace::put_all(traces, first, &mut put);
         }
     }
 

@@ -3,9 +3,6 @@
 use crate::SolidSolver;
 use crate::state::component::COUNT;
 
-/// So many blocks are worth it to wake a thread that adds up what is in them.
-const BLOCKS_TO_ADD: usize = 32;
-
 /// Integrals over the domain, per radian in axial symmetry, per metre of depth in planar geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Totals {
@@ -50,7 +47,7 @@ impl<const N: usize> SolidSolver<N> {
             block
         };
         let mut totals = Totals::default();
-        for block in mesh::map_in_order(leaves.len(), BLOCKS_TO_ADD, of_block) {
+        for block in mesh::map_in_order(leaves.len(), mesh::SUMS_AT_ONCE, of_block) {
             totals.mass += block[0];
             totals.momentum_z += block[1];
             totals.kinetic += block[2];
