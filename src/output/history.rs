@@ -75,8 +75,8 @@ pub struct HistoryFile {
     length: u64,
     /// Whether anything changed since the last batch.
     pending: bool,
-    /// Whether the buffers have been given their final size.
-    is_reserved: bool,
+    /// Batches of at least [`TYPICAL_BATCH`]; the first gives the buffers their final size.
+    typical_batches: u64,
 }
 
 #[derive(Debug)]
@@ -142,7 +142,7 @@ impl HistoryFile {
             last_cost: Duration::ZERO,
             length: 0,
             pending: false,
-            is_reserved: false,
+            typical_batches: 0,
         }
     }
 
@@ -238,12 +238,18 @@ impl HistoryFile {
 
     /// Whether a batch is due: a second after the last one at the earliest, and late enough that a batch that costs as
     /// much as the last one stays under 0.5 % of the wall time; at any cost when the rows fill their memory, 4 MiB or a
-    /// sixteenth of the file; at once when that is 16 MiB or more.
+    /// sixteenth of the file, and for the first two batches of a run; at once when they fill 16 MiB or more.
     pub fn is_flush_due(&self) -> bool {
         let elapsed = self.last_flush.elapsed();
         let is_cheap = self.last_cost.as_secs_f64() < FLUSH_SHARE * elapsed.as_secs_f64();
-        elapsed >= FLUSH_INTERVAL && (is_cheap || self.is_full())
+        elapsed >= FLUSH_INTERVAL && (is_cheap || self.is_full() || self.is_beginning())
             || self.buffered() >= MOST_BUFFERED.max(self.length / BUFFER_SHARE)
+    }
+
+    /// Whether this is one of the run's first batches. The first gives the buffers their final size, the second makes the
+    /// library read all that the first has written: a run holds at its beginning what it will hold.
+    fn is_beginning(&self) -> bool {
+        self.typical_batches < 2 && self.buffered() >= TYPICAL_BATCH
     }
 
     fn is_full(&self) -> bool {
@@ -277,16 +283,16 @@ impl HistoryFile {
                 .map_err(OutputError::hdf5(&self.path, "write a batch to"))
         })?;
         let buffered = self.buffered();
-        let is_typical = !self.is_reserved && buffered >= TYPICAL_BATCH;
+        let is_typical = buffered >= TYPICAL_BATCH;
         for series in &mut self.series {
             series.written += series.buffered_rows();
-            if is_typical {
+            if is_typical && self.typical_batches == 0 {
                 series.reserve(buffered);
             }
             series.buffer.clear();
             series.created = true;
         }
-        self.is_reserved |= is_typical;
+        self.typical_batches += u64::from(is_typical);
         self.arrays.clear();
         self.pending = false;
         self.last_flush = Instant::now();
