@@ -110,7 +110,8 @@ impl Case {
         let least = least_cells(self, Medium::Fluid);
         let row = NUMBER * (1 + 3 * cells) as f64;
         Some(
-            Memory::of(of_fluid(fluid), &fluid.grid, self.time.local_steps, least, row).with(of_field(fluid)),
+            Memory::of(of_fluid(fluid), &fluid.grid, self.time.local_steps.may(), least, row)
+                .with(of_field(fluid)),
         )
     }
 
@@ -120,7 +121,7 @@ impl Case {
         let least = least_cells(self, Medium::Solid);
         // Its initial stress carries the fluid's pressure.
         let field = self.fluid.as_ref().map_or(0.0, of_field);
-        Some(Memory::of(of_solid(solid), &solid.grid, self.time.local_steps, least, 0.0).with(field))
+        Some(Memory::of(of_solid(solid), &solid.grid, self.time.local_steps.may(), least, 0.0).with(field))
     }
 
     /// Whether the machine has the memory with which some sides of the case begin, the fluid's and the solid's.

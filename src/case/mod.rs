@@ -14,6 +14,7 @@ mod initial_pressure;
 mod keys;
 mod load;
 mod loading;
+mod local_steps;
 mod materials;
 mod memory;
 pub mod new;
@@ -65,6 +66,7 @@ pub use error::{CaseError, CaseErrors};
 pub use keys::adaptation::DEFAULT_ADAPT_EVERY;
 pub use keys::{UnknownKey, describe_keys, key_paths, keys_page};
 pub use load::{GaussianLoad, LoadCase};
+pub use local_steps::LocalSteps;
 pub use materials::materials_table;
 pub use memory::{Memory, available_memory};
 pub use read_adaptation::DEFAULT_ERROR;
@@ -131,7 +133,7 @@ pub struct Time {
     /// Δt over the smallest h/(|v| + c) of a cell; in (0, 0.9].
     pub cfl: f64,
     /// Whether coarse levels make longer steps than fine ones.
-    pub local_steps: bool,
+    pub local_steps: LocalSteps,
     /// When fields are written, s: ascending, from 0 to `end`, both included.
     pub snapshots: Vec<f64>,
 }

@@ -12,8 +12,8 @@ use super::keys::{records, time as of_time};
 use super::reader::{Faults, Table, array};
 use super::shared::{Context, PlacedProbe, name_of};
 use super::{
-    Case, Medium, OutputCase, Probe, Time, cross, read_conduction, read_coupling, read_fluid, read_interest,
-    read_sensors, read_solid, scales, steps, thresholds,
+    Case, LocalSteps, Medium, OutputCase, Probe, Time, cross, read_conduction, read_coupling, read_fluid,
+    read_interest, read_sensors, read_solid, scales, steps, thresholds,
 };
 
 /// More snapshots than this are a mistake.
@@ -35,7 +35,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, Vec<CaseError>> {
     if time.as_ref().is_some_and(|time| time.settles) {
         cross::settles(scheme.as_ref(), &mut faults);
     }
-    let local_steps = time.as_ref().is_some_and(|time| time.local_steps);
+    let local_steps = time.as_ref().map_or(LocalSteps::Auto, |time| time.local_steps);
     let context = Context { geometry, scheme: scheme.as_ref().map(|given| given.value), local_steps };
     let (has_fluid, has_solid) = (root.has("fluid"), root.has("solid"));
     let fluid =
@@ -146,7 +146,7 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
         end
     };
     let cfl = table.within("cfl", "0.45 is a good value", faults);
-    let local_steps = table.flag("local_steps", faults);
+    let local_steps = LocalSteps::read(&mut table, faults);
     let snapshots = table.numbers("snapshots", faults);
     let every = table.number("snapshot_every", faults);
     table.finish(faults);

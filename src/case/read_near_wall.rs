@@ -2,15 +2,15 @@
 
 use fluid::NearWall;
 
-use super::GridCase;
 use super::keys::adaptation::FILM_CELLS;
 use super::keys::grid::{MOST_CELLS, MOST_LEVELS};
 use super::reader::{Faults, Table};
 use super::shared::Context;
+use super::{GridCase, LocalSteps};
 use coupler::Scheme;
 
-/// Levels where a shock is about to hit the wall, where a case does not say and levels have steps of their own: a fine cell more then
-/// costs little. Without, all cells would make the steps of the finest.
+/// Levels where a shock is about to hit the wall, where a case does not say and asks for local steps: a fine cell more then costs little.
+/// Without, all cells would make the steps of the finest.
 const SHOCK_LEVELS: usize = 2;
 
 /// How far the grid rises next to the wall, and what the adaptation must know of it.
@@ -24,7 +24,8 @@ pub(super) fn near_wall(
 ) -> NearWall {
     let has_wall = context.scheme != Some(Scheme::None);
     let adapts = grid.as_ref().is_some_and(|grid| grid.adaptation.is_some() && fits(grid, SHOCK_LEVELS));
-    let by_default = if context.local_steps && has_wall && adapts { SHOCK_LEVELS } else { 0 };
+    let is_asked_for = context.local_steps == LocalSteps::Always;
+    let by_default = if is_asked_for && has_wall && adapts { SHOCK_LEVELS } else { 0 };
     let mut given = [None, None, None];
     if let Some(mut table) = table.table("near_wall", faults) {
         given = [

@@ -4,7 +4,7 @@ use coupler::Scheme;
 use mesh::{Geometry, Side};
 
 use super::reader::{Faults, Given, Table, array, pair};
-use super::{Medium, Probe, index};
+use super::{LocalSteps, Medium, Probe, index};
 
 /// What the tables of both sides need to know of the rest of the case.
 #[derive(Clone, Copy)]
@@ -13,7 +13,7 @@ pub(super) struct Context {
     /// `None` where the name given is faulty.
     pub scheme: Option<Scheme>,
     /// Whether levels have steps of their own.
-    pub local_steps: bool,
+    pub local_steps: LocalSteps,
 }
 
 /// A probe and where its point stands.

@@ -125,6 +125,8 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Replace("z = [-0.01, 0.0]", "z = [-0.01, -0.001]"), &["solid.z: the domains do not meet", "z = [-0.01, 0.0]"]),
     (Replace("z = [-0.01, 0.0]\nr = [0.0, 0.01]", "z = [-0.01, 0.0]\nr = [0.0, 0.02]"), &["solid.r: the domains do not meet", "make both ranges r = [0.0, 0.01]"]),
     // Adaptation.
+    (Replace("[time]", "[time]\nlocal_steps = \"yes\""), &["time.local_steps: unknown name `yes`", "write \"auto\" in quotes, or true or false"]),
+    (Replace("[time]", "[time]\nlocal_steps = 1"), &["time.local_steps: must be true, false or \"auto\"", "write \"auto\" in quotes"]),
     (Replace("[fluid.liquid]", "adapt = \"no\"\n[fluid.liquid]"), &["fluid.adapt: must be true or false", "the string \"no\"", "without quotes"]),
     (Replace("[fluid.liquid]", "adapts = true\n[fluid.liquid]"), &["fluid.adapts: unknown key", "did you mean `adapt`?"]),
     (Replace("[fluid.liquid]", "epsilon = 1.0\n[fluid.liquid]"), &["fluid.epsilon: must lie in (0, 1), got 1.0", "it follows from `error`"]),

@@ -153,6 +153,7 @@ fn grids_adapt_unless_they_are_told_not_to_or_cannot() {
         (fluid.near_wall.shock_levels, fluid.near_wall.film_levels, fluid.near_wall.film_cells, above)
     };
     assert_eq!(near(&[]), (0, 0, 8, 0));
+    assert_eq!(near(&["time.local_steps=auto"]), (0, 0, 8, 0));
     assert_eq!(near(&["time.local_steps=true"]), (2, 0, 8, 2));
     assert_eq!(near(&["time.local_steps=true", "fluid.adapt=false"]), (0, 0, 8, 0));
     assert_eq!(near(&["time.local_steps=true", "fluid.near_wall.shock_levels=0"]), (0, 0, 8, 0));

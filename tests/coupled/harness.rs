@@ -1,6 +1,6 @@
 //! Two ways to drive both media: as a run does, from a case; and by hand, from functions of the place.
 
-use cav::case::Case;
+use cav::case::{Case, LocalSteps};
 use cav::run::process::stop::Stop;
 use cav::run::side::RunSide as _;
 use cav::run::side::coupled_solver::{self, CoupledSolver, StepRule};
@@ -153,6 +153,7 @@ impl Pair {
         let limit = own.min(f64::from(ratio) * others) / 1.001;
         let steps = (end / limit).ceil();
         let dt = end / steps;
+        let local = if local { LocalSteps::Always } else { LocalSteps::Never };
         let rule = |cfl: f64| StepRule { cfl, local, ratio, smallest: 0.0 };
         // So that as many are made as asked for.
         let short = rule(cfl * dt / (f64::from(ratio) * others));

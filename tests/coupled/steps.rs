@@ -1,8 +1,13 @@
-//! Each side with its own time step: as exact as with a common one, and nothing is lost between them.
+//! Each side with its own time step: as exact as with a common one, and nothing is lost between them. Levels with steps of their
+//! own: where that saves work.
 
+use std::path::Path;
+
+use cav::case::Case;
 use coupler::Participant;
 use mesh::Limiter;
 
+use crate::harness::Sides;
 use crate::modes::{END, at_start, errors};
 
 /// Errors of the coupled mode with `ratio` short steps in each long one, and the mismatch of impulse and work.
@@ -40,6 +45,42 @@ fn the_mode_is_as_exact_with_steps_of_their_own() {
                 eprintln!("  impulse {impulse:.1e}, work {work:.1e}");
                 assert!(impulse.abs() < 1e-13 && work.abs() < 1e-11, "{impulse:e}, {work:e}");
             }
+        }
+    }
+}
+
+/// The figures' bubble on coarse grids that adapt, through its collapse and the shock on the wall: the cells that each side has
+/// stepped, and what the wall was given, N s and J.
+fn figures(local_steps: &str) -> [[f64; 2]; 2] {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/collapse-near-steel.toml");
+    let sets = [
+        "fluid.levels=5",
+        "solid.levels=5",
+        "time.end=50e-6",
+        "time.snapshots=[]",
+        "fluid.near_wall.shock_levels=0",
+    ];
+    let local_steps = format!("time.local_steps={local_steps}");
+    let sets: Vec<String> = sets.into_iter().chain([&*local_steps]).map(String::from).collect();
+    let mut sides = Sides::of(&Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}")));
+    sides.run(|_, _| {});
+    let (fluid, solid) = (sides.fluid.solver(), sides.solid.solver());
+    let ledger = fluid.ledger();
+    [[fluid.cell_updates() as f64, solid.cell_updates() as f64], [ledger.wall_impulse, ledger.wall_work]]
+}
+
+#[test]
+fn by_default_levels_step_by_themselves_where_that_saves_work() {
+    let [never, auto, always] = ["false", "auto", "true"].map(figures);
+    eprintln!("never {never:?}\nauto {auto:?}\nalways {always:?}");
+    for side in 0..2 {
+        assert!(auto[0][side] <= 1.001 * never[0][side], "side {side}: {auto:?}, {never:?}");
+    }
+    assert!(auto[0][1] < 0.95 * never[0][1], "the solid saves some: {auto:?}, {never:?}");
+    for (quantity, bound) in [2e-4, 2e-3].into_iter().enumerate() {
+        for other in [auto, always] {
+            let off = (other[1][quantity] / never[1][quantity] - 1.0).abs();
+            assert!(off < bound, "what the wall is given stays: {off:e}");
         }
     }
 }

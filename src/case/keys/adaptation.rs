@@ -167,15 +167,15 @@ pub(super) static ADAPTATION_OF_FLUID: [Section; 3] = [
         path: "fluid.near_wall",
         repeated: false,
         title: "More levels next to the wall",
-        about: "What they do, what they cost and what they are worth: [next to the wall][film]. Without \
-                `time.local_steps` all cells make the steps of the finest while there are such. Two levels then cost \
-                four times as many steps as long as shocks run along the wall.",
+        about: "What they do, what they cost and what they are worth: [next to the wall][film]. With \
+                `time.local_steps = false` all cells make the steps of the finest while there are such. Two levels then \
+                cost four times as many steps as long as shocks run along the wall.",
         keys: &[
             Key {
                 name: "shock_levels",
                 unit: "1",
                 values: Values::Whole(0, MOST_ABOVE),
-                default: Preset::Words("2 with `time.local_steps`, else 0"),
+                default: Preset::Words("2 with `time.local_steps = true`, else 0"),
                 about: "How many levels above `levels` blocks on the wall rise where a shock is about to hit it.",
             },
             Key {

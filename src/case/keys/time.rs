@@ -1,6 +1,7 @@
 //! The top of a case file, and `[time]`.
 
 use super::declared::{Interval, Key, Preset, Section, Values};
+use crate::case::LocalSteps;
 
 /// The time step's share of what stability allows.
 pub(in crate::case) const CFL: f64 = 0.45;
@@ -57,10 +58,10 @@ pub(super) static TIME: [Section; 2] = [
             Key {
                 name: "local_steps",
                 unit: "",
-                values: Values::Flag,
-                default: Preset::Flag(false),
-                about: "Whether coarse levels make [longer steps than fine ones][levels]. Worth it on large grids of \
-                        many levels.",
+                values: Values::Words("`\"auto\"`, `true`, `false`"),
+                default: Preset::Name(LocalSteps::AUTO),
+                about: "Whether coarse levels make [longer steps than fine ones][levels]. `\"auto\"`: where that saves \
+                        work, decided before each step. `true`: always, with [two more levels next to the wall][film].",
             },
             Key {
                 name: "snapshots",

@@ -10,7 +10,7 @@ use fluid::{Fluid, FluidSolver};
 use mesh::{BLOCK, BlockSolver, Geometry, GroupStep, Model, Part};
 use solid::{Solid, SolidSolver};
 
-use crate::case::{Case, SMALLEST_STEP};
+use crate::case::{Case, LocalSteps, SMALLEST_STEP};
 use crate::run::RunError;
 
 /// An exchange may take no more steps of the finest level than waves stay within the blocks that adaptation made for them: at Courant
@@ -24,7 +24,7 @@ pub struct StepRule {
     /// The Courant number.
     pub cfl: f64,
     /// Whether levels step by themselves.
-    pub local: bool,
+    pub local: LocalSteps,
     /// The most steps that one side makes within one of the other.
     pub ratio: u32,
     /// A limit that is no longer than this, s, means that the solution has gone bad.
@@ -122,7 +122,7 @@ impl StepRule {
         let common = case.coupling.scheme.exchanges_cells();
         Self {
             cfl: case.time.cfl,
-            local: case.time.local_steps && !common,
+            local: if common { LocalSteps::Never } else { case.time.local_steps },
             ratio: case.coupling.step_ratio,
             smallest: SMALLEST_STEP * case.time.end,
         }
@@ -148,24 +148,22 @@ impl StepRule {
 
     /// Steps alone, or short ones within a long one of the other side.
     pub fn alone(&self, medium: &impl CoupledSolver) -> Steps {
-        let base = if self.local { medium.mesh().coarsest_base() } else { u8::MAX };
-        self.steps(medium, base)
+        self.from_base(medium, 0)
     }
 
     /// Steps that are long ones for the other side: no level at the interface may have shorter ones.
     pub fn long(&self, medium: &impl CoupledSolver) -> Steps {
-        let finest = medium.finest_at_interface();
-        let base = if self.local { medium.mesh().coarsest_base().max(finest) } else { u8::MAX };
-        self.steps(medium, base)
+        self.from_base(medium, medium.finest_at_interface())
     }
 
-    fn steps(&self, medium: &impl CoupledSolver, base: u8) -> Steps {
-        let limit = if self.local {
-            medium.local_step_limit(self.cfl, base)
-        } else {
-            medium.time_step_limit(self.cfl)
+    /// Steps of which those of levels up to `coarsest` are the longest.
+    fn from_base(&self, medium: &impl CoupledSolver, coarsest: u8) -> Steps {
+        let base = match self.local {
+            LocalSteps::Never => u8::MAX,
+            LocalSteps::Auto => medium.cheapest_base(self.cfl, coarsest),
+            LocalSteps::Always => medium.mesh().coarsest_base().max(coarsest),
         };
-        Steps { limit, base }
+        Steps { limit: medium.local_step_limit(self.cfl, base), base }
     }
 
     /// The step by which the other side counts how many of this side's go into one of its own, s.
@@ -279,7 +277,8 @@ pub fn short_steps<M: CoupledSolver>(
     loop {
         while let Some(group) = medium.clock().due() {
             // The whole is the other side's: how many steps of the coarsest level it holds follows from that level's limit.
-            let limit = if group == 0 { rule.alone(medium).limit } else { medium.due_limit(rule.cfl) };
+            let limit =
+                if group == 0 { medium.local_step_limit(rule.cfl, base) } else { medium.due_limit(rule.cfl) };
             let limit = rule.unless_collapsed(limit, medium)?;
             let step = medium.start_group(limit);
             let (rows, faces) = meeting.own_trace();

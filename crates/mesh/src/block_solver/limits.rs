@@ -5,6 +5,11 @@
 use super::{BlockSolver, Model};
 use crate::{MOST_HALVINGS, Mesh};
 
+/// What a pass over the blocks of a group costs besides their steps, in steps of one block: threads wake up.
+const PASS: f64 = 2.0;
+/// And for each block of the mesh, whichever group it is in: it is asked whether it is due, and those that finer ones read are moved.
+const PASS_OVER_BLOCKS: f64 = 0.01;
+
 /// What holds the steps of a level's blocks.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LevelLimit {
@@ -14,11 +19,13 @@ pub(super) struct LevelLimit {
     crossings: f64,
     /// The longest step that what is not waves allows, s.
     besides: f64,
+    /// How many blocks there are.
+    blocks: usize,
 }
 
 impl LevelLimit {
     /// Of no block.
-    const NONE: Self = Self { speeds: [0.0; 2], crossings: 0.0, besides: f64::INFINITY };
+    const NONE: Self = Self { speeds: [0.0; 2], crossings: 0.0, besides: f64::INFINITY, blocks: 0 };
 
     fn and(self, other: Self) -> Self {
         let [z, r] = [0, 1].map(|axis: usize| self.speeds[axis].max(other.speeds[axis]));
@@ -26,6 +33,7 @@ impl LevelLimit {
             speeds: [z, r],
             crossings: self.crossings.max(other.crossings),
             besides: self.besides.min(other.besides),
+            blocks: self.blocks + other.blocks,
         }
     }
 
@@ -55,6 +63,7 @@ pub(super) fn limits_of<M: Model<N>, const N: usize>(
             speeds: [s_z, s_r],
             crossings: s_z / h_z + s_r / h_r,
             besides: model.step_limit(report, [h_z, h_r]),
+            blocks: 1,
         };
         let limit = &mut limits[usize::from(id.level)];
         *limit = limit.and(of_block);
@@ -101,6 +110,16 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         })
     }
 
+    /// The base, no coarser than `coarsest`, with which a second of time takes the least work: how many blocks each level has and how
+    /// long their steps may be decides. The finest level, which is one step for all, where nothing is saved.
+    pub fn cheapest_base(&self, cfl: f64, coarsest: u8) -> u8 {
+        let levels: Vec<(usize, f64)> = self
+            .levels()
+            .map(|level| (self.limits[usize::from(level)].blocks, self.limit_of(level, cfl)))
+            .collect();
+        cheapest(&levels, coarsest.max(self.mesh.coarsest_base()))
+    }
+
     /// The longest step of the group of levels that is due, s.
     pub fn due_limit(&self, cfl: f64) -> f64 {
         let Some(group) = self.clock().due().filter(|_| cfl.is_finite()) else { return cfl };
@@ -114,6 +133,24 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let speeds = self.model.signal_speeds(&self.reports.finished[slot]);
         (widths[0] / speeds[0]).min(widths[1] / speeds[1])
     }
+}
+
+/// [`BlockSolver::cheapest_base`] of the blocks of all levels and their longest steps, s.
+fn cheapest(levels: &[(usize, f64)], coarsest: u8) -> u8 {
+    let all: usize = levels.iter().map(|(blocks, _)| blocks).sum();
+    let finest = levels.iter().rposition(|(blocks, _)| *blocks > 0).unwrap_or(0) as u8;
+    let work = |base: u8| {
+        let steps = |level: u8| f64::from(1_u32 << level.saturating_sub(base).min(MOST_HALVINGS));
+        let of_levels = (0..=finest).zip(levels);
+        let blocks: f64 = of_levels.clone().map(|(level, (blocks, _))| steps(level) * *blocks as f64).sum();
+        let passes: f64 = (base..=finest).map(steps).sum();
+        let longest =
+            of_levels.fold(f64::INFINITY, |longest, (level, (_, step))| longest.min(steps(level) * step));
+        (blocks + passes * (PASS + PASS_OVER_BLOCKS * all as f64)) / longest
+    };
+    // Where two are alike, the one with fewer groups.
+    let bases = (coarsest.min(finest)..=finest).rev();
+    bases.min_by(|one, other| work(*one).total_cmp(&work(*other))).unwrap_or(finest)
 }
 
 #[cfg(test)]
@@ -134,7 +171,7 @@ mod tests {
                 let blocks: Vec<[f64; 2]> = (0..50).map(|_| [1000.0 * random(), 1500.0 * random()]).collect();
                 let all = blocks.iter().fold(LevelLimit::NONE, |all, speeds| {
                     let crossings = speeds[0] / widths[0] + speeds[1] / widths[1];
-                    all.and(LevelLimit { speeds: *speeds, crossings, besides: f64::INFINITY })
+                    all.and(LevelLimit { speeds: *speeds, crossings, besides: f64::INFINITY, blocks: 1 })
                 });
                 let strictest = blocks
                     .iter()
@@ -144,5 +181,28 @@ mod tests {
             }
         }
         assert_eq!(LevelLimit::NONE.longest_step(0.45, [1.0; 2]), f64::INFINITY);
+    }
+
+    /// A fine level that few blocks are on costs little; one that most are on nothing, and where coarse cells are as fast in their steps as
+    /// fine ones nothing can be saved.
+    #[test]
+    fn levels_step_by_themselves_where_that_saves_work() {
+        let halved = |blocks: [usize; 4]| {
+            let steps = [8e-6, 4e-6, 2e-6, 1e-6];
+            std::array::from_fn::<_, 4, _>(|level| (blocks[level], steps[level]))
+        };
+        assert_eq!(cheapest(&halved([100, 100, 100, 100]), 0), 0);
+        assert_eq!(cheapest(&halved([100, 100, 100, 100]), 2), 2, "no coarser than that");
+        assert_eq!(cheapest(&halved([100, 100, 100, 0]), 0), 0, "the finest level that there is");
+        assert_eq!(cheapest(&halved([0, 0, 0, 100]), 0), 3);
+        assert_eq!(cheapest(&halved([0, 0, 1, 1000]), 0), 3, "a pass costs more than one block");
+        assert_eq!(cheapest(&halved([0, 0, 900, 100]), 0), 2);
+        // Five halvings would not make it cheaper, as three are all there are.
+        let long = [(1, 32e-6), (10, 16e-6), (100, 8e-6), (100, 4e-6), (100, 2e-6), (100, 1e-6)];
+        assert_eq!(cheapest(&long, 0), 2);
+        // The coarse level's sound is the faster: the fine ones would make shorter steps than they have to.
+        assert_eq!(cheapest(&[(500, 1e-6), (500, 1e-6)], 0), 1);
+        assert_eq!(cheapest(&[(500, 1.2e-6), (500, 1e-6)], 0), 1);
+        assert_eq!(cheapest(&[(500, 1.8e-6), (500, 1e-6)], 0), 0);
     }
 }
