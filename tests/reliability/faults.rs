@@ -103,7 +103,7 @@ fn in_other_processes_under_other_numbers_of_threads(workshop: &Workshop) {
             continue;
         }
         // Before the first step there is nothing to keep.
-        assert_eq!(code, Some(if number % 2 == 0 { 130 } else { 143 }));
+        assert_eq!(code, Some(if number % 2 == 0 { 130 } else { 143 }), "run {number}, {way:?}");
         interruptions += 1;
         assert!(checkpoints(&out).len() >= 2 || interruptions < 3, "{:?}", checkpoints(&out));
     }
