@@ -148,16 +148,16 @@ impl StepRule {
 
     /// Steps alone, or short ones within a long one of the other side.
     pub fn alone(&self, medium: &impl CoupledSolver) -> Steps {
-        self.from_base(medium, 0)
+        self.steps_from(medium, 0)
     }
 
     /// Steps that are long ones for the other side: no level at the interface may have shorter ones.
     pub fn long(&self, medium: &impl CoupledSolver) -> Steps {
-        self.from_base(medium, medium.finest_at_interface())
+        self.steps_from(medium, medium.finest_at_interface())
     }
 
     /// Steps of which those of levels up to `coarsest` are the longest.
-    fn from_base(&self, medium: &impl CoupledSolver, coarsest: u8) -> Steps {
+    fn steps_from(&self, medium: &impl CoupledSolver, coarsest: u8) -> Steps {
         let base = match self.local {
             LocalSteps::Never => u8::MAX,
             LocalSteps::Auto => medium.cheapest_base(self.cfl, coarsest),
