@@ -1,8 +1,5 @@
 //! The figures' case at half the resolution of its file: 25.6 cells per radius.
 
-use std::path::Path;
-
-use cav::case::Case;
 use cav::run::record::collapse::CollapseFinder;
 
 use crate::fixture::{AIR, bubble, grid, steel, water};
@@ -22,11 +19,8 @@ impl Peak {
 
 #[test]
 fn the_figures_case_has_its_known_peaks() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml");
-    let sets = ["fluid.levels=5", "solid.levels=3", "time.end=58e-6"].map(str::to_owned);
-    let sets = [&sets[..], &["time.snapshots=[]".to_owned()]].concat();
-    let case = Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}"));
-    let mut sides = Sides::of(&case);
+    let mut sides =
+        Sides::of_shipped("dickopp2012-coarse", ["fluid.levels=5", "solid.levels=3", "time.end=58e-6"]);
     // Two independent codes agree on these values; the tolerances are those of the specification.
     let wanted = [199e6, 51.4e-6, 168e6, 53.0e-6, 0.39 * 0.01, 43.1e-6];
     let tolerances = [0.06, 0.01, 0.06, 0.01, 0.08, 0.01];
@@ -92,16 +86,8 @@ fn has_peaks(sides: &mut Sides, wanted: [f64; 6], tolerances: [f64; 6]) {
 
 /// The figures' case with the true collapse and 25.6 cells per radius, with changes to it.
 fn true_collapse(sets: &[&str]) -> Sides {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml");
-    let all = [
-        "fluid.levels=5",
-        "solid.levels=3",
-        "fluid.model=five-equation",
-        "fluid.limiter=mc",
-        "time.snapshots=[]",
-    ];
-    let sets: Vec<String> = all.iter().chain(sets).map(|set| (*set).to_owned()).collect();
-    Sides::of(&Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}")))
+    let all = ["fluid.levels=5", "solid.levels=3", "fluid.model=five-equation", "fluid.limiter=mc"];
+    Sides::of_shipped("dickopp2012-coarse", all.iter().chain(sets).copied())
 }
 
 /// The true collapse on a grid that shows four fifths of its peaks: 505 and 398 MPa with 409.6 cells per radius. What is held

@@ -3,19 +3,14 @@
 //!
 //! Counted, not timed: what an exchange takes depends on the machine, how many there are does not.
 
-use std::path::Path;
-
-use cav::case::Case;
 use coupler::{FrameHeader, RegisterRow, TraceRow};
 
 use crate::harness::Sides;
 
 /// The figures' case on a coarse grid.
 fn sides(sets: &[&str]) -> Sides {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dickopp2012-coarse.toml");
-    let all = ["fluid.levels=4", "solid.levels=2", "time.end=12e-6", "time.snapshots=[]"];
-    let sets: Vec<String> = all.iter().chain(sets).map(|set| (*set).to_owned()).collect();
-    Sides::of(&Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}")))
+    let all = ["fluid.levels=4", "solid.levels=2", "time.end=12e-6"];
+    Sides::of_shipped("dickopp2012-coarse", all.iter().chain(sets).copied())
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Two ways to drive both media: as a run does, from a case; and by hand, from functions of the place.
 
+use std::path::Path;
+
 use cav::case::{Case, LocalSteps};
 use cav::run::process::stop::Stop;
 use cav::run::side::RunSide as _;
@@ -68,6 +70,13 @@ impl Sides {
     /// [`Sides::of`] a case whose text is that of these parts.
     pub fn of_parts(parts: &[&str]) -> Self {
         Self::of(&case(&parts.concat()))
+    }
+
+    /// [`Sides::of`] a case of `cases/`, its snapshots left out, with changes to it as `--set` has them.
+    pub fn of_shipped<'a>(name: &str, changes: impl IntoIterator<Item = &'a str>) -> Self {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
+        let sets: Vec<String> = changes.into_iter().chain(["time.snapshots=[]"]).map(String::from).collect();
+        Self::of(&Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}")))
     }
 
     /// A round of turns; `look` sees both between their turns: at the same time.

@@ -1,9 +1,6 @@
 //! Each side with its own time step: as exact as with a common one, and nothing is lost between them. Levels with steps of their
 //! own: where that saves work.
 
-use std::path::Path;
-
-use cav::case::Case;
 use coupler::Participant;
 use mesh::Limiter;
 
@@ -52,17 +49,9 @@ fn the_mode_is_as_exact_with_steps_of_their_own() {
 /// The figures' bubble on coarse grids that adapt, through its collapse and the shock on the wall: the cells that each side has
 /// stepped, and what the wall was given, N s and J.
 fn figures(local_steps: &str) -> [[f64; 2]; 2] {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/collapse-near-steel.toml");
-    let sets = [
-        "fluid.levels=5",
-        "solid.levels=5",
-        "time.end=50e-6",
-        "time.snapshots=[]",
-        "fluid.near_wall.shock_levels=0",
-    ];
     let local_steps = format!("time.local_steps={local_steps}");
-    let sets: Vec<String> = sets.into_iter().chain([&*local_steps]).map(String::from).collect();
-    let mut sides = Sides::of(&Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}")));
+    let grids = ["fluid.levels=5", "solid.levels=5", "fluid.near_wall.shock_levels=0", "time.end=50e-6"];
+    let mut sides = Sides::of_shipped("collapse-near-steel", grids.into_iter().chain([&*local_steps]));
     sides.run(|_, _| {});
     let (fluid, solid) = (sides.fluid.solver(), sides.solid.solver());
     let ledger = fluid.ledger();

@@ -104,10 +104,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
 
     /// The largest step of the whole that the Courant number allows if each level finer than `base` halves it once more, s.
     pub fn local_step_limit(&self, cfl: f64, base: u8) -> f64 {
-        self.levels().fold(f64::INFINITY, |limit, level| {
-            let halvings = level.saturating_sub(base).min(MOST_HALVINGS);
-            limit.min(self.limit_of(level, cfl) * f64::from(1_u32 << halvings))
-        })
+        longest_whole(self.levels().map(|level| self.limit_of(level, cfl)), base)
     }
 
     /// The base, no coarser than `coarsest`, with which a second of time takes the least work: how many blocks each level has and how
@@ -135,17 +132,25 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     }
 }
 
+/// How many steps a level makes in one of the whole, whose length is that of `base`.
+fn steps_of(level: u8, base: u8) -> f64 {
+    f64::from(1_u32 << level.saturating_sub(base).min(MOST_HALVINGS))
+}
+
+/// [`BlockSolver::local_step_limit`] of the longest steps of all levels, the coarsest first, s.
+fn longest_whole(steps: impl Iterator<Item = f64>, base: u8) -> f64 {
+    (0..).zip(steps).fold(f64::INFINITY, |longest, (level, step)| longest.min(step * steps_of(level, base)))
+}
+
 /// [`BlockSolver::cheapest_base`] of the blocks of all levels and their longest steps, s.
 fn cheapest(levels: &[(usize, f64)], coarsest: u8) -> u8 {
     let all: usize = levels.iter().map(|(blocks, _)| blocks).sum();
     let finest = levels.iter().rposition(|(blocks, _)| *blocks > 0).unwrap_or(0) as u8;
     let work = |base: u8| {
-        let steps = |level: u8| f64::from(1_u32 << level.saturating_sub(base).min(MOST_HALVINGS));
-        let of_levels = (0..=finest).zip(levels);
-        let blocks: f64 = of_levels.clone().map(|(level, (blocks, _))| steps(level) * *blocks as f64).sum();
-        let passes: f64 = (base..=finest).map(steps).sum();
-        let longest =
-            of_levels.fold(f64::INFINITY, |longest, (level, (_, step))| longest.min(steps(level) * step));
+        let blocks: f64 =
+            (0..).zip(levels).map(|(level, (blocks, _))| steps_of(level, base) * *blocks as f64).sum();
+        let passes: f64 = (base..=finest).map(|level| steps_of(level, base)).sum();
+        let longest = longest_whole(levels.iter().map(|(_, step)| *step), base);
         (blocks + passes * (PASS + PASS_OVER_BLOCKS * all as f64)) / longest
     };
     // Where two are alike, the one with fewer groups.
