@@ -122,31 +122,46 @@ impl Multiresolution for Analysis {
     #[inline(always)]
     fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
         let [gas, d_gas] = if self.has_phases { [cell[GAS], detail[GAS]] } else { [0.0; 2] };
-        let [rho, v_z, v_r, p, phi] = primitive_of::<true>(leading(cell), gas, &self.mixture);
+        let [rho, m_z, m_r, energy, phi] = leading(cell);
         let [d_rho, d_mz, d_mr, d_energy, d_phi] = leading(detail);
-        let [beta1, _] = self.mixture.free_betas::<true>(phi, rho, gas);
-        let d_bound = self.mixture.bound_energy(p, d_rho, d_gas);
-        let per_phi = (self.mixture.beta1(1.0) - self.mixture.beta1(0.0)) * p + self.mixture.beta2(1.0)
-            - self.mixture.beta2(0.0);
+        let mixture = &self.mixture;
+        // It is asked for every cell: divisions and roots are most of what it costs, so there are as few as can be.
+        let volume = 1.0 / rho;
+        let (v_z, v_r) = (m_z * volume, m_r * volume);
         let kinetic = 0.5 * (v_z * v_z + v_r * v_r);
-        let d_p = (d_energy - v_z * d_mz - v_r * d_mr + kinetic * d_rho - per_phi * d_phi + d_bound) / beta1;
-        let (d_vz, d_vr) = (d_mz - v_z * d_rho, d_mr - v_r * d_rho);
-        // Not `hypot`: it would take as long as all else here together, and nothing can overflow.
-        let d_v = (d_vz * d_vz + d_vr * d_vr).sqrt() / rho;
-        let impedance = (rho * self.mixture.bulk_modulus(rho, p, phi, gas / rho)).max(0.0).sqrt();
+        let [beta1, beta2] = mixture.free_betas::<true>(phi, rho, gas);
+        let per_beta1 = 1.0 / beta1;
+        let p = (energy - rho * kinetic - beta2) * per_beta1;
+        let d_bound = mixture.bound_energy(p, d_rho, d_gas);
+        let per_phi = (mixture.beta1(1.0) - mixture.beta1(0.0)) * p + mixture.beta2(1.0) - mixture.beta2(0.0);
+        let d_p =
+            (d_energy - v_z * d_mz - v_r * d_mr + kinetic * d_rho - per_phi * d_phi + d_bound) * per_beta1;
+        let (rho_d_vz, rho_d_vr) = (d_mz - v_z * d_rho, d_mr - v_r * d_rho);
+        // ρc² with the β₁ of the free volumes, see `Mixture::bulk_modulus`.
+        let modulus = ((1.0 + mixture.beta1(phi)) * p + mixture.beta2(phi)) * per_beta1;
+        // (ρc)², and below of velocities |ρc δv|² = c² |ρ δv|²: one root for both.
+        let squared_impedance = (rho * modulus).max(0.0);
         let [by_pressure, by_density] = match self.direction {
-            None => [d_p.abs().max(impedance * d_v), d_rho.abs()],
+            None => {
+                let squared =
+                    (rho_d_vz * rho_d_vz + rho_d_vr * rho_d_vr) * (squared_impedance * volume * volume);
+                [d_p.abs().max(squared.sqrt()), d_rho.abs()]
+            }
             Some([n_z, n_r]) => {
-                let along = (n_z * d_vz + n_r * d_vr) / rho;
-                let squared = (impedance / rho) * (impedance / rho);
-                [0.5 * (d_p + impedance * along).abs(), (d_rho - d_p / squared).abs()]
+                let along = (n_z * rho_d_vz + n_r * rho_d_vr) * volume;
+                let in_wave = d_p * (rho * rho) / squared_impedance;
+                [0.5 * (d_p + squared_impedance.sqrt() * along).abs(), (d_rho - in_wave).abs()]
             }
         };
-        let by_flow =
-            (by_pressure / self.scales.pressure).max(by_density / self.scales.density).max(d_phi.abs());
-        self.carried
-            .clone()
-            .fold(by_flow, |largest, c| largest.max((detail[c] - cell[c] / rho * d_rho).abs() / rho))
+        let [per_pressure, per_density] = [1.0 / self.scales.pressure, 1.0 / self.scales.density];
+        let by_flow = (by_pressure * per_pressure).max(by_density * per_density).max(d_phi.abs());
+        // A loop of known length: the one over cells would not become SIMD batches around any other.
+        let mut largest = by_flow;
+        for c in GAS..MOST_COMPONENTS {
+            let counts = if self.carried.contains(&c) { volume } else { 0.0 };
+            largest = largest.max((detail[c] - cell[c] * volume * d_rho).abs() * counts);
+        }
+        largest
     }
 
     /// That of the gas fraction: the interface between gas and liquid is on the finest level wherever it goes.

@@ -1,8 +1,8 @@
 //! What the fluid is to the block solver.
 
 use mesh::{
-    BlockSolver, BlockWork, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap, Reports,
-    Scratches, Side, Tile,
+    BlockSolver, BlockWork, CellBits, Field, FinerSide, Interface, Mesh, Misfit, Model, Place, Remap,
+    Reports, Scratches, Side, Tile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -230,11 +230,8 @@ impl<const N: usize> Model<N> for Fluid {
 
     /// Mixed cells of which a phase would be drained, those that the pressure floor would lift, and any that are not physical
     /// any more. What the floor still lifts after all then stays lifted.
-    fn cells_to_redo(&self, report: &BlockReport<N>, block: &[f64]) -> Vec<usize> {
-        if report.marked.is_empty() && is_sane(report) {
-            return Vec::new();
-        }
-        let mut cells: Vec<usize> = report.marked.cells().collect();
+    fn cells_to_redo(&self, report: &BlockReport<N>, block: &[f64]) -> CellBits<N> {
+        let mut cells = report.marked;
         if !is_sane(report) {
             cells.extend(self.failed_cells::<N>(block));
         }

@@ -41,12 +41,11 @@ pub use ghosts::side_states::SideStates;
 pub use ghosts::tile_rows::TileRows;
 pub use kernels::ahead::{fetch, fetch_lines};
 pub use kernels::aligned::{AlignedRow, whole_lines};
+pub use kernels::cell_bits::CellBits;
 pub use kernels::dispersion::{dispersion_share, oblique_dispersion_shares};
 pub use kernels::elementary::{exp_and_less_one, ln_of};
 pub use kernels::limiter::{Limiter, limited_differences};
-pub use kernels::parallel::{
-    SUMS_AT_ONCE, ScratchPool, for_each_block, for_each_tile, for_some_blocks, map_in_order,
-};
+pub use kernels::parallel::{SUMS_AT_ONCE, ScratchPool, for_each_tile, for_some_blocks, map_in_order};
 pub use kernels::reduce::maximum;
 pub use multiresolution::adaptation::{Adaptation, LevelBound, RegionOfInterest, Zone};
 pub use multiresolution::horizon::Horizon;

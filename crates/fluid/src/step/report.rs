@@ -1,6 +1,6 @@
 //! What one block tells of its step.
 
-use mesh::{Frame, Side, TileRows};
+use mesh::{CellBits, Frame, Side, TileRows};
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::far_field::face_centre;
@@ -79,34 +79,6 @@ impl<const N: usize> Default for SideReport<N> {
             wall_temperature: [0.0; N],
             impulse: [FaceRow([0.0; N]); 4],
         }
-    }
-}
-
-/// Some of the cells of a block: bit i of number j is cell (i, j).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct CellBits<const N: usize>(#[serde(with = "mesh::array")] [u32; N]);
-
-impl<const N: usize> Default for CellBits<N> {
-    fn default() -> Self {
-        const { assert!(N <= 32, "a row fits its bits") };
-        Self([0; N])
-    }
-}
-
-impl<const N: usize> CellBits<N> {
-    /// - `cell`: j N + i.
-    pub fn insert(&mut self, cell: usize) {
-        self.0[cell / N] |= 1 << (cell % N);
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.0.iter().all(|row| *row == 0)
-    }
-
-    /// Ascending.
-    pub fn cells(&self) -> impl Iterator<Item = usize> {
-        let rows = self.0;
-        (0..N * N).filter(move |cell| rows[cell / N] >> (cell % N) & 1 == 1)
     }
 }
 

@@ -6,30 +6,23 @@ use mesh::{Marks, Mesh, Padded};
 /// both sides of a face alike.
 ///
 /// A ghost that stands for cells of another level is marked if the cell at its centre is; the finer side's flux counts
-/// there, see `reflux.rs`.
+/// there, see `reflux.rs`. Which blocks are made again for what they see of their neighbours' marks, `retry.rs` of the mesh knows.
 pub(crate) fn padded_marks<const N: usize>(
     mesh: &Mesh<N>,
     slot: usize,
-    marks: &Marks,
+    marks: &Marks<N>,
     is_marked: &mut [bool],
 ) {
     is_marked.fill(false);
+    for cell in marks.get(&slot).into_iter().flat_map(|cells| cells.cells()) {
+        is_marked[Padded::<N>::index((cell % N) as isize, (cell / N) as isize)] = true;
+    }
     let n = N as isize;
-    let own = marks.get(&slot);
-    for j in -1..=n {
-        for i in -1..=n {
-            let inside = |x: isize| (0..n).contains(&x);
-            let k = Padded::<N>::index(i, j);
-            is_marked[k] = if inside(i) && inside(j) {
-                own.is_some_and(|cells| cells.contains(&((j * n + i) as usize)))
-            } else if inside(i) || inside(j) {
-                let cell = mesh.cell_at(slot, i, j);
-                cell.is_some_and(|(slot, i, j)| {
-                    marks.get(&slot).is_some_and(|cells| cells.contains(&(j * N + i)))
-                })
-            } else {
-                false
-            };
+    for along in 0..n {
+        for (i, j) in [(-1, along), (n, along), (along, -1), (along, n)] {
+            let of_ghost =
+                mesh.cell_at(slot, i, j).and_then(|(slot, i, j)| Some(marks.get(&slot)?.has(i, j)));
+            is_marked[Padded::<N>::index(i, j)] = of_ghost == Some(true);
         }
     }
 }

@@ -24,7 +24,7 @@ impl GasScratch {
         &mut self,
         mesh: &Mesh<N>,
         slot: usize,
-        marks: &Marks,
+        marks: &Marks<N>,
     ) -> impl Iterator<Item = usize> + '_ {
         super::marks::padded_marks(mesh, slot, marks, &mut self.is_marked);
         self.is_marked.iter().enumerate().filter(|(_, is_marked)| **is_marked).map(|(k, _)| k)

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use super::limits::{Limits, limits_of, together};
-use super::{BlockSolver, Model, NO_MARKS, Place, Reports, Scratches, Step};
+use super::{BlockSolver, Model, Place, Reports, Scratches, Step};
 use crate::kernels::parallel::{LOOKS_AT_ONCE, for_each_tile, for_some_blocks_lightly};
 use crate::{Field, FluxRegister, GroupStep, LevelClock, Mesh, Part};
 
@@ -96,7 +96,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         } = self;
         let (clock, registers) = levels.parts();
         let register = registers.own_mut();
-        let (time, dt, marks) = (progress.time, step.dt, &NO_MARKS);
+        let (time, dt, marks) = (progress.time, step.dt, Step::<M, N>::NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
         let in_group = |slot: usize| clock.group_of(mesh, slot) == step.group;
         let is_due = |slot: usize| part.has(interface.first_face(slot).is_some()) && in_group(slot);
@@ -190,7 +190,7 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
             model, mesh, state, next, levels, reports, interface, progress, prepared, is_suspect, ..
         } = self;
         let (clock, registers) = levels.parts();
-        let (time, dt, marks) = (progress.time, clock.length(group), &NO_MARKS);
+        let (time, dt, marks) = (progress.time, clock.length(group), Step::<M, N>::NO_MARKS);
         let context = Step { model: &*model, mesh, old: state, interface, prepared, marks, time, dt };
         let is_due = |slot: usize| clock.group_of(mesh, slot) == group && FluxRegister::is_due(mesh, slot);
         for_some_blocks_lightly(next, &mut reports.pending, is_due, |slot, new, report| {

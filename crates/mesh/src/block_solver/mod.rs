@@ -52,9 +52,6 @@ pub struct BlockSolver<M: Model<N>, const N: usize> {
     news: Vec<bool>,
 }
 
-/// No cell falls back.
-static NO_MARKS: Marks = Marks::new();
-
 /// What a thread works with.
 struct Worker<S> {
     scratch: S,
@@ -278,7 +275,16 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// A step of length `dt` from the present state; of no length, to look at that.
     pub fn context(&self, dt: f64) -> Step<'_, M, N> {
         let Self { model, mesh, state, interface, progress, prepared, .. } = self;
-        Step { model, mesh, old: state, interface, prepared, marks: &NO_MARKS, time: progress.time, dt }
+        Step {
+            model,
+            mesh,
+            old: state,
+            interface,
+            prepared,
+            marks: Step::<M, N>::NO_MARKS,
+            time: progress.time,
+            dt,
+        }
     }
 
     /// Runs `work` with this thread's scratch.

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::Worker;
 use crate::{BlockSolver, Field, FinerSide, Interface, Mesh, Misfit, Multiresolution, Remap, Reports};
-use crate::{ScratchPool, Side, StageTimer, Tile};
+use crate::{CellBits, ScratchPool, Side, StageTimer, Tile};
 
-/// Cells that a step makes at first order, block by block: their places j N + i.
-pub type Marks = BTreeMap<usize, Vec<usize>>;
+/// Cells that a step makes at first order, block by block.
+pub type Marks<const N: usize> = BTreeMap<usize, CellBits<N>>;
 
 /// What the [`BlockSolver`] must know of a physics, and what it tells it. Two implementers: the fluid and the solid.
 ///
@@ -108,8 +108,8 @@ pub trait Model<const N: usize>: Sized + Sync {
     /// Whether cells may make their step again at first order. Cells of a model without are looked at as soon as they are made.
     const RETRIES: bool = false;
     /// Cells of a block that should.
-    fn cells_to_redo(&self, _report: &Self::Report, _block: &[f64]) -> Vec<usize> {
-        Vec::new()
+    fn cells_to_redo(&self, _report: &Self::Report, _block: &[f64]) -> CellBits<N> {
+        CellBits::default()
     }
     /// Takes into a report that so many cells of this volume have made their step again.
     fn note_redone(&self, _report: &mut Self::Report, _cells: usize, _volume: f64) {}
@@ -198,7 +198,7 @@ pub struct Step<'a, M: Model<N>, const N: usize> {
     /// What the blocks of the group have found out together, see [`Model::prepare`].
     pub prepared: &'a M::Prepared,
     /// Cells that are made at first order.
-    pub marks: &'a Marks,
+    pub marks: &'a Marks<N>,
     /// Time at the beginning of the step, s.
     pub time: f64,
     /// Its length, s.
@@ -206,6 +206,9 @@ pub struct Step<'a, M: Model<N>, const N: usize> {
 }
 
 impl<M: Model<N>, const N: usize> Step<'_, M, N> {
+    /// No cell falls back.
+    pub(super) const NO_MARKS: &'static Marks<N> = &Marks::new();
+
     /// The middle of the step, s.
     pub fn middle(&self) -> f64 {
         self.time + 0.5 * self.dt

@@ -74,28 +74,8 @@ impl<'a, R: Send> Parts<'a, R> {
     }
 }
 
-/// Runs `work(slot, block, block of second, report)` for every block of two fields for which `is_due(slot)` holds, in
-/// parallel on the current rayon pool. The result cannot depend on the number of threads: each block has its own part of
-/// the fields and its own report.
-pub fn for_each_block<R: Send>(
-    field: &mut Field,
-    second: &mut Field,
-    reports: &mut [R],
-    is_due: impl Fn(usize) -> bool + Sync,
-    work: impl Fn(usize, &mut [f64], &mut [f64], &mut R) + Sync,
-) {
-    let (len, second_len) = (field.block_len(), second.block_len());
-    (field.as_mut_slice().par_chunks_mut(len))
-        .zip(second.as_mut_slice().par_chunks_mut(second_len))
-        .zip(reports.par_iter_mut())
-        .enumerate()
-        .with_min_len(BLOCKS_AT_ONCE)
-        .filter(|(slot, _)| is_due(*slot))
-        .for_each(|(slot, ((block, second), report))| work(slot, block, second, report));
-}
-
-/// Runs `work(slot, block, report)` for the blocks of a field for which `is_due(slot)` holds, as
-/// [`for_each_block`].
+/// Runs `work(slot, block, report)` for the blocks of a field for which `is_due(slot)` holds, in parallel on the current rayon
+/// pool. The result cannot depend on the number of threads: each block has its own part of the field and its own report.
 pub fn for_some_blocks<R: Send>(
     field: &mut Field,
     reports: &mut [R],
