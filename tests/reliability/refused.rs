@@ -150,7 +150,7 @@ fn a_changed_case_is_refused_whatever_has_changed() {
     let workshop = Workshop::with(&coupled());
     let directory = cut_off(&workshop, "changed", 9);
     let case = fs::read_to_string(directory.join("case.toml")).unwrap();
-    for (from, to) in [("cfl = ", "cfl = 0.1 # "), ("compression = ", "compression = 2 # ")] {
+    for (from, to) in [("cfl = ", "cfl = 0.1 # "), ("compression = ", "compression = 3 # ")] {
         assert!(case.contains(from), "{case}");
         fs::write(directory.join("case.toml"), case.replacen(from, to, 1)).unwrap();
         is_refused(&workshop, "changed", &["another case", "case.toml"]);

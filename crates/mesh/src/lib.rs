@@ -51,7 +51,7 @@ pub use multiresolution::adaptation::{Adaptation, LevelBound, RegionOfInterest, 
 pub use multiresolution::horizon::Horizon;
 pub use multiresolution::patch::Patch;
 pub use multiresolution::remap::{Adapted, Origin, Remap};
-pub use multiresolution::{MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution};
+pub use multiresolution::{ComponentsOfCell, MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution};
 pub use subcycling::courant::longest_step;
 pub use subcycling::level_clock::{GroupStep, LevelClock, steps_in};
 pub use subcycling::level_steps::{FinerSide, LevelSteps, MOST_HALVINGS, Part, Registers, every_slot};

@@ -1,6 +1,6 @@
 //! What multiresolution analysis must know of a solid: which details matter, how fields meet the sides.
 
-use mesh::{MOST_COMPONENTS, Multiresolution, Side};
+use mesh::{ComponentsOfCell, MOST_COMPONENTS, Multiresolution, Side};
 
 use crate::Boundary;
 use crate::boundary::parity;
@@ -49,7 +49,7 @@ impl Multiresolution for Analysis {
     /// instead of stresses and velocities, the Riemann invariants that longitudinal and shear waves along n change and those
     /// against it do not.
     #[inline(always)]
-    fn significance(&self, _: &[f64], detail: &[f64]) -> f64 {
+    fn significance(&self, _: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         let strain = self.strain_modulus * detail[PLASTIC_STRAIN].abs();
         let [longitudinal, shear] = self.impedances;
         let Some([n_z, n_r]) = self.direction else {
@@ -72,6 +72,7 @@ mod tests {
     use super::*;
     use crate::WaveSpeeds;
 
+    const NOTHING: ComponentsOfCell = [0.0; MOST_COMPONENTS];
     const SPEEDS: WaveSpeeds = WaveSpeeds { density: 7800.0, c1: 5990.0, c2: 3458.0 };
 
     /// A plane wave of this traction (Pa) that runs along `to`: longitudinal, or of shear across it.
@@ -106,7 +107,7 @@ mod tests {
         let direction = [0.6, -0.8];
         let directed = all.towards(direction).expect("it has directions");
         for is_shear in [false, true] {
-            let size = |to: [f64; 2], rule: &Analysis| rule.significance(&[], &wave(to, is_shear, 1e6));
+            let size = |to: [f64; 2], rule: &Analysis| rule.significance(&NOTHING, &wave(to, is_shear, 1e6));
             approx::assert_relative_eq!(size(direction, &directed), 1e-2, max_relative = 1e-12);
             approx::assert_abs_diff_eq!(size([-0.6, 0.8], &directed), 0.0, epsilon = 1e-15);
             assert!(size([-0.6, 0.8], &all) > 5e-3);
@@ -115,6 +116,6 @@ mod tests {
         }
         let mut strained = [0.0; MOST_COMPONENTS];
         strained[PLASTIC_STRAIN] = 1e-4;
-        assert_eq!(directed.significance(&[], &strained), all.significance(&[], &strained));
+        assert_eq!(directed.significance(&NOTHING, &strained), all.significance(&NOTHING, &strained));
     }
 }

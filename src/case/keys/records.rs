@@ -3,8 +3,8 @@
 use super::declared::{Key, Preset, Section, Values};
 use super::grid::MOST_CELLS;
 
-/// Level of compression.
-pub(in crate::case) const COMPRESSION: u8 = 4;
+/// Level of compression: 4 takes half as long again for 0.3 % less, 9 twice as long for 3 %.
+pub(in crate::case) const COMPRESSION: u8 = 2;
 
 const NAME: Key = Key {
     name: "name",

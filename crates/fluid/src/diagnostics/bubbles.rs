@@ -154,14 +154,10 @@ fn bubbles_of<const N: usize>(
 
 /// The gas in each column of cells of a block, which are at one z; without moments.
 fn columns_of<const N: usize>(fluid: &BlockSolver<Fluid, N>, slot: usize) -> [Sums; N] {
-    let mesh = fluid.mesh();
-    let gas = fluid.model().scheme.phases.gas_component();
-    let mut columns = [[0.0; N]; 4];
-    for (j, phi) in fluid.component(slot, PHI).chunks_exact(N).enumerate() {
-        let gas = gas.map(|gas| &fluid.component(slot, gas)[j * N..(j + 1) * N]);
-        add_row(phi, gas, mesh.volume(mesh.tree().leaves()[slot], j), &mut columns);
-    }
-    let [volume, trace, thin, gas_mass] = columns;
+    let (mesh, id) = (fluid.mesh(), fluid.mesh().tree().leaves()[slot]);
+    let gas = fluid.model().scheme.phases.gas_component().map(|gas| fluid.component(slot, gas));
+    let cells: [f64; N] = std::array::from_fn(|j| mesh.volume(id, j));
+    let [volume, trace, thin, gas_mass] = add_columns(fluid.component(slot, PHI), gas, &cells);
     std::array::from_fn(|i| Sums {
         volume: volume[i],
         trace: trace[i],
@@ -171,19 +167,35 @@ fn columns_of<const N: usize>(fluid: &BlockSolver<Fluid, N>, slot: usize) -> [Su
     })
 }
 
-/// Adds a row of cells of the same volume to volume, traces, thin gas and mass in the columns.
+/// Volume, traces, thin gas and mass of the gas in the columns of a block.
+///
+/// - `phi`, `gas`: gas fraction and m_g of the block's cells; `cells`: the volume of one in each row.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-fn add_row<const N: usize>(phi: &[f64], gas: Option<&[f64]>, cell: f64, columns: &mut [[f64; N]; 4]) {
-    let [volume, trace, thin, mass] = columns;
-    for (i, phi) in phi[..N].iter().enumerate() {
-        let is_trace = *phi <= TRACE_GAS;
-        volume[i] += if is_trace { 0.0 } else { phi * cell };
-        thin[i] += if is_trace || *phi >= THIN_GAS { 0.0 } else { phi * cell };
-        trace[i] += if is_trace { phi.max(0.0) * cell } else { 0.0 };
+fn add_columns<const N: usize>(phi: &[f64], gas: Option<&[f64]>, cells: &[f64; N]) -> [[f64; N]; 4] {
+    /// So many columns at once that their sums stay in registers.
+    const AT_ONCE: usize = 8;
+    const { assert!(N.is_multiple_of(AT_ONCE), "blocks are whole batches wide") };
+    let mut columns = [[0.0; N]; 4];
+    let mut first = 0;
+    while first + AT_ONCE <= N {
+        let (mut sums, mut mass) = ([[0.0; AT_ONCE]; 3], [0.0; AT_ONCE]);
+        for (phi, cell) in phi.chunks_exact(N).zip(cells) {
+            for (i, phi) in phi[first..first + AT_ONCE].iter().enumerate() {
+                let is_trace = *phi <= TRACE_GAS;
+                sums[0][i] += if is_trace { 0.0 } else { phi * cell };
+                sums[1][i] += if is_trace { phi.max(0.0) * cell } else { 0.0 };
+                sums[2][i] += if is_trace || *phi >= THIN_GAS { 0.0 } else { phi * cell };
+            }
+        }
+        for (gas, cell) in gas.into_iter().flat_map(|gas| gas.chunks_exact(N)).zip(cells) {
+            mass.iter_mut().zip(&gas[first..first + AT_ONCE]).for_each(|(mass, gas)| *mass += gas * cell);
+        }
+        for (columns, sums) in columns.iter_mut().zip(sums.iter().chain([&mass])) {
+            columns[first..first + AT_ONCE].copy_from_slice(sums);
+        }
+        first += AT_ONCE;
     }
-    if let Some(gas) = gas {
-        mass.iter_mut().zip(gas).for_each(|(mass, gas)| *mass += gas * cell);
-    }
+    columns
 }
 
 #[cfg(test)]
@@ -284,6 +296,45 @@ mod tests {
         assert_eq!(cuts(&[[5.0, 0.5], [2.0, 1.0]]), [3.75], "in the order of z");
         let nested = cuts(&[[2.0, 1.5], [2.25, 0.1], [6.0, 1.0]]);
         assert_eq!(nested, [2.25, 3.675], "between the middles");
+    }
+
+    /// The sums in batches of columns are those cell by cell.
+    #[test]
+    fn traces_and_thin_gas_are_told_apart_cell_by_cell() {
+        let mut fluid = fluid(&[[4.0, 0.5]], 0.0, Model::FiveEquation);
+        let gas = fluid.model().scheme.phases.gas_component().expect("it has masses");
+        let kinds = [1e-13, 0.5 * TRACE_GAS, 2.0 * TRACE_GAS, 0.5 * THIN_GAS, THIN_GAS, 0.3, -1e-9, 0.0];
+        let slot = fluid.mesh().tree().leaves().len() / 2;
+        let cells = 8 * 8;
+        for cell in 0..cells {
+            let block = fluid.state_mut().block_mut(slot);
+            block[PHI * cells + cell] = kinds[(3 * cell + cell / 8) % kinds.len()];
+            block[gas * cells + cell] = 0.01 * cell as f64;
+        }
+        fluid.model_mut().has_gas.fill(true);
+        let (mut volume, mut trace, mut thin, mut mass) = (0.0, 0.0, 0.0, 0.0);
+        for (slot, id) in fluid.mesh().tree().leaves().iter().enumerate() {
+            for cell in 0..cells {
+                let own = std::f64::consts::TAU * fluid.mesh().volume(*id, cell / 8);
+                let phi = fluid.component(slot, PHI)[cell];
+                match phi {
+                    phi if phi <= TRACE_GAS => trace += own * phi.max(0.0),
+                    phi if phi < THIN_GAS => (volume, thin) = (volume + own * phi, thin + own * phi),
+                    _ => volume += own * phi,
+                }
+                mass += own * fluid.component(slot, gas)[cell];
+            }
+        }
+        assert!(trace > 0.0 && thin > 0.0);
+        let bubble = fluid.bubble();
+        for (told, wanted) in [
+            (bubble.volume, volume),
+            (bubble.trace_volume, trace),
+            (bubble.thin_volume, thin),
+            (bubble.gas_mass, mass),
+        ] {
+            approx::assert_relative_eq!(told, wanted, max_relative = 1e-13);
+        }
     }
 
     #[test]

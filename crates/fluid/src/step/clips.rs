@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use mesh::{MOST_COMPONENTS, Multiresolution, Side};
+use mesh::{ComponentsOfCell, MOST_COMPONENTS, Multiresolution, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
@@ -118,11 +118,11 @@ impl Multiresolution for CountedAnalysis<'_> {
     }
 
     #[inline(always)]
-    fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
+    fn significance(&self, cell: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         self.analysis.significance(cell, detail)
     }
 
-    fn significance_everywhere(&self, cell: &[f64], detail: &[f64]) -> f64 {
+    fn significance_everywhere(&self, cell: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         self.analysis.significance_everywhere(cell, detail)
     }
 }

@@ -20,6 +20,9 @@ pub const MOST_COMPONENTS: usize = 8;
 /// would cost every cell's analysis.
 pub const MOST_IN_FIELD: usize = 12;
 
+/// What a cell has of those components: zeros after the field's own.
+pub type ComponentsOfCell = [f64; MOST_COMPONENTS];
+
 /// What the analysis must know of the fields.
 pub trait Multiresolution: Sync {
     /// The sign with which a component is reflected at a side of the domain; `None` where it is continued.
@@ -40,9 +43,7 @@ pub trait Multiresolution: Sync {
 
     /// The size of a cell's detail relative to the fields' reference values. It is asked for every cell, so it should
     /// be inlined, without branches and without calls that do not vectorise.
-    ///
-    /// - `cell`, `detail`: [`MOST_COMPONENTS`] numbers, zeros after the field's own components.
-    fn significance(&self, cell: &[f64], detail: &[f64]) -> f64;
+    fn significance(&self, cell: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64;
 
     /// The same rule where of waves only those count that run in a direction: a unit vector (z, r), towards the
     /// [region of interest](crate::RegionOfInterest). `None`: all count wherever they run.
@@ -55,7 +56,7 @@ pub trait Multiresolution: Sync {
 
     /// The size of that part of a detail that counts everywhere, also beside sides whose details do not, see
     /// [`Multiresolution::counts_beside`]. Asked for few cells.
-    fn significance_everywhere(&self, _cell: &[f64], _detail: &[f64]) -> f64 {
+    fn significance_everywhere(&self, _cell: &ComponentsOfCell, _detail: &ComponentsOfCell) -> f64 {
         0.0
     }
 }
@@ -74,7 +75,7 @@ impl Multiresolution for Plain {
         1.0
     }
 
-    fn significance(&self, _: &[f64], detail: &[f64]) -> f64 {
+    fn significance(&self, _: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         detail.iter().fold(0.0, |largest, d| d.abs().max(largest))
     }
 }

@@ -1,8 +1,8 @@
 //! Random meshes and what is known of them without the code under test.
 
 use mesh::{
-    Adaptation, Adapted, BlockId, Domain, Field, Geometry, MOST_COMPONENTS, Mesh, Multiresolution, Neighbour,
-    Patch, ScratchPool, Side,
+    Adaptation, Adapted, BlockId, ComponentsOfCell, Domain, Field, Geometry, MOST_COMPONENTS, Mesh,
+    Multiresolution, Neighbour, Patch, ScratchPool, Side,
 };
 use proptest::prelude::*;
 
@@ -62,7 +62,7 @@ impl Multiresolution for Rule {
         if self.shares { (mix(mean[0].to_bits()) % 5) as f64 / 4.0 } else { 1.0 }
     }
 
-    fn significance(&self, cell: &[f64], _: &[f64]) -> f64 {
+    fn significance(&self, cell: &ComponentsOfCell, _: &ComponentsOfCell) -> f64 {
         if self.told { cell[0] } else { 0.0 }
     }
 }

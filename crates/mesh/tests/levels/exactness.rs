@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use mesh::{
-    Domain, Field, GHOSTS, Geometry, MOST_COMPONENTS, MOST_IN_FIELD, Mesh, Multiresolution, Origin, Padded,
-    Patch, ScratchPool, Side,
+    ComponentsOfCell, Domain, Field, GHOSTS, Geometry, MOST_COMPONENTS, MOST_IN_FIELD, Mesh, Multiresolution,
+    Origin, Padded, Patch, ScratchPool, Side,
 };
 use proptest::prelude::*;
 
@@ -83,7 +83,7 @@ impl Multiresolution for Largest {
         1.0
     }
 
-    fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
+    fn significance(&self, cell: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         let within = |x: f64, [low, high]: [f64; 2]| low <= x && x < high;
         if within(cell[1], self.z) && within(cell[2], self.r) {
             self.detail.fetch_max(detail[0].abs().to_bits(), Ordering::Relaxed);

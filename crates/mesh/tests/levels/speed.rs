@@ -4,7 +4,10 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use mesh::{Adaptation, ScratchPool, Side};
-use mesh::{Domain, Field, Geometry, MOST_COMPONENTS, Mesh, Multiresolution, Neighbour, Padded, Patch};
+use mesh::{
+    ComponentsOfCell, Domain, Field, Geometry, MOST_COMPONENTS, Mesh, Multiresolution, Neighbour, Padded,
+    Patch,
+};
 
 use crate::common::{EVERYWHERE, Random};
 
@@ -23,7 +26,7 @@ impl Multiresolution for Relative {
         1.0
     }
 
-    fn significance(&self, _: &[f64], detail: &[f64]) -> f64 {
+    fn significance(&self, _: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         detail.iter().fold(0.0, |largest: f64, d| largest.max(0.5 * d.abs()))
     }
 }

@@ -2,7 +2,9 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use mesh::{Field, GHOSTS, MOST_COMPONENTS, Mesh, Multiresolution, Padded, Patch, ScratchPool, Side};
+use mesh::{
+    ComponentsOfCell, Field, GHOSTS, MOST_COMPONENTS, Mesh, Multiresolution, Padded, Patch, ScratchPool, Side,
+};
 use proptest::prelude::*;
 
 use crate::common::*;
@@ -24,7 +26,7 @@ impl Multiresolution for Watch {
         0.3
     }
 
-    fn significance(&self, _: &[f64], detail: &[f64]) -> f64 {
+    fn significance(&self, _: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         let largest =
             detail.iter().fold(0.0, |largest: f64, d| if d.abs() <= largest { largest } else { d.abs() });
         self.0.fetch_max(largest.to_bits(), Ordering::Relaxed);

@@ -1,8 +1,8 @@
 //! The levels that details ask for: reach, bounds, coarsening, and coming to rest.
 
 use mesh::{
-    Adaptation, BlockId, Domain, Field, Geometry, LevelBound, MOST_COMPONENTS, Mesh, Multiresolution, Patch,
-    RegionOfInterest, ScratchPool, Side, Zone,
+    Adaptation, BlockId, ComponentsOfCell, Domain, Field, Geometry, LevelBound, MOST_COMPONENTS, Mesh,
+    Multiresolution, Patch, RegionOfInterest, ScratchPool, Side, Zone,
 };
 use proptest::prelude::*;
 
@@ -265,7 +265,7 @@ impl Multiresolution for Plain {
         1.0
     }
 
-    fn significance(&self, _: &[f64], detail: &[f64]) -> f64 {
+    fn significance(&self, _: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         detail[0].abs()
     }
 }
@@ -330,7 +330,7 @@ impl Multiresolution for Directed {
         1.0
     }
 
-    fn significance(&self, cell: &[f64], _: &[f64]) -> f64 {
+    fn significance(&self, cell: &ComponentsOfCell, _: &ComponentsOfCell) -> f64 {
         cell[0].abs() * self.0[0].max(0.0)
     }
 }

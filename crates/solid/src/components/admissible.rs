@@ -1,6 +1,6 @@
 //! Prolongation that leaves no cell outside its yield surface.
 
-use mesh::{MOST_COMPONENTS, Multiresolution, Side};
+use mesh::{ComponentsOfCell, MOST_COMPONENTS, Multiresolution, Side};
 
 use super::{PLASTIC_STRAIN, TEMPERATURE};
 use crate::analysis::Analysis;
@@ -75,7 +75,7 @@ impl Multiresolution for Admissible<'_> {
         deviations.iter().fold(share, |share, d| self.share_of(mean, d, share, overstress))
     }
 
-    fn significance(&self, cell: &[f64], detail: &[f64]) -> f64 {
+    fn significance(&self, cell: &ComponentsOfCell, detail: &ComponentsOfCell) -> f64 {
         self.analysis.significance(cell, detail)
     }
 }

@@ -3,7 +3,9 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use mesh::{Adapted, Field, Mesh, Misfit, Multiresolution, Patch, ScratchPool, Side, fetch};
+use mesh::{
+    Adapted, ComponentsOfCell, Field, Mesh, Misfit, Multiresolution, Patch, ScratchPool, Side, fetch,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
@@ -242,7 +244,7 @@ impl Multiresolution for Scalar<'_> {
         1.0
     }
 
-    fn significance(&self, _: &[f64], _: &[f64]) -> f64 {
+    fn significance(&self, _: &ComponentsOfCell, _: &ComponentsOfCell) -> f64 {
         0.0
     }
 }
