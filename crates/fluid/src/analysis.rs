@@ -187,6 +187,7 @@ impl Analysis {
 mod tests {
     use super::*;
     use crate::StiffenedGas;
+    use crate::riemann::exact_riemann::tests::Random;
     use crate::state::COUNT;
 
     fn analysis() -> Analysis {
@@ -283,11 +284,7 @@ mod tests {
 
     #[test]
     fn few_divisions_make_what_the_formula_does() {
-        let mut seed = 7_u64;
-        let mut random = |low: f64, high: f64| {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            low + (high - low) * (seed >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        let mut random = Random(7);
         let [liquid, gas] = [StiffenedGas { gamma: 7.15, pi: 3e8 }, StiffenedGas { gamma: 1.4, pi: 0.0 }];
         let with_covolume =
             |law: StiffenedGas, covolume| crate::NobleAbelStiffenedGas { covolume, ..law.into() };
@@ -302,14 +299,14 @@ mod tests {
                 direction: [None, Some([0.6, -0.8])][round % 5 % 2],
                 ..analysis()
             };
-            let phi = random(0.0, 1.0);
-            let gas = phi * random(1.0, 300.0);
-            let density = gas + (1.0 - phi) * random(500.0, 1000.0);
+            let phi = random.uniform(0.0, 1.0);
+            let gas = phi * random.uniform(1.0, 300.0);
+            let density = gas + (1.0 - phi) * random.uniform(500.0, 1000.0);
             let state = Primitive {
                 density,
-                v_z: random(-300.0, 300.0),
-                v_r: random(-300.0, 300.0),
-                pressure: random(1e4, 1e8),
+                v_z: random.uniform(-300.0, 300.0),
+                v_r: random.uniform(-300.0, 300.0),
+                pressure: random.uniform(1e4, 1e8),
                 phi,
             };
             let mut cell = [0.0; MOST_COMPONENTS];
@@ -317,8 +314,8 @@ mod tests {
             if rule.has_phases {
                 cell[GAS] = gas;
             }
-            rule.carried.clone().for_each(|c| cell[c] = density * random(0.0, 1.0));
-            let detail = cell.map(|own| random(-0.1, 0.1) * own);
+            rule.carried.clone().for_each(|c| cell[c] = density * random.uniform(0.0, 1.0));
+            let detail = cell.map(|own| random.uniform(-0.1, 0.1) * own);
             let plain = plain_significance(&rule, &cell, &detail);
             assert!(plain > 1e-6, "{plain}");
             approx::assert_relative_eq!(rule.significance(&cell, &detail), plain, max_relative = 1e-9);
