@@ -106,8 +106,8 @@ fn a_recorded_load_does_what_it_did_and_a_wall_goes_on_from_where_it_was_left() 
     let displaced = |name: &str| rows(&at(name), "interface/displacement_z");
     let (before, after) = (displaced("first"), displaced("second"));
     assert_eq!(after.row(0), before.row(before.nrows() - 1), "the surface lies as it was left");
-    let strains = series(&at("second"), "solid/plastic_strain_max");
-    assert_eq!(strains[0], number(&first, "plastic_strain_peak"), "so does what is below it");
+    let [left, strains] = ["first", "second"].map(|name| series(&at(name), "solid/plastic_strain_max"));
+    assert_eq!(strains[0], left[left.len() - 1], "so does what is below it");
     assert!(number(&second, "plastic_strain_peak") > strains[0]);
     let (deeper, work) = (number(&second, "pit_depth") / number(&first, "pit_depth"), "plastic_work");
     assert!(deeper > 1.2 && deeper < 2.0, "{deeper}");

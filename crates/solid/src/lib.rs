@@ -25,7 +25,8 @@ mod terms;
 
 pub use boundary::participant::{SurfaceTrace, WeakExchange};
 pub use diagnostics::ledger::{BoundaryLedger, PlasticLedger};
-pub use diagnostics::plastic::{PlasticZone, StrainPeak};
+pub use diagnostics::plastic::PlasticZone;
+pub use diagnostics::strain_peak::StrainPeak;
 pub use diagnostics::{CELL_FIELDS, MisesPeak, Snapshot, Totals};
 pub use error::SolidError;
 pub use initial::half_space::{Harmonic, half_space_stress};

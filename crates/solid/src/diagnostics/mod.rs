@@ -2,6 +2,7 @@
 
 pub(crate) mod ledger;
 pub(crate) mod plastic;
+pub(crate) mod strain_peak;
 mod totals;
 
 pub use totals::Totals;

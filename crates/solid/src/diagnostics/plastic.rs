@@ -5,15 +5,6 @@ use mesh::Field;
 use crate::SolidSolver;
 use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
 
-/// The largest plastic strain and where it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StrainPeak {
-    /// ε_p.
-    pub strain: f64,
-    /// Centre of the cell (z, r), m.
-    pub position: [f64; 2],
-}
-
 /// The cells whose plastic strain exceeds a threshold.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlasticZone {
@@ -63,7 +54,7 @@ impl<const N: usize> SolidSolver<N> {
         if component < self.state().components() { self.component(slot, component)[cell] } else { other }
     }
 
-    /// The largest plastic strain; 0 where nothing can yield.
+    /// The largest plastic strain of a cell; 0 where nothing can yield.
     pub fn plastic_strain_max(&self) -> f64 {
         self.reports().finished.iter().map(|report| report.plastic.strain).fold(0.0, f64::max)
     }
@@ -71,20 +62,6 @@ impl<const N: usize> SolidSolver<N> {
     /// The highest temperature, K; 0 where it is no part of the state.
     pub fn temperature_max(&self) -> f64 {
         self.reports().finished.iter().map(|report| report.plastic.temperature).fold(0.0, f64::max)
-    }
-
-    /// The largest plastic strain and where it is; `None` where nothing has yielded.
-    pub fn plastic_strain_peak(&self) -> Option<StrainPeak> {
-        let largest = self.plastic_strain_max();
-        if largest <= 0.0 {
-            return None;
-        }
-        let holds = |slot: usize| self.reports().finished[slot].plastic.strain == largest;
-        let slot = (0..self.mesh().blocks()).find(|slot| holds(*slot))?;
-        let cells = self.component(slot, PLASTIC_STRAIN);
-        let cell = cells.iter().position(|strain| *strain == largest)?;
-        let position = self.mesh().centre(self.mesh().tree().leaves()[slot], cell % N, cell / N);
-        Some(StrainPeak { strain: largest, position })
     }
 
     /// The cells whose plastic strain exceeds a threshold.

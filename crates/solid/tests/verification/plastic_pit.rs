@@ -46,7 +46,7 @@ fn errors(pit: &Pit, cells: usize) -> [f64; 5] {
     assert!(solid.snapshot().plastic_strain_rate.iter().all(|rate| *rate == 0.0), "nothing flows any more");
     below_the_surface(&solid, depth, cells);
     let found = [
-        solid.plastic_strain_max(),
+        solid.plastic_strain_peak().expect("it has flowed").strain,
         TAU * solid.plastic_strain_integral(),
         solid.plastic_zone(1e-4).volume,
         TAU * solid.plastic_ledger().work,
@@ -138,9 +138,9 @@ fn pits_have_the_plastic_strain_and_depth_of_converged_finite_elements() {
         for (cells, errors) in [10, 20].into_iter().zip(&all) {
             eprintln!("{}, {cells} cells: {errors:.4?}", pit.name);
         }
-        // The largest plastic strain is a cell's mean, the volume is counted in cells; the rest are integrals.
+        // The largest plastic strain is that of the field, the volume is counted in cells; the rest are integrals.
         for (k, bars) in
-            [[0.06, 0.02], [0.03, 0.01], [0.04, 0.025], [0.03, 0.01], [0.03, 0.015]].iter().enumerate()
+            [[0.035, 0.015], [0.03, 0.01], [0.04, 0.025], [0.03, 0.01], [0.03, 0.015]].iter().enumerate()
         {
             for (errors, bar) in all.iter().zip(bars) {
                 assert!(errors[k].abs() < *bar, "{}: {k}: {all:?}", pit.name);

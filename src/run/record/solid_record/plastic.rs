@@ -10,7 +10,7 @@ use crate::run::record::column;
 
 /// Beside those of `/solid` of every step.
 pub const STEP_COLUMNS: [Column<'static>; 2] = [
-    column("plastic_strain_max", "1", "largest plastic strain in a cell"),
+    column("plastic_strain_max", "1", "largest plastic strain, of parabolas through the cells about it"),
     column("plastic_work", "J", "plastic work so far (planar: J/m)"),
 ];
 
@@ -36,14 +36,12 @@ pub struct PlasticPeak {
 impl PlasticPeak {
     /// Takes notice of the present state; returns the columns of the step.
     pub fn follow(&mut self, solver: &SolidSolver<BLOCK>) -> [f64; 2] {
-        let largest = solver.plastic_strain_max();
-        if largest > self.strain
-            && let Some(peak) = solver.plastic_strain_peak()
-        {
+        let peak = solver.plastic_strain_peak();
+        if let Some(peak) = peak.filter(|peak| peak.strain > self.strain) {
             (self.strain, self.position, self.time) = (peak.strain, peak.position, solver.time());
         }
         self.temperature = self.temperature.max(solver.temperature_max());
-        [largest, whole_work(solver)]
+        [peak.map_or(0.0, |peak| peak.strain), whole_work(solver)]
     }
 
     /// The solid's part of the summary that is about plastic flow.
