@@ -17,6 +17,7 @@ mod modes;
 mod near_wall;
 mod paper_schemes;
 mod participants;
+mod pits;
 mod pulse;
 mod rest;
 mod spherical_pulse;

@@ -16,38 +16,21 @@ pub struct StrainPeak {
     pub position: [f64; 2],
 }
 
-/// What lies beyond the lower or upper face of the largest cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Beyond {
-    /// Another cell, if of the same size.
-    Cell,
-    /// The axis of symmetry: below only.
-    Axis,
-    /// A side of the domain.
-    Side,
-}
-
 /// How far above a cell's mean the field rises along one direction, and where, in widths from the cell's centre.
 ///
-/// Of the parabola whose means over the cell and its two neighbours are theirs; at the axis of the one that is even in r; at a side of
-/// the line with the smaller of the two slopes inwards, as a side's own cell may be wrong by itself.
+/// Of the parabola whose means over the cell and its two neighbours are theirs; at the axis of the one that is even in r.
 ///
 /// - `own`: the largest mean of all; `mean`: that of the cell so many widths away, `None` where there is none of that size.
-/// - returns: zeros where neighbours are missing.
-fn summit(own: f64, beyond: [Beyond; 2], mean: impl Fn(isize) -> Option<f64>) -> (f64, f64) {
-    let inwards = |sign: isize| -> Option<f64> {
-        let (first, second) = (mean(sign)?, mean(2 * sign)?);
-        Some(0.5 * (own - first).min(first - second).max(0.0))
-    };
-    let found = match beyond {
-        // Means of r² over the discs of radius h and the ring about it: h²/2 and 5h²/2.
-        [Beyond::Axis, _] => mean(1).map(|next| (0.25 * (own - next), -0.5)),
-        [Beyond::Side, _] => inwards(1).map(|rise| (rise, -0.5)),
-        [_, Beyond::Side] => inwards(-1).map(|rise| (rise, 0.5)),
-        _ => mean(-1).zip(mean(1)).map(|(lower, upper)| {
+/// - returns: zeros where a neighbour is missing. At a side that is so on purpose: the cell there may be too high by itself.
+fn summit(own: f64, begins_at_axis: bool, mean: impl Fn(isize) -> Option<f64>) -> (f64, f64) {
+    let found = if begins_at_axis {
+        // Means of r² over the disc of radius h and the ring about it: h²/2 and 5h²/2.
+        mean(1).map(|next| (0.25 * (own - next), -0.5))
+    } else {
+        mean(-1).zip(mean(1)).map(|(lower, upper)| {
             let (slope, bend) = (0.5 * (upper - lower), lower + upper - 2.0 * own);
             if bend < 0.0 { (-bend / 24.0 - 0.5 * slope * slope / bend, -slope / bend) } else { (0.0, 0.0) }
-        }),
+        })
     };
     found.unwrap_or((0.0, 0.0))
 }
@@ -58,8 +41,8 @@ impl<const N: usize> SolidSolver<N> {
     /// About the cell with the largest mean: see [`SolidSolver::plastic_strain_max`] for that itself. Along each direction the field is
     /// taken for a parabola. What it rises above the mean is of second order in the cells' width.
     ///
-    /// - valid for: strains that are smooth on the scale of cells. Beside cells of another size, and where the field jumps at a side, it
-    ///   is the mean along that direction.
+    /// - valid for: strains that are smooth on the scale of cells. Along a direction in which a side of the domain or cells of another
+    ///   size are next it is the mean.
     /// - tested by: means of known fields; pits against converged finite elements.
     pub fn plastic_strain_peak(&self) -> Option<StrainPeak> {
         let own = self.plastic_strain_max();
@@ -71,17 +54,13 @@ impl<const N: usize> SolidSolver<N> {
         let cell = self.component(slot, PLASTIC_STRAIN).iter().position(|strain| *strain == own)?;
         let (mesh, id) = (self.mesh(), self.mesh().tree().leaves()[slot]);
         let (centre, widths) = (mesh.centre(id, cell % N, cell / N), mesh.widths(id.level));
+        let domain = mesh.domain();
+        let is_on_axis = cell / N == 0
+            && mesh.touches(slot, Side::RMin)
+            && domain.geometry == Geometry::Axisymmetric
+            && domain.r[0] == 0.0;
         let along = |axis: usize| {
-            let place = [cell % N, cell / N][axis];
-            let sides = [[Side::ZMin, Side::ZMax], [Side::RMin, Side::RMax]][axis];
-            let beyond = [(place == 0, sides[0]), (place + 1 == N, sides[1])].map(|(is_last, side)| {
-                match side {
-                    _ if !is_last || !mesh.touches(slot, side) => Beyond::Cell,
-                    Side::RMin if is_axis(mesh.domain().geometry, mesh.domain().r[0]) => Beyond::Axis,
-                    _ => Beyond::Side,
-                }
-            });
-            summit(own, beyond, |widths_away| {
+            summit(own, axis == 1 && is_on_axis, |widths_away| {
                 let mut point = centre;
                 point[axis] += widths_away as f64 * widths[axis];
                 let (slot, i, j) = mesh.locate(point)?;
@@ -93,11 +72,6 @@ impl<const N: usize> SolidSolver<N> {
         let position = [centre[0] + z * widths[0], centre[1] + r * widths[1]];
         Some(StrainPeak { strain: own + along_z + along_r, position })
     }
-}
-
-/// Whether a domain that begins at `r` begins at an axis.
-fn is_axis(geometry: Geometry, r: f64) -> bool {
-    geometry == Geometry::Axisymmetric && r == 0.0
 }
 
 #[cfg(test)]
@@ -114,7 +88,7 @@ mod tests {
         // 3 − (x − 0.2)²/8 about the cell from −0.5 to 0.5.
         let mean = means(-0.5, |x| 3.0 * x - (x - 0.2).powi(3) / 24.0);
         let own = mean(0).unwrap_or(0.0);
-        let (rise, place) = summit(own, [Beyond::Cell; 2], &mean);
+        let (rise, place) = summit(own, false, &mean);
         assert!((own + rise - 3.0).abs() < 1e-14 && (place - 0.2).abs() < 1e-14, "{own} {rise} {place}");
         // 3 − r²/8 in rings, those of r² being (outer⁴ − inner⁴)/2/(outer² − inner²).
         let ring = |k: isize| {
@@ -122,21 +96,14 @@ mod tests {
             Some(3.0 - (high.powi(4) - low.powi(4)) / (high * high - low * low) / 16.0)
         };
         let own = ring(0).unwrap_or(0.0);
-        let (rise, place) = summit(own, [Beyond::Axis, Beyond::Cell], ring);
+        let (rise, place) = summit(own, true, ring);
         assert!((own + rise - 3.0).abs() < 1e-14 && place == -0.5, "{own} {rise}");
     }
 
     #[test]
-    fn sides_take_the_smaller_slope_and_missing_neighbours_none() {
-        let line = |k: isize| Some(1.0 + 0.1 * k as f64);
-        assert_eq!(summit(1.0, [Beyond::Cell, Beyond::Side], line), (0.5 * (1.0 - 0.9), 0.5));
-        // A side's cell that is wrong by itself gets no more than what is beside it.
-        let spike = |k: isize| Some(if k == 0 { 2.0 } else { 0.9 - 0.1 * (1 + k).abs() as f64 });
-        let (rise, place) = summit(2.0, [Beyond::Cell, Beyond::Side], spike);
-        assert!((rise - 0.05).abs() < 1e-15 && place == 0.5, "{rise}");
-        // Nor does the next one make it lower.
-        assert_eq!(summit(1.0, [Beyond::Side, Beyond::Cell], |k| Some(1.0 - 0.1 * (k % 2) as f64)).0, 0.0);
-        assert_eq!(summit(1.0, [Beyond::Cell; 2], |k| (k < 0).then_some(0.5)), (0.0, 0.0));
-        assert_eq!(summit(1.0, [Beyond::Cell; 2], |_| Some(1.0)), (0.0, 0.0));
+    fn nothing_is_added_without_neighbours_or_a_bend() {
+        assert_eq!(summit(1.0, false, |k| (k < 0).then_some(0.5)), (0.0, 0.0));
+        assert_eq!(summit(1.0, true, |_| None), (0.0, 0.0));
+        assert_eq!(summit(1.0, false, |_| Some(1.0)), (0.0, 0.0));
     }
 }
