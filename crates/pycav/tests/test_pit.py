@@ -43,7 +43,9 @@ def test_the_pit_is_that_of_the_summary(pitted, tmp_path):
     above, summary = figure.axes[0], pitted.summary
     r, depth = (np.asarray(values) for values in above.lines[0].get_data())
     assert len(r) == 2 * CELLS and np.array_equal(depth, depth[::-1]), "mirrored about the axis"
-    assert depth.max() == pytest.approx(summary["pit_depth"], rel=1e-12) and -depth.min() == pytest.approx(summary["pit_rim"])
+    first, second = depth[CELLS:CELLS + 2]
+    assert depth.max() == first, "it is deepest on the axis, which lies between the faces' centres"
+    assert (9 * first - second) / 8 == pytest.approx(summary["pit_depth"], rel=1e-12) and -depth.min() == pytest.approx(summary["pit_rim"])
     assert np.interp(summary["pit_radius"], r, depth) == pytest.approx(0.5 * summary["pit_depth"], rel=1e-9)
     outer = r > 0
     inside = outer & (np.cumsum((depth < 0) & outer) == 0)
