@@ -42,7 +42,7 @@ pub fn run(case: &Case, at: &Path) -> Map<String, Value> {
     conclude(&directory).expect("its end")
 }
 
-fn number(summary: &Map<String, Value>, key: &str) -> f64 {
+pub fn number(summary: &Map<String, Value>, key: &str) -> f64 {
     summary[key].as_f64().unwrap_or_else(|| panic!("{key}: {}", summary[key]))
 }
 

@@ -51,7 +51,7 @@ impl CollapseFinder {
             if let Some(three) = self.lowest
                 && volume > 1.01 * three[1][1]
             {
-                self.found = Some(vertex(three));
+                self.found = Some(Extremum::between(three));
             }
         }
         self.last = [self.last[1], Some(sample)];
@@ -81,7 +81,7 @@ impl CollapseFinder {
     pub fn largest(&self) -> Option<Extremum> {
         let [time, volume] = self.largest?;
         match self.crest {
-            Some(three) if three[1] == [time, volume] => Some(vertex(three)),
+            Some(three) if three[1] == [time, volume] => Some(Extremum::between(three)),
             _ => Some(Extremum { time, volume }),
         }
     }
@@ -94,18 +94,25 @@ impl CollapseFinder {
     }
 }
 
-/// The vertex of the parabola through three samples about an extremum, or the middle one if they lie on a line.
-fn vertex([[t0, v0], [t1, v1], [t2, v2]]: [[f64; 2]; 3]) -> Extremum {
+impl Extremum {
+    fn between(three: [[f64; 2]; 3]) -> Self {
+        let [time, volume] = vertex(three);
+        Self { time, volume }
+    }
+}
+
+/// The vertex (t, v) of the parabola through three samples about an extremum, or the middle one if they lie on a line.
+pub fn vertex([[t0, v0], [t1, v1], [t2, v2]]: [[f64; 2]; 3]) -> [f64; 2] {
     let (left, right) = ((v1 - v0) / (t1 - t0), (v2 - v1) / (t2 - t1));
     let curvature = (right - left) / (t2 - t0);
     let bends = if v1 < v0 { curvature > 0.0 } else { curvature < 0.0 };
     if !bends || !curvature.is_finite() {
-        return Extremum { time: t1, volume: v1 };
+        return [t1, v1];
     }
     // v = v1 + slope (t − t1) + curvature (t − t1)²
     let slope = left + curvature * (t1 - t0);
     let shift = -slope / (2.0 * curvature);
-    Extremum { time: t1 + shift, volume: v1 - slope * slope / (4.0 * curvature) }
+    [t1 + shift, v1 - slope * slope / (4.0 * curvature)]
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! The largest plastic strain of the field that the cells are means of.
 //!
-//! A cell on the axis holds the mean over a disc, and one of a few cells' width is 2 to 4 % lower there than what is on the axis itself.
+//! A cell on the axis holds the mean over a disc, and one of a few cells' width is 1 to 2 % lower there than what is on the axis itself.
 
-use mesh::{Geometry, Side};
+use mesh::Side;
 
-use crate::SolidSolver;
 use crate::components::PLASTIC_STRAIN;
+use crate::{Boundary, SolidSolver};
 
 /// The largest plastic strain and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,11 +54,8 @@ impl<const N: usize> SolidSolver<N> {
         let cell = self.component(slot, PLASTIC_STRAIN).iter().position(|strain| *strain == own)?;
         let (mesh, id) = (self.mesh(), self.mesh().tree().leaves()[slot]);
         let (centre, widths) = (mesh.centre(id, cell % N, cell / N), mesh.widths(id.level));
-        let domain = mesh.domain();
-        let is_on_axis = cell / N == 0
-            && mesh.touches(slot, Side::RMin)
-            && domain.geometry == Geometry::Axisymmetric
-            && domain.r[0] == 0.0;
+        let begins_at_axis = self.model().boundaries.kind(Side::RMin) == Boundary::Axis;
+        let is_on_axis = begins_at_axis && cell / N == 0 && mesh.touches(slot, Side::RMin);
         let along = |axis: usize| {
             summit(own, axis == 1 && is_on_axis, |widths_away| {
                 let mut point = centre;

@@ -2,6 +2,8 @@
 
 use mesh::Geometry;
 
+use crate::run::record::collapse::vertex;
+
 /// The part of the surface that counts as far away, of its extent in r.
 const FAR: f64 = 0.1;
 
@@ -90,8 +92,7 @@ impl Profile<'_> {
         let own = depths[face];
         let neighbour = |offset: isize| face.checked_add_signed(offset).and_then(|k| depths.get(k));
         let Some((inner, outer)) = neighbour(-1).zip(neighbour(1)) else { return own };
-        let (slope, bend) = (0.5 * (outer - inner), inner + outer - 2.0 * own);
-        if bend < 0.0 { own - 0.5 * slope * slope / bend } else { own }
+        vertex([[-1.0, *inner], [0.0, own], [1.0, *outer]])[1]
     }
 
     /// At r = 0: between the faces' centres, or even in r where the domain begins there; of a domain elsewhere, on the nearest face.
