@@ -8,20 +8,23 @@
 mod curves;
 mod fluxes;
 mod listed;
+mod prepare;
+mod weak;
 
 use std::ops::Range;
 
 use mesh::whole_lines;
 
 use crate::Mixture;
-use crate::reconstruction::{Reconstruction, fraction, states_at_face};
+use crate::reconstruction::{Reconstruction, states_at_face};
 use crate::riemann::godunov::flux_exact;
 use crate::state::primitive::{PHI, PRESSURE, RHO, V_N, V_T};
 use crate::step::face_rows::FaceRows;
 
 use curves::{Curve, curve};
-use fluxes::fluxes;
 pub(crate) use listed::{ListedFaces, exact_fluxes};
+use prepare::{Liquid, complete, prepare};
+use weak::Weak;
 
 /// Faces solved together: enough to hide that one step waits for the one before, and not so many that all wait for the
 /// slowest of them. Of 8, 16, 32 the last is the fastest by 3 % of a step of the true collapse.
@@ -78,6 +81,7 @@ struct Chunk {
     done: Lane,
     /// Both sides' wave curves at the iterate.
     curves: [Curve; 2],
+    weak: Weak,
 }
 
 impl Chunk {
@@ -107,6 +111,7 @@ impl Chunk {
             f_right: ZERO,
             done: ZERO,
             curves: [Curve::ZERO; 2],
+            weak: Weak::ZERO,
         }
     }
 }
@@ -154,19 +159,21 @@ fn exact_rows<const WITH_GAS: bool, const B: bool>(
         let n = LANES.min(range.end - first);
         let (lower, upper, used) = (cells.cut(first, n), cells.cut(first + step, n), &used[first..][..n]);
         take::<WITH_GAS, B>(n, lower, upper, used, &mut chunk.left, &mut chunk.right);
-        let is_slow = solve::<WITH_GAS, B>(n, &mut chunk, mixture);
         let [mass, velocity, pressure, shear, energy, phi] = faces.fluxes_mut();
-        let (mass, velocity, pressure) =
-            (&mut mass[first..][..n], &mut velocity[first..][..n], &mut pressure[first..][..n]);
-        let (shear, energy, phi) =
-            (&mut shear[first..][..n], &mut energy[first..][..n], &mut phi[first..][..n]);
-        let (more, ok) = (&mut compression, &mut solved);
-        if is_slow {
-            fluxes::<B, true>(n, &chunk, mixture, mass, velocity, pressure, shear, energy, phi, more, ok);
-        } else {
-            fluxes::<B, false>(n, &chunk, mixture, mass, velocity, pressure, shear, energy, phi, more, ok);
-        }
-        if count(&solved, n) < n {
+        let are_solved = solve::<WITH_GAS, B>(
+            n,
+            &mut chunk,
+            mixture,
+            &mut mass[first..][..n],
+            &mut velocity[first..][..n],
+            &mut pressure[first..][..n],
+            &mut shear[first..][..n],
+            &mut energy[first..][..n],
+            &mut phi[first..][..n],
+            &mut compression,
+            &mut solved,
+        );
+        if !are_solved {
             for k in 0..n {
                 if solved[k] == 0.0 && used[k] != 0.0 {
                     let at = |s: &Sides| [s.rho[k], s.u[k], s.v[k], s.p[k], s.phi[k]];
@@ -216,91 +223,77 @@ fn take<const WITH_GAS: bool, const B: bool>(
     }
 }
 
-/// From the states in a chunk to the pressures and velocity changes of its faces.
+/// From the states in a chunk to the fluxes of its faces and, at those that are not weak, 1 in `solved` where they are right.
 ///
-/// - returns: whether all waves are weak and the flow between them is slower than half the sound, so that no wave stands at the face.
+/// - returns: whether all are.
+// A flat list of what is written, as in `step/rows.rs`.
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
-fn solve<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) -> bool {
-    let are_acoustic = prepare::<WITH_GAS, B>(n, chunk, mixture);
-    let are_weak = advance(n, are_acoustic, chunk);
-    if count(&chunk.done, n) == n {
-        return are_weak && are_slow(n, &chunk.left) && are_slow(n, &chunk.right);
+fn solve<const WITH_GAS: bool, const B: bool>(
+    n: usize,
+    chunk: &mut Chunk,
+    mixture: &Mixture,
+    mass: &mut [f64],
+    velocity: &mut [f64],
+    pressure: &mut [f64],
+    shear: &mut [f64],
+    energy: &mut [f64],
+    phi: &mut [f64],
+    compression: &mut Lane,
+    solved: &mut Lane,
+) -> bool {
+    let liquid = Liquid::of(mixture);
+    let l = &liquid;
+    let mut weak = prepare::<WITH_GAS, B>(n, chunk, mixture, l);
+    // Called by name: a pointer to one of them would not be inlined.
+    macro_rules! weak_fluxes {
+        ($others:literal) => {
+            weak::fluxes::<WITH_GAS, B, $others>(
+                n,
+                chunk,
+                mixture,
+                l,
+                mass,
+                velocity,
+                pressure,
+                shear,
+                energy,
+                phi,
+                compression,
+            )
+        };
     }
-    for _ in 1..MOST_STEPS {
-        advance(n, false, chunk);
+    if weak > 0 {
+        weak =
+            if WITH_GAS || B { weak::solve::<false>(n, chunk, l) } else { weak::solve::<true>(n, chunk, l) };
+    }
+    if weak == n {
+        weak_fluxes!(false);
+        return true;
+    }
+    if !WITH_GAS && !B {
+        complete(n, chunk, mixture, l);
+    }
+    iterate(n, chunk);
+    fluxes::fluxes::<B>(n, chunk, mixture, mass, velocity, pressure, shear, energy, phi, compression, solved);
+    if weak > 0 {
+        weak_fluxes!(true);
+        for k in 0..n.min(LANES) {
+            solved[k] = if chunk.weak.is_weak[k] != 0.0 { 1.0 } else { solved[k] };
+        }
+    }
+    count(solved, n) == n
+}
+
+/// Steps until all faces are done, or have had so many that the scalar solver takes them.
+#[inline(always)]
+fn iterate(n: usize, chunk: &mut Chunk) {
+    for _ in 0..MOST_STEPS {
+        advance(n, chunk);
         if count(&chunk.done, n) == n {
             break;
         }
     }
-    false
-}
-
-/// Whether all states move slower than half their sound.
-#[inline(always)]
-fn are_slow(n: usize, s: &Sides) -> bool {
-    let mut fast = 0;
-    for k in 0..n.min(LANES) {
-        fast += u64::from(!(2.0 * s.u[k].abs() < s.c[k]));
-    }
-    fast == 0
-}
-
-/// The wave curves and the first guess, see `first_guess` of the scalar solver.
-///
-/// - returns: whether all guesses are the acoustic ones.
-#[inline(always)]
-fn prepare<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mixture: &Mixture) -> bool {
-    let Chunk { left, right, pi, p, shifted, done, .. } = chunk;
-    let mut others = 0;
-    for k in 0..n.min(LANES) {
-        // (m, π, c) of one side: γ = (1 + β₁)/β₁, π = β₂/(1 + β₁), with a covolume of what is in the free volume.
-        let law = |rho: f64, p: f64, phi: f64, share: f64| {
-            let free = mixture.free_share::<B>(rho, share);
-            let [b1, b2] = mixture.free_betas::<B>(phi, rho, rho * share);
-            let per_free = if B { 1.0 / free } else { 1.0 };
-            let (rho, b1, b2) =
-                if B { (rho * per_free, b1 * per_free, b2 * per_free) } else { (rho, b1, b2) };
-            let above = 1.0 + b1;
-            let inverse = 1.0 / (rho * (b1 * above));
-            let inverse_above = inverse * (rho * b1);
-            let pi = b2 * inverse_above;
-            let squared = (above * above) * (inverse * (p + pi));
-            let c = (if squared > 0.0 { squared } else { 0.0 }).sqrt();
-            (b1, 0.5 * inverse_above, pi, c, rho * c, free)
-        };
-        let of = |s: &Sides| law(s.rho[k], s.p[k], fraction::<WITH_GAS>(s.phi[k]), s.gas_share[k]);
-        let (b1_l, m_l, pi_l, c_l, z_l, free_l) = of(left);
-        let (b1_r, m_r, pi_r, c_r, z_r, free_r) = of(right);
-        if B {
-            (left.free[k], right.free[k]) = (free_l, free_r);
-        }
-        let (base_l, base_r) = (left.p[k] + pi_l, right.p[k] + pi_r);
-        let inverse = 1.0 / (base_l * base_r);
-        let lowest_pi = if pi_l < pi_r { pi_l } else { pi_r };
-        (left.m[k], left.c[k], left.inverse_base[k]) = (m_l, c_l, inverse * base_r);
-        (right.m[k], right.c[k], right.inverse_base[k]) = (m_r, c_r, inverse * base_l);
-        (left.escape[k], left.offset[k]) = (2.0 * b1_l * c_l, pi_l - lowest_pi);
-        (right.escape[k], right.offset[k]) = (2.0 * b1_r * c_r, pi_r - lowest_pi);
-
-        let du = right.u[k] - left.u[k];
-        let right_is_lower = right.p[k] < left.p[k];
-        let low = if right_is_lower { right.p[k] } else { left.p[k] };
-        let high = if right_is_lower { left.p[k] } else { right.p[k] };
-        let z_low = if right_is_lower { z_r } else { z_l };
-        let acoustic = low + (z_low * (high - low) - (z_l * z_r) * du) / (z_l + z_r);
-        let fallback = if low > -lowest_pi { low } else { high };
-        let is_acoustic = acoustic + lowest_pi > 0.1 * (fallback + lowest_pi);
-        let guess = if is_acoustic { acoustic } else { fallback };
-        others += u64::from(!is_acoustic);
-        let state =
-            (left.rho[k] > 0.0) & (right.rho[k] > 0.0) & (base_l > 0.0) & (base_r > 0.0) & (guess < f64::MAX);
-        let state = if B { state & (free_l > 0.0) & (free_r > 0.0) } else { state };
-        pi[k] = lowest_pi;
-        p[k] = guess;
-        shifted[k] = guess + lowest_pi;
-        done[k] = if state { 0.0 } else { 2.0 };
-    }
-    others == 0
 }
 
 /// One step of all faces that are not done.
@@ -308,25 +301,11 @@ fn prepare<const WITH_GAS: bool, const B: bool>(n: usize, chunk: &mut Chunk, mix
 /// Halley's step in P. Where P is far too low it is Newton's, which ends below the root; where it is far too high,
 /// one that stays above Newton's in ln P, which ends above it.
 ///
-/// - `are_acoustic`: whether all iterates are acoustic guesses; where the waves are weak as well, they are 4·10⁻⁶ off at most.
-/// - returns: whether they are, and all waves weak.
 #[inline(always)]
-fn advance(n: usize, are_acoustic: bool, chunk: &mut Chunk) -> bool {
-    let Chunk { left, right, p, shifted, curves: [on_left, on_right], .. } = chunk;
-    let is_left_weak = curve(n, left, p, shifted, on_left);
-    let are_near = curve(n, right, p, shifted, on_right) && is_left_weak && are_acoustic;
-    if are_near {
-        step::<true>(n, chunk);
-    } else {
-        step::<false>(n, chunk);
-    }
-    are_near
-}
-
-/// - `NEAR`: whether no step goes far.
-#[inline(always)]
-fn step<const NEAR: bool>(n: usize, chunk: &mut Chunk) {
-    let Chunk { left, right, pi, p, shifted, f_left, f_right, done, curves: [on_left, on_right] } = chunk;
+fn advance(n: usize, chunk: &mut Chunk) {
+    let Chunk { left, right, pi, p, shifted, f_left, f_right, done, curves: [on_left, on_right], .. } = chunk;
+    curve(n, left, p, shifted, on_left);
+    curve(n, right, p, shifted, on_right);
     for k in 0..n.min(LANES) {
         let (p_old, shifted_old) = (p[k], shifted[k]);
         let [f_l, slope_l, curvature_l] = [on_left.f[k], on_left.slope[k], on_left.curvature[k]];
@@ -336,8 +315,8 @@ fn step<const NEAR: bool>(n: usize, chunk: &mut Chunk) {
         let bend = x * ((curvature_l + curvature_r) * inverse);
         // P is multiplied by 1 + over/under.
         let (over, under) = (-2.0 * x, 2.0 - bend);
-        let far_down = !NEAR & (10.0 * (over + under) < under);
-        let far_up = !NEAR & (x < -1.0);
+        let far_down = 10.0 * (over + under) < under;
+        let far_up = x < -1.0;
         let over = if far_down { -x * (1.0 + 0.5 * x) } else { over };
         let under = if far_down { 1.0 + x * (1.0 + 0.5 * x) } else { under };
         let over = if far_up { -x } else { over };

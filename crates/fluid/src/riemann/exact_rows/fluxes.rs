@@ -10,12 +10,10 @@ use crate::Mixture;
 const NEAR_VACUUM: f64 = 1e-8;
 
 /// The fluxes at x/t = 0, and 1 in `solved` where they are right: see `sample` of the scalar solver.
-///
-/// - `SLOW`: whether all waves are weak and all states slower than half their sound, see [`super::solve`].
 // A flat list of what is written, as in `step/rows.rs`.
 #[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias")]
 #[inline(always)]
-pub(super) fn fluxes<const B: bool, const SLOW: bool>(
+pub(super) fn fluxes<const B: bool>(
     n: usize,
     chunk: &Chunk,
     mixture: &Mixture,
@@ -54,7 +52,7 @@ pub(super) fn fluxes<const B: bool, const SLOW: bool>(
         let shock = x > 0.0;
         let squeezed = 1.0 + (1.0 - m) * x;
         let head = u_side - if shock { speed * squeezed.sqrt() } else { speed };
-        let undisturbed = !SLOW & (head >= 0.0);
+        let undisturbed = head >= 0.0;
         // Behind a rarefaction the sound speed is (γ − 1)/2 (escape + f) and ρ* = ρR/(c*/c)².
         let ratio_side = if from_left { ratio_l } else { ratio_r };
         let over = if shock { squeezed } else { ratio_side * (escape * escape) };
@@ -64,7 +62,7 @@ pub(super) fn fluxes<const B: bool, const SLOW: bool>(
         // 1 − bρ* is the free share over this.
         let whole = 1.0 + (squeezing - 1.0) * (1.0 - free);
         let faster = if B { (1.0 - 2.0 * m) / m * (free / whole) } else { 2.0 * b1 };
-        let fan = !SLOW & !shock & !undisturbed & (faster * u_contact > behind);
+        let fan = !shock & !undisturbed & (faster * u_contact > behind);
         compression[k] = if B & !unchanged { squeezing / whole } else { squeezing };
         let rho = rho_side * compression[k];
         let u = if undisturbed { pick(&left.u, &right.u) } else { u_star };
