@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 use crate::analysis::Analysis;
 use crate::state::component::S_PHIPHI;
 
-/// Own steps of a block between two of its velocities that are counted. A P wave crosses about two cells in them, so no wave that a grid can
-/// hold passes unseen: sums of equidistant samples leave out only what is as short as their distance. Memory is what counting costs.
-const EVERY: u8 = 4;
+/// Own steps of a block between two of its velocities that are counted. A P wave crosses about a cell in them, so nothing that a grid can
+/// hold passes unseen; memory is what counting costs.
+const EVERY: u8 = 2;
 
 /// Displacement and rate of the plastic strain of solids that can yield.
 pub(crate) struct Following {
