@@ -3,7 +3,8 @@
 //! What [`crate::riemann::exact_riemann`] does for one face, for chunks of faces (SIMD batches) without branches: the same wave curves and
 //! the same first guess, then Halley's steps (cubic, as there) until all faces of the chunk have converged. A face
 //! that has keeps its numbers, so that they do not depend on the company it is solved in. Faces for which more is
-//! needed (a vacuum or nearly one, the inside of a fan, no convergence) are left to the scalar solver.
+//! needed (a vacuum or nearly one, the inside of a fan, no convergence) are left to the scalar solver, and weak waves have a shorter way
+//! of their own (`weak.rs`).
 
 mod curves;
 mod fluxes;
@@ -300,7 +301,6 @@ fn iterate(n: usize, chunk: &mut Chunk) {
 ///
 /// Halley's step in P. Where P is far too low it is Newton's, which ends below the root; where it is far too high,
 /// one that stays above Newton's in ln P, which ends above it.
-///
 #[inline(always)]
 fn advance(n: usize, chunk: &mut Chunk) {
     let Chunk { left, right, pi, p, shifted, f_left, f_right, done, curves: [on_left, on_right], .. } = chunk;

@@ -74,13 +74,14 @@ fn listed_fluxes<L: ListedFaces, const B: bool>(list: &[L::Face], faces: &mut L,
                 strong += 1;
             }
         }
-        if strong >= LANES {
-            strong_fluxes::<L, B>(list, &waiting[..LANES], faces, &mixture, &mut chunk, &mut rows);
-            waiting.copy_within(LANES..strong, 0);
-            strong -= LANES;
+        let is_last = first + n == list.len();
+        while strong >= LANES || (is_last && strong > 0) {
+            let some = strong.min(LANES);
+            strong_fluxes::<L, B>(list, &waiting[..some], faces, &mixture, &mut chunk, &mut rows);
+            waiting.copy_within(some..strong, 0);
+            strong -= some;
         }
     }
-    strong_fluxes::<L, B>(list, &waiting[..strong], faces, &mixture, &mut chunk, &mut rows);
 }
 
 /// Rows of what a chunk of faces gets: mass, velocity, pressure, shear, energy, φ, ρ*/ρ, and 1 where that is right.

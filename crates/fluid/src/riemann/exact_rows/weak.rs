@@ -6,9 +6,9 @@
 
 use std::hint::select_unpredictable;
 
-use super::{Chunk, LANES, LAST_STEP, LEFT_OVER, Lane, Liquid, Sides};
+use super::prepare::Liquid;
+use super::{Chunk, LANES, LAST_STEP, LEFT_OVER, Lane, Sides};
 use crate::Mixture;
-use crate::reconstruction::fraction;
 
 /// Changes of the pressure, as a share of p + π, below which a wave is weak.
 pub(super) const WEAK: f64 = 1.0 / 512.0;
@@ -48,7 +48,7 @@ fn curve<const ONE_LAW: bool>(s: &Sides, k: usize, p: f64, shifted: f64, liquid:
     let bend = if shock { (9.0 / 8.0) * (a * a) } else { 0.5 * (a * (1.0 + a)) };
     let f = per_gamma * (x * if shock { of_shock } else { of_fan });
     let slope = per_gamma * (1.0 - x * (a - x * bend)) * lever;
-    // a P over the side's own: 1 where both have one law.
+    // a times P over the side's own P, which is the same where both have one law.
     let bent = if ONE_LAW { a } else { a * (1.0 - (s.offset[k] * s.inverse_base[k]) * (1.0 - x)) };
     [f, slope, bent]
 }
@@ -132,7 +132,7 @@ pub(super) fn fluxes<const WITH_GAS: bool, const B: bool, const OTHERS: bool>(
             1.0 + growth
         };
         let rho = rho * compressed;
-        let [b1, b2] = mixture.free_betas::<B>(fraction::<WITH_GAS>(phi_side), rho, rho * gas);
+        let [b1, b2] = mixture.free_betas::<B>(phi_side, rho, rho * gas);
         let total = b1 * p + b2 + 0.5 * rho * (u * u + v * v);
         let counts = !OTHERS || is_weak[k] != 0.0;
         let keep = |own: f64, other: f64| if counts { own } else { other };
