@@ -8,6 +8,7 @@
 
 mod curves;
 mod fluxes;
+mod liquid;
 mod listed;
 mod prepare;
 mod weak;
@@ -23,8 +24,9 @@ use crate::state::primitive::{PHI, PRESSURE, RHO, V_N, V_T};
 use crate::step::face_rows::FaceRows;
 
 use curves::{Curve, curve};
+use liquid::Liquid;
 pub(crate) use listed::{ListedFaces, exact_fluxes};
-use prepare::{Liquid, complete, prepare};
+use prepare::{complete, prepare};
 use weak::Weak;
 
 /// Faces solved together: enough to hide that one step waits for the one before, and not so many that all wait for the

@@ -3,7 +3,8 @@
 use std::hint::select_unpredictable;
 
 use super::fluxes::fluxes;
-use super::prepare::{Liquid, prepare};
+use super::liquid::Liquid;
+use super::prepare::prepare;
 use super::{Chunk, LANES, Lane, iterate, weak};
 use crate::Mixture;
 use crate::riemann::godunov::flux_exact;

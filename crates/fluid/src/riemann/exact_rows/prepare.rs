@@ -1,25 +1,10 @@
 //! What is known of a chunk of faces before it is solved: the laws and sounds of both sides, and the acoustic guess.
 
+use super::liquid::Liquid;
 use super::weak::{WEAK, Weak};
 use super::{Chunk, LANES, Sides};
 use crate::Mixture;
 use crate::reconstruction::fraction;
-
-/// The law of pure liquid without a covolume.
-#[derive(Clone, Copy)]
-pub(super) struct Liquid {
-    /// As in [`Sides`].
-    pub m: f64,
-    pub pi: f64,
-}
-
-impl Liquid {
-    #[inline(always)]
-    pub fn of(mixture: &Mixture) -> Self {
-        let inverse_above = 1.0 / (1.0 + mixture.beta1(0.0));
-        Self { m: 0.5 * inverse_above, pi: mixture.beta2(0.0) * inverse_above }
-    }
-}
 
 /// The wave curves and the first guess, see `first_guess` of the scalar solver.
 ///

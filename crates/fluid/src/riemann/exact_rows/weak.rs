@@ -6,7 +6,7 @@
 
 use std::hint::select_unpredictable;
 
-use super::prepare::Liquid;
+use super::liquid::Liquid;
 use super::{Chunk, LANES, LAST_STEP, LEFT_OVER, Lane, Sides};
 use crate::Mixture;
 
