@@ -11,7 +11,7 @@ use crate::physics::{Solid, SolidStep, Ways};
 use crate::step::plastic::{measure_flow, return_block};
 use crate::step::reflux::{self, QUANTITIES};
 use crate::step::report::{BlockReport, PlasticReport, report_stresses};
-use crate::step::{BlockScratch, STAGES, has_only_waves, step_block, step_tile};
+use crate::step::{BlockScratch, STAGES, can_be_swept, step_block, step_tile};
 use crate::{Boundary, BoundaryLedger, PlasticLedger, SolidError};
 
 /// What of a solid changes in time besides its cells.
@@ -54,8 +54,7 @@ impl<const N: usize> Model<N> for Solid {
     ) -> BlockReport {
         let mut report = [BlockReport::default()];
         let tile = Tile::one(slot);
-        if self.ways.has_sweeps && has_only_waves(step, tile) && step_tile(step, tile, &mut work, &mut report)
-        {
+        if self.ways.has_sweeps && can_be_swept(step, tile) && step_tile(step, tile, &mut work, &mut report) {
             let [report] = report;
             return report;
         }
@@ -70,7 +69,7 @@ impl<const N: usize> Model<N> for Solid {
         reports: &mut [BlockReport],
     ) {
         let Ways { has_tiles, has_sweeps } = self.ways;
-        let is_one = !tile.is_one() && has_tiles && has_sweeps && has_only_waves(step, tile);
+        let is_one = !tile.is_one() && has_tiles && has_sweeps && can_be_swept(step, tile);
         if !(is_one && step_tile(step, tile, &mut work, reports)) {
             work.each_of(tile, reports, |slot, work, report| *report = self.step_block(step, slot, work));
         }

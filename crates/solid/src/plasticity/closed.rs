@@ -5,12 +5,13 @@ use multiversion::multiversion;
 use super::hardening::Hardening;
 use super::stress::Stress;
 
-/// Y = A + H ε_p over an elasticity of 3μ, all Pa.
+/// Y = A + H ε_p, Pa, over an elasticity of 3μ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
     strength: f64,
     modulus: f64,
-    three_mu: f64,
+    /// 1/(3μ + H).
+    compliance: f64,
 }
 
 /// What a return on a line gives.
@@ -31,7 +32,7 @@ impl Line {
             Hardening::Linear(law) => (law.yield_strength, law.hardening_modulus),
             Hardening::JohnsonCook(_) | Hardening::Table(_) => return None,
         };
-        Some(Self { strength, modulus, three_mu: 3.0 * mu })
+        Some(Self { strength, modulus, compliance: 1.0 / (3.0 * mu + modulus) })
     }
 
     /// Δε_p = (q_trial − Y)/(3μ + H), free of branches.
@@ -39,7 +40,7 @@ impl Line {
     pub fn return_map(self, trial: Stress, strain: f64) -> LineReturn {
         let (squared, bound) = (trial.von_mises_squared(), self.strength + self.modulus * strain);
         let von_mises = squared.sqrt();
-        let increment = (von_mises - bound) / (self.three_mu + self.modulus);
+        let increment = (von_mises - bound) * self.compliance;
         let line = self.strength + self.modulus * (strain + increment);
         // Rounding must not put a stress that just yields outside of where it was.
         let left = if line < von_mises { line } else { von_mises };

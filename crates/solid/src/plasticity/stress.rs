@@ -27,7 +27,8 @@ impl Stress {
     #[inline(always)]
     #[must_use]
     pub fn mean(self) -> f64 {
-        (self.zz + self.rr + self.phiphi) / 3.0
+        // Divisions are what a return costs.
+        (self.zz + self.rr + self.phiphi) * (1.0 / 3.0)
     }
 
     /// s_zz, of the deviator.

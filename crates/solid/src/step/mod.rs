@@ -6,6 +6,7 @@ pub(crate) mod report;
 pub(crate) mod rows;
 pub(crate) mod update;
 
+mod flow_of_strips;
 mod mises;
 mod rim;
 mod scratch;
@@ -19,7 +20,7 @@ use mesh::{BlockId, BlockWork};
 
 pub use scratch::BlockScratch;
 pub(crate) use stages::reconstruct;
-pub(crate) use tile::{has_only_waves, step_tile};
+pub(crate) use tile::{can_be_swept, step_tile};
 
 use crate::physics::SolidStep;
 use crate::step::report::BlockReport;

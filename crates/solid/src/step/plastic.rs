@@ -13,7 +13,8 @@ use crate::components::{PLASTIC_STRAIN, TEMPERATURE};
 use crate::material::yield_criterion::von_mises_squared;
 use crate::plasticity::{PlasticRows, Plasticity};
 use crate::state::component::COUNT;
-use crate::step::mises::{LEAST, largest_mises};
+use crate::step::flow_of_strips::most_mises_at_rest;
+use crate::step::mises::largest_mises;
 use crate::step::report::{BlockReport, PlasticReport, largest_mises_of_block};
 
 /// Cells that are returned together: whole rows of a block.
@@ -159,11 +160,11 @@ impl<const N: usize> BlockStep<'_, N> {
         let cold = plasticity.reference();
         let is_warm = plasticity.has_heat() && !self.is_untouched;
         let hottest = if is_warm { maximum(&cells.component(TEMPERATURE)[first..][..n]) } else { cold };
-        // Flow stress never falls with plastic strain, so most blocks need no look at their cells. What has just flowed goes on with it.
-        let least = plasticity.hardening().yield_stress(0.0, 0.0, hottest);
+        // Most blocks need no look at their cells. What has just flowed goes on with it.
+        let most_mises = most_mises_at_rest(plasticity, hottest);
         let has_flowed =
             self.ctx.model.following.as_ref().is_some_and(|own| !own.of_block(self.slot).rates.is_zero);
-        flow.acts = has_flowed || !(largest_mises([&*zz, &*zr, &*rr, &*phiphi]) <= LEAST * least * least);
+        flow.acts = has_flowed || !(largest_mises([&*zz, &*zr, &*rr, &*phiphi]) <= most_mises);
         if !flow.acts {
             return;
         }
@@ -210,10 +211,8 @@ impl<const N: usize> BlockStep<'_, N> {
         follower.count(ctx.time, ctx.dt, ctx.old.block(slot));
         let rates = &mut follower.rates;
         rates.clear();
-        let is_within = |temperature: f64| {
-            let least = plasticity.hardening().yield_stress(0.0, 0.0, temperature);
-            report.mises_squared <= LEAST * least * least
-        };
+        let is_within =
+            |temperature: f64| report.mises_squared <= most_mises_at_rest(plasticity, temperature);
         if !has_yielded && is_within(plasticity.reference()) {
             if !model.untouched.is_written(slot, new) {
                 new[stays.clone()].copy_from_slice(&ctx.old.block(slot)[stays]);

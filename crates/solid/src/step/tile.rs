@@ -5,27 +5,37 @@ use mesh::{BlockWork, Side, Tile};
 use super::sweep::{Sweep, sweep};
 use super::{BlockScratch, BlockStep, Stage, stages};
 use crate::boundary::outer_states::MidStep;
+use crate::components::PLASTIC_STRAIN;
 use crate::physics::SolidStep;
 use crate::reconstruction::predictor::Predictor;
 use crate::state::component::COUNT;
-use crate::step::mises::LEAST;
+use crate::step::flow_of_strips::{FlowOfStrips, most_mises_at_rest};
 use crate::step::reflux::register_stars;
 use crate::step::report::{BlockReport, boundary_inflow, yielded_volume};
 
-/// Whether nothing but waves has a say in the blocks of a tile: no terms, no other medium, no plastic flow so far, in no neighbour either.
-pub(crate) fn has_only_waves<const N: usize>(ctx: &SolidStep<'_, N>, tile: Tile) -> bool {
+/// Whether the blocks of a tile can be made in one sweep: no terms, no other medium, and what may flow in them does so by a law whose return
+/// needs neither guess nor heat, or none has flowed so far, in no neighbour either.
+pub(crate) fn can_be_swept<const N: usize>(ctx: &SolidStep<'_, N>, tile: Tile) -> bool {
     let model = ctx.model;
-    let is_elastic = |slot: usize| match &model.following {
-        None => true,
-        Some(following) => model.is_untouched(ctx.mesh, slot) && following.of_block(slot).rates.is_zero,
+    let needs_more = model.plasticity.as_ref().is_some_and(|own| own.wants_guess() || own.has_heat());
+    let is_plain = |slot: usize| {
+        ctx.interface.first_face(slot).is_none() && (!needs_more || has_never_flowed(ctx, slot))
     };
-    let is_plain = |slot: usize| ctx.interface.first_face(slot).is_none() && is_elastic(slot);
     model.terms.is_empty() && tile.slots().all(is_plain)
 }
 
-/// Advances the blocks of a tile with [`has_only_waves`] by one step from `ctx.old`.
+/// Whether neither a block nor a neighbour has yielded so far, nor flows.
+fn has_never_flowed<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize) -> bool {
+    let model = ctx.model;
+    model
+        .following
+        .as_ref()
+        .is_none_or(|following| model.is_untouched(ctx.mesh, slot) && following.of_block(slot).rates.is_zero)
+}
+
+/// Advances the blocks of a tile that [`can_be_swept`] by one step from `ctx.old`.
 ///
-/// - returns: whether they have been; not where something may yield until mid-step.
+/// - returns: whether they have been; not where something may yield for the first time until mid-step.
 pub(crate) fn step_tile<const N: usize>(
     ctx: &SolidStep<'_, N>,
     tile: Tile,
@@ -33,9 +43,10 @@ pub(crate) fn step_tile<const N: usize>(
     reports: &mut [BlockReport],
 ) -> bool {
     let BlockWork { new, register, scratch, timer } = work;
-    stages::assemble(ctx, tile, COUNT, scratch);
+    let has_flowed = !tile.slots().all(|slot| has_never_flowed(ctx, slot));
+    stages::assemble(ctx, tile, if has_flowed { ctx.old.components() } else { COUNT }, scratch);
     timer.end(Stage::Assemble as usize);
-    let Some(largest) = sweep_tile(ctx, tile, scratch, new) else { return false };
+    let Some(largest) = sweep_tile(ctx, tile, has_flowed, scratch, new) else { return false };
     timer.end(Stage::Sweep as usize);
     scratch.flow.acts = false;
     let (len, registered) = (new.len() / tile.blocks(), register.len() / tile.blocks());
@@ -45,7 +56,7 @@ pub(crate) fn step_tile<const N: usize>(
         register_stars(ctx.mesh, slot, place, rim, stars);
         timer.end(Stage::Register as usize);
         *report = BlockReport { mises_squared: largest[number], ..BlockReport::default() };
-        let block = BlockStep::of(ctx, slot, true);
+        let block = BlockStep::of(ctx, slot, !has_flowed);
         block.flow(scratch, new, report);
         timer.end(Stage::Plastic as usize);
         report.yielded = yielded_volume(ctx.mesh, slot, new, report.mises_squared, ctx.model.yield_squared());
@@ -56,19 +67,24 @@ pub(crate) fn step_tile<const N: usize>(
 }
 
 /// From the padded cells to the new ones, see [`sweep`].
+///
+/// - `has_flowed`: whether what may flow is returned at mid-step; else the sweep ends where something would.
 fn sweep_tile<const N: usize>(
     ctx: &SolidStep<'_, N>,
     tile: Tile,
+    has_flowed: bool,
     scratch: &mut BlockScratch<N>,
     new: &mut [f64],
 ) -> Option<[f64; 4]> {
     let BlockScratch { cells, inverse_r, sweep: within, .. } = scratch;
     let (model, frame) = (ctx.model, cells.frame());
     let widths = ctx.mesh.widths(ctx.mesh.first_of(tile).level);
-    let most_mises = model.plasticity.as_ref().map_or(f64::INFINITY, |plasticity| {
-        let least = plasticity.hardening().yield_stress(0.0, 0.0, plasticity.reference());
-        LEAST * least * least
-    });
+    let flow = model.plasticity.as_ref().filter(|_| has_flowed);
+    let flow = flow.map(|plasticity| FlowOfStrips::new(plasticity, cells.component(PLASTIC_STRAIN), ctx.dt));
+    let most_mises = match &model.plasticity {
+        Some(plasticity) if !has_flowed => most_mises_at_rest(plasticity, plasticity.reference()),
+        _ => f64::INFINITY,
+    };
     let this = Sweep {
         predictor: Predictor {
             limiter: model.setup.limiter,
@@ -88,6 +104,9 @@ fn sweep_tile<const N: usize>(
     let mut between = |strip: usize, mut mid_step: MidStep<'_>| {
         if is_far {
             ctx.old.look_beyond(tile, strip, strips);
+        }
+        if let Some(flow) = &flow {
+            flow.to_mid_step(&mut mid_step);
         }
         if has_sides {
             let first = 2 * strip as isize - 1;

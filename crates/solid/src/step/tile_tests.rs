@@ -4,7 +4,7 @@ use mesh::{Adaptation, Domain, Geometry, Limiter, Tile};
 
 use crate::Boundary::{Absorbing, Axis, Fixed, Free, NonReflecting, Periodic, Symmetry};
 use crate::physics::Ways;
-use crate::plasticity::{Hardening, JohnsonCook, RateFactor, ThermalSoftening};
+use crate::plasticity::{Hardening, JohnsonCook, RateFactor, Table, ThermalSoftening};
 use crate::{Boundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
 
 const N: usize = 8;
@@ -56,7 +56,7 @@ fn stepped(choice: &Choice, ways: Ways) -> (SolidSolver<N>, [usize; 2]) {
             solid.step_at(0.45).expect("a step");
         }
         let context = solid.context(0.0);
-        let is_four = |tile: &&Tile| !tile.is_one() && super::has_only_waves(&context, **tile);
+        let is_four = |tile: &&Tile| !tile.is_one() && super::can_be_swept(&context, **tile);
         fours = solid.mesh().tree().tiles().iter().filter(is_four).count();
         solid.adapt(0.0, 1);
     }
@@ -86,6 +86,7 @@ fn tiles_and_sweeps_step_as_stages_of_blocks_do_to_the_last_bit() {
     let heat = ThermalSoftening::new(1.0, 1700.0, 293.0, 480.0, 0.9).expect("a law");
     let law = JohnsonCook::new(1.9e8, 2e8, 0.3).expect("a law");
     let law = law.with_rate(RateFactor::new(0.02, 1.0).expect("a law")).with_softening(heat);
+    let table = Table::new(&[[0.0, 1.9e8], [1e-4, 2.1e8], [1e-3, 2.4e8]]).expect("a law");
     let plastic = |law, local_steps| Choice {
         plasticity: Some(law),
         ..elastic(Limiter::Mc, round, [NonReflecting, Free, Axis, Absorbing], local_steps)
@@ -96,6 +97,8 @@ fn tiles_and_sweeps_step_as_stages_of_blocks_do_to_the_last_bit() {
         elastic(Limiter::Eno, flat, [Fixed, Free, Symmetry, Absorbing], true),
         elastic(Limiter::None, flat, [Periodic, Periodic, Fixed, Free], false),
         plastic(Hardening::perfect(1.9e8).expect("a law"), true),
+        plastic(Hardening::linear(1.9e8, 5e9).expect("a law"), false),
+        plastic(Hardening::Table(table), true),
         plastic(Hardening::JohnsonCook(law), false),
     ] {
         let (stages, [_, yielded]) = stepped(&choice, Ways { has_tiles: false, has_sweeps: false });
