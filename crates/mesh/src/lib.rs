@@ -41,6 +41,7 @@ pub use ghosts::side_states::SideStates;
 pub use ghosts::tile_rows::TileRows;
 pub use kernels::ahead::{fetch, fetch_lines};
 pub use kernels::aligned::{AlignedRow, whole_lines};
+pub use kernels::blend::Blend;
 pub use kernels::cell_bits::CellBits;
 pub use kernels::dispersion::{dispersion_share, oblique_dispersion_shares};
 pub use kernels::elementary::{exp_and_less_one, ln_of};

@@ -2,6 +2,7 @@
 
 pub(crate) mod ahead;
 pub(crate) mod aligned;
+pub(crate) mod blend;
 pub(crate) mod cell_bits;
 pub(crate) mod dispersion;
 pub(crate) mod elementary;

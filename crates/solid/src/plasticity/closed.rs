@@ -1,5 +1,6 @@
 //! The return in closed form: flow stresses that are a straight line over plastic strain.
 
+use mesh::Blend;
 use multiversion::multiversion;
 
 use super::hardening::Hardening;
@@ -69,13 +70,13 @@ pub(super) struct LineCells<'a> {
 pub(super) fn return_batch(line: Line, cells: LineCells<'_>) -> usize {
     let LineCells { stress: [zz, zr, rr, phiphi], strain, increment, work } = cells;
     let n = strain.len();
-    let mut count = 0;
+    let (mut count, blend) = (0, Blend::new());
     let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
     let (increment, work) = (&mut increment[..n], &mut work[..n]);
     for k in 0..n {
         let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
         let returned = line.return_map(trial, strain[k]);
-        let select = |new: f64, old: f64| if returned.yields { new } else { old };
+        let select = |new: f64, old: f64| blend.choose(returned.yields, new, old);
         zz[k] = select(returned.stress.zz, trial.zz);
         zr[k] = select(returned.stress.zr, trial.zr);
         rr[k] = select(returned.stress.rr, trial.rr);

@@ -1,5 +1,6 @@
 //! The return in closed form: flow stresses that are straight between points, without rate.
 
+use mesh::Blend;
 use multiversion::multiversion;
 
 use super::closed::LineCells;
@@ -115,7 +116,7 @@ pub(super) fn return_batch(law: &Polyline, cells: LineCells<'_>) -> usize {
     let n = strain.len();
     let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
     let (increment, work) = (&mut increment[..n], &mut work[..n]);
-    let mut count = 0;
+    let (mut count, blend) = (0, Blend::new());
     for first in (0..n).step_by(LANES) {
         let m = LANES.min(n - first);
         let (mut trial, mut before) = ([0.0; LANES], [0.0; LANES]);
@@ -129,7 +130,7 @@ pub(super) fn return_batch(law: &Polyline, cells: LineCells<'_>) -> usize {
             let at = first + k;
             let old = Stress { zz: zz[at], zr: zr[at], rr: rr[at], phiphi: phiphi[at] };
             let new = old.with_deviator_times(returns.left_share[k]);
-            let select = |new: f64, old: f64| if returns.yields[k] { new } else { old };
+            let select = |new: f64, old: f64| blend.choose(returns.yields[k], new, old);
             (zz[at], zr[at]) = (select(new.zz, old.zz), select(new.zr, old.zr));
             (rr[at], phiphi[at]) = (select(new.rr, old.rr), select(new.phiphi, old.phiphi));
             strain[at] = select(before[k] + returns.increment[k], before[k]);

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use mesh::Blend;
 use multiversion::multiversion;
 
 use super::closed::{LineCells, return_batch};
@@ -150,12 +151,12 @@ fn end(heating: f64, batch: &mut PlasticRows<'_>, von_mises: &[f64], left: &[f64
     let (rr, phiphi) = (&mut batch.stress_rr[..n], &mut batch.stress_phiphi[..n]);
     let (strain, work) = (&mut batch.strain[..n], &mut batch.work[..n]);
     let increment = &batch.increment[..n];
-    let (mut solved, mut unsolved) = (0_u64, 0_u64);
+    let (mut solved, mut unsolved, blend) = (0_u64, 0_u64, Blend::new());
     for k in 0..n {
         let flows = increment[k] > 0.0;
         let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
         let stress = trial.with_deviator_times(left[k] / von_mises[k]);
-        let select = |new: f64, old: f64| if flows { new } else { old };
+        let select = |new: f64, old: f64| blend.choose(flows, new, old);
         zz[k] = select(stress.zz, trial.zz);
         zr[k] = select(stress.zr, trial.zr);
         rr[k] = select(stress.rr, trial.rr);

@@ -4,7 +4,7 @@
 //! and read them again: more than fits the first-level cache. Here all stages are made of two rows at a time, by the same loops over
 //! cells, so the results are the same to the last bit.
 
-use mesh::{GHOSTS, Tile, fetch_lines, maximum};
+use mesh::{Blend, GHOSTS, Tile, fetch_lines, maximum};
 
 use crate::boundary::outer_states::MidStep;
 use crate::reconstruction::predictor::{Predicted, Predictor, predict_from};
@@ -102,7 +102,7 @@ pub(crate) fn sweep<const N: usize, const ALONG: usize>(
     let SweepScratch { strips: [one, other], r_faces: [below, middle, above], rim } = scratch;
     let (mut before, mut here) = (one, other);
     let (mut south, mut north) = (below, above);
-    let mut largest = [[0.0; N]; 4];
+    let (mut largest, blend) = ([[0.0; N]; 4], Blend::new());
     let strips = n / ROWS + 1;
     for strip in 0..strips {
         // Counted from the first row of ghosts, the first of which nothing is made of.
@@ -125,9 +125,9 @@ pub(crate) fn sweep<const N: usize, const ALONG: usize>(
         if strip > 0 {
             r_faces_between(n, s, [(&*before, stride), (&*here, 0)], middle);
             let faces = [&*south, &*middle];
-            update_row_of::<N, ALONG>(j - 1, cells, s, (&*before, stride), faces, &mut largest, new);
+            update_row_of::<N, ALONG>(j - 1, cells, s, (&*before, stride), faces, blend, &mut largest, new);
             let faces = [&*middle, &*north];
-            update_row_of::<N, ALONG>(j, cells, s, (&*here, 0), faces, &mut largest, new);
+            update_row_of::<N, ALONG>(j, cells, s, (&*here, 0), faces, blend, &mut largest, new);
         }
         std::mem::swap(&mut before, &mut here);
         std::mem::swap(&mut south, &mut north);
@@ -189,6 +189,7 @@ fn r_faces_between(n: usize, s: &Sweep<'_>, cells: [(&Strip, usize); 2], faces: 
     faces_body(n, lower, upper, &s.elasticity, &mut v_n[..n], &mut v_t[..n], &mut s_nn[..n], &mut s_nt[..n]);
 }
 
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
 /// The new cells of a row.
 ///
 /// - `j`: its number, counted from the first row of ghosts; `strip`: where it is at mid-step; `faces`: along r, below and above.
@@ -199,6 +200,7 @@ fn update_row_of<const N: usize, const ALONG: usize>(
     s: &Sweep<'_>,
     (strip, at): (&Strip, usize),
     [south, north]: [&RFaces; 2],
+    blend: Blend,
     largest: &mut [[f64; N]; 4],
     new: &mut [f64],
 ) {
@@ -230,6 +232,7 @@ fn update_row_of<const N: usize, const ALONG: usize>(
             [row(&strip.half[1], first), row(&strip.half[4], first), row(&strip.half[5], first)],
             factors,
             s.elasticity,
+            blend,
             row_mut(v_z, to),
             row_mut(v_r, to),
             row_mut(zz, to),

@@ -1,6 +1,6 @@
 //! The kernel that advances the cells of a block by their face states; written as those of `rows.rs`.
 
-use mesh::maximum;
+use mesh::{Blend, maximum};
 
 use crate::material::yield_criterion::von_mises_squared;
 use crate::state::component::COUNT;
@@ -46,7 +46,7 @@ pub(crate) fn update<const N: usize>(
     new: [&mut [f64]; 6],
 ) -> f64 {
     let [v_z, v_r, s_zz, s_zr, s_rr, s_pp] = new;
-    let mut largest = [0.0; N];
+    let (mut largest, blend) = ([0.0; N], Blend::new());
     for j in 0..N {
         let at = j * N;
         let k = metric.origin + j * metric.stride;
@@ -66,6 +66,7 @@ pub(crate) fn update<const N: usize>(
             half.map(|component| row(component, k)),
             [dt * metric.inverse_h[0], dt * metric.inverse_h[1], dt * metric.inverse_r[k]],
             *elasticity,
+            blend,
             row_mut(v_z, at),
             row_mut(v_r, at),
             row_mut(s_zz, at),
@@ -128,6 +129,7 @@ pub(crate) fn update_row<const N: usize>(
     [half_v_r, half_s_rr, half_s_pp]: [&[f64; N]; 3],
     [dt_z, dt_r, dt_over_r]: [f64; 3],
     e: Elasticity,
+    blend: Blend,
     v_z: &mut [f64; N],
     v_r: &mut [f64; N],
     s_zz: &mut [f64; N],
@@ -164,6 +166,6 @@ pub(crate) fn update_row<const N: usize>(
         let squared = von_mises_squared(zz, zr, rr, pp);
         // A NaN counts as infinite.
         let squared = if squared < f64::MAX { squared } else { f64::INFINITY };
-        largest[k] = if squared > largest[k] { squared } else { largest[k] };
+        largest[k] = blend.larger(squared, largest[k]);
     }
 }
