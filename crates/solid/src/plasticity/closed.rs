@@ -55,20 +55,19 @@ impl Line {
     }
 }
 
-/// Cells of a batch: their stresses zz, zr, rr, φφ and plastic strains, of one length, changed in place where they yield.
-pub(super) struct LineCells<'a> {
-    pub stress: [&'a mut [f64]; 4],
-    pub strain: &'a mut [f64],
-    /// Written: Δε_p, 0 where a cell stays elastic.
-    pub increment: &'a mut [f64],
-    /// Written: q Δε_p, J/m³.
-    pub work: &'a mut [f64],
-}
-
-/// The returns of a batch; tells how many cells flowed.
+/// The returns of some cells, rows as in [`super::PlasticRows`]; tells how many flowed.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(super) fn return_batch(line: Line, cells: LineCells<'_>) -> usize {
-    let LineCells { stress: [zz, zr, rr, phiphi], strain, increment, work } = cells;
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
+pub(super) fn return_batch(
+    line: Line,
+    zz: &mut [f64],
+    zr: &mut [f64],
+    rr: &mut [f64],
+    phiphi: &mut [f64],
+    strain: &mut [f64],
+    increment: &mut [f64],
+    work: &mut [f64],
+) -> usize {
     let n = strain.len();
     let (mut count, blend) = (0, Blend::new());
     let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);

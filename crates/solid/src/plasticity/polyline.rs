@@ -3,7 +3,6 @@
 use mesh::Blend;
 use multiversion::multiversion;
 
-use super::closed::LineCells;
 use super::hardening::Hardening;
 use super::stress::Stress;
 
@@ -109,10 +108,19 @@ impl Polyline {
     }
 }
 
-/// The returns of a batch; tells how many cells flowed.
+/// The returns of some cells, rows as in [`super::PlasticRows`]; tells how many flowed.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-pub(super) fn return_batch(law: &Polyline, cells: LineCells<'_>) -> usize {
-    let LineCells { stress: [zz, zr, rr, phiphi], strain, increment, work } = cells;
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
+pub(super) fn return_batch(
+    law: &Polyline,
+    zz: &mut [f64],
+    zr: &mut [f64],
+    rr: &mut [f64],
+    phiphi: &mut [f64],
+    strain: &mut [f64],
+    increment: &mut [f64],
+    work: &mut [f64],
+) -> usize {
     let n = strain.len();
     let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
     let (increment, work) = (&mut increment[..n], &mut work[..n]);

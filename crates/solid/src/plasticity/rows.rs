@@ -5,7 +5,7 @@ use std::ops::Range;
 use mesh::Blend;
 use multiversion::multiversion;
 
-use super::closed::{LineCells, return_batch};
+use super::closed;
 use super::lanes::{LaneCells, PowerLaw, UNSOLVED, return_lanes};
 use super::polyline;
 use super::return_map::Plasticity;
@@ -51,7 +51,17 @@ impl Plasticity {
     pub fn return_rows(&self, rows: &mut PlasticRows<'_>, dt: f64) -> usize {
         if let Some(line) = self.line {
             // As cheap as to look first.
-            return return_batch(line, rows.of_line());
+            let PlasticRows {
+                stress_zz: zz,
+                stress_zr: zr,
+                stress_rr: rr,
+                stress_phiphi,
+                strain,
+                increment,
+                work,
+                ..
+            } = rows;
+            return closed::return_batch(line, zz, zr, rr, stress_phiphi, strain, increment, work);
         }
         let n = rows.strain.len();
         let mut count = 0;
@@ -67,7 +77,17 @@ impl Plasticity {
                 batch.increment.fill(0.0);
                 batch.work.fill(0.0);
             } else if let Some(law) = &self.polyline {
-                count += polyline::return_batch(law, batch.of_line());
+                let PlasticRows {
+                    stress_zz: zz,
+                    stress_zr: zr,
+                    stress_rr: rr,
+                    stress_phiphi,
+                    strain,
+                    increment,
+                    work,
+                    ..
+                } = batch;
+                count += polyline::return_batch(law, zz, zr, rr, stress_phiphi, strain, increment, work);
             } else if let Some(law) = &self.power {
                 count += self.return_power(law, &mut batch, dt);
             } else {
@@ -184,16 +204,6 @@ impl PlasticRows<'_> {
             temperature: self.temperature.get_mut(cells.clone()).unwrap_or_default(),
             increment: &mut self.increment[cells.clone()],
             work: &mut self.work[cells],
-        }
-    }
-
-    /// What laws on a straight line change.
-    fn of_line(&mut self) -> LineCells<'_> {
-        LineCells {
-            stress: [self.stress_zz, self.stress_zr, self.stress_rr, self.stress_phiphi],
-            strain: self.strain,
-            increment: self.increment,
-            work: self.work,
         }
     }
 }

@@ -28,7 +28,7 @@ pub(crate) struct InStep<'a> {
     pub dt: f64,
     /// What has flowed until mid-step, in padded rows, if it is known.
     pub by_middle: Option<&'a [f64]>,
-    /// Written where cells flow: dε_p/dt, 1/s.
+    /// Written: dε_p/dt, 1/s.
     pub rates: &'a mut [f64],
 }
 
@@ -57,8 +57,11 @@ pub(crate) fn return_block<const N: usize>(
     let temperature = if plasticity.has_heat() { components.next().unwrap_or_default() } else { &mut [] };
     let dt = step.as_ref().map_or(0.0, |step| step.dt);
     let (mut count, mut largest): (usize, f64) = (0, 0.0);
+    let (mut increment, mut work) = ([0.0; BATCH], [0.0; BATCH]);
     for first in (0..N * N).step_by(BATCH) {
-        let (mut increment, mut work) = ([0.0; BATCH], [0.0; BATCH]);
+        if plasticity.wants_guess() {
+            increment.fill(0.0);
+        }
         if let Some(by_middle) = step.as_ref().and_then(|step| step.by_middle) {
             for (row, increments) in increment.chunks_exact_mut(N).enumerate() {
                 let at = Padded::<N>::index(0, (first / N + row) as isize);
@@ -78,6 +81,9 @@ pub(crate) fn return_block<const N: usize>(
         };
         let flowed = plasticity.return_rows(&mut rows, dt);
         if flowed == 0 {
+            if let Some(step) = &mut step {
+                step.rates[first..][..BATCH].fill(0.0);
+            }
             continue;
         }
         count += flowed;
@@ -210,7 +216,6 @@ impl<const N: usize> BlockStep<'_, N> {
         let mut follower = following.of_block(slot);
         follower.count(ctx.time, ctx.dt, ctx.old.block(slot));
         let rates = &mut follower.rates;
-        rates.clear();
         let is_within =
             |temperature: f64| report.mises_squared <= most_mises_at_rest(plasticity, temperature);
         if !has_yielded && is_within(plasticity.reference()) {
@@ -218,20 +223,22 @@ impl<const N: usize> BlockStep<'_, N> {
                 new[stays.clone()].copy_from_slice(&ctx.old.block(slot)[stays]);
             }
             report.plastic.temperature = plasticity.reference();
-            return;
+            return rates.clear();
         }
         new[stays.clone()].copy_from_slice(&ctx.old.block(slot)[stays]);
-        measure_flow::<N>(new, &mut report.plastic);
-        if is_within(report.plastic.temperature) {
-            return;
+        if plasticity.has_heat() || is_within(plasticity.reference()) {
+            measure_flow::<N>(new, &mut report.plastic);
+            if is_within(report.plastic.temperature) {
+                return rates.clear();
+            }
         }
         let has_guess = scratch.flow.acts && plasticity.wants_guess();
         let by_middle = has_guess.then_some(&scratch.flow.increment[..]);
         let step = InStep { dt: ctx.dt, by_middle, rates: &mut rates.cells };
         report.plastic.returned =
             return_block(plasticity, ctx.mesh, id, new, Some(step), &mut report.plastic);
-        if report.plastic.returned > 0 {
-            rates.is_zero = false;
+        rates.is_zero = report.plastic.returned == 0;
+        if !rates.is_zero {
             model.untouched.yields(slot);
             report.mises_squared = largest_mises_of_block::<N>(new);
         }

@@ -80,7 +80,11 @@ fn sweep_tile<const N: usize>(
     let (model, frame) = (ctx.model, cells.frame());
     let widths = ctx.mesh.widths(ctx.mesh.first_of(tile).level);
     let flow = model.plasticity.as_ref().filter(|_| has_flowed);
-    let flow = flow.map(|plasticity| FlowOfStrips::new(plasticity, cells.component(PLASTIC_STRAIN), ctx.dt));
+    let flows = |slot: usize| model.following.as_ref().is_some_and(|own| !own.of_block(slot).rates.is_zero);
+    let mut flow = flow.map(|plasticity| {
+        let strain = cells.component(PLASTIC_STRAIN);
+        FlowOfStrips::new(plasticity, strain, ctx.dt, tile.slots().all(flows))
+    });
     let most_mises = match &model.plasticity {
         Some(plasticity) if !has_flowed => most_mises_at_rest(plasticity, plasticity.reference()),
         _ => f64::INFINITY,
@@ -105,8 +109,8 @@ fn sweep_tile<const N: usize>(
         if is_far {
             ctx.old.look_beyond(tile, strip, strips);
         }
-        if let Some(flow) = &flow {
-            flow.to_mid_step(&mut mid_step);
+        if let Some(flow) = &mut flow {
+            flow.return_strip(&mut mid_step);
         }
         if has_sides {
             let first = 2 * strip as isize - 1;
