@@ -15,7 +15,7 @@ mod weak;
 
 use std::ops::Range;
 
-use mesh::{Blend, whole_lines};
+use mesh::whole_lines;
 
 use crate::Mixture;
 use crate::reconstruction::{Reconstruction, states_at_face};
@@ -85,12 +85,10 @@ struct Chunk {
     /// Both sides' wave curves at the iterate.
     curves: [Curve; 2],
     weak: Weak,
-    /// For what a face keeps.
-    blend: Blend,
 }
 
 impl Chunk {
-    fn zeros() -> Self {
+    const fn zeros() -> Self {
         const ZERO: Lane = [0.0; LANES];
         const SIDES: Sides = Sides {
             rho: ZERO,
@@ -117,7 +115,6 @@ impl Chunk {
             done: ZERO,
             curves: [Curve::ZERO; 2],
             weak: Weak::ZERO,
-            blend: Blend::new(),
         }
     }
 }
@@ -285,7 +282,7 @@ fn solve<const WITH_GAS: bool, const B: bool>(
     if weak > 0 {
         weak_fluxes!(true);
         for k in 0..n.min(LANES) {
-            solved[k] = chunk.blend.choose(chunk.weak.is_weak[k] != 0.0, 1.0, solved[k]);
+            solved[k] = if chunk.weak.is_weak[k] != 0.0 { 1.0 } else { solved[k] };
         }
     }
     count(solved, n) == n
@@ -308,8 +305,7 @@ fn iterate(n: usize, chunk: &mut Chunk) {
 /// one that stays above Newton's in ln P, which ends above it.
 #[inline(always)]
 fn advance(n: usize, chunk: &mut Chunk) {
-    let Chunk { left, right, pi, p, shifted, f_left, f_right, done, curves, blend, .. } = chunk;
-    let ([on_left, on_right], blend) = (curves, *blend);
+    let Chunk { left, right, pi, p, shifted, f_left, f_right, done, curves: [on_left, on_right], .. } = chunk;
     curve(n, left, p, shifted, on_left);
     curve(n, right, p, shifted, on_right);
     for k in 0..n.min(LANES) {
@@ -341,12 +337,12 @@ fn advance(n: usize, chunk: &mut Chunk) {
         let smaller = if p_new.abs() < shifted_new { p_new.abs() } else { shifted_new };
         let converged = (size <= LAST_STEP) | (size * size * size * shifted_new <= LEFT_OVER * smaller);
         let active = done[k] == 0.0;
-        p[k] = blend.choose(active, p_new, p_old);
-        shifted[k] = blend.choose(active, shifted_new, shifted_old);
-        f_left[k] = blend.choose(active, moved(f_l, slope_l, curvature_l), f_left[k]);
-        f_right[k] = blend.choose(active, moved(f_r, slope_r, curvature_r), f_right[k]);
+        p[k] = if active { p_new } else { p_old };
+        shifted[k] = if active { shifted_new } else { shifted_old };
+        f_left[k] = if active { moved(f_l, slope_l, curvature_l) } else { f_left[k] };
+        f_right[k] = if active { moved(f_r, slope_r, curvature_r) } else { f_right[k] };
         let ended = if converged { 1.0 } else { 0.0 };
-        done[k] = blend.choose(active, ended, done[k]);
+        done[k] = if active { ended } else { done[k] };
     }
 }
 

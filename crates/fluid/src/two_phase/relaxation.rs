@@ -1,10 +1,8 @@
 //! Pressure relaxation: both phases of a mixed cell come to one pressure at the end of a step.
 
-use std::hint::select_unpredictable;
-
 use super::closure::{Compression, LOWEST, PURE, bounded};
 use crate::Mixture;
-use mesh::{Blend, exp_and_less_one, ln_of};
+use mesh::{exp_and_less_one, ln_of};
 
 /// Volume change of a cell per step below which its volumes are relaxed by the linear rule.
 const LINEAR_BELOW: f64 = 1e-3;
@@ -69,8 +67,7 @@ pub(crate) fn relaxed_fractions<const LANES: usize>(
         relaxation.gas[k] = if is_done { 0.5 } else { gas_left };
         relaxation.liquid[k] = if is_done { 0.5 } else { liquid_left };
         // Not more than is there: what covolumes take of next to nothing means nothing.
-        let bound =
-            |bound: f64, volume: f64| select_unpredictable(is_done, 0.0, lesser(bound, MOST_BOUND * volume));
+        let bound = |bound: f64, volume: f64| if is_done { 0.0 } else { lesser(bound, MOST_BOUND * volume) };
         relaxation.bound[0][k] = bound(cells.bound[0][k], gas_left);
         relaxation.bound[1][k] = bound(cells.bound[1][k], liquid_left);
         relaxation.p[k] = p;
@@ -131,7 +128,7 @@ impl<const LANES: usize> Relaxation<LANES> {
         let [bound_g, bound_l] = self.bound;
         let (over_g, over_l) = (1.0 / g.gamma, 1.0 / l.gamma);
         let one = [1.0; LANES];
-        let (mut softness, blend) = (one, Blend::new());
+        let mut softness = one;
         for k in 0..LANES {
             softness[k] = (self.p[k] + g.pi).max(LOWEST) / (self.p[k] + l.pi).max(LOWEST);
         }
@@ -160,7 +157,7 @@ impl<const LANES: usize> Relaxation<LANES> {
                 let was_done = self.done[k] != 0.0;
                 let is_done = was_done | converged;
                 self.fraction[k] =
-                    blend.choose(converged & !was_done, relaxed.clamp(0.0, 1.0), self.fraction[k]);
+                    if converged & !was_done { relaxed.clamp(0.0, 1.0) } else { self.fraction[k] };
                 self.done[k] = if is_done { 1.0 } else { 0.0 };
                 ended += u64::from(is_done);
             }

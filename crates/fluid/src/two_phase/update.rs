@@ -2,8 +2,6 @@
 
 use std::hint::select_unpredictable;
 
-use mesh::Blend;
-
 use super::closure::{bounded, is_bound, phase_densities};
 use super::reconstruction::CellRule;
 use super::relaxation::{Advected, relaxed_fractions};
@@ -84,7 +82,7 @@ pub(crate) struct BoundedGas {
 pub(crate) fn bound_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> BoundedGas {
     // Without an early end these are a few operations on whole lines.
     let (mut is_left, mut has_missing) = (false, false);
-    let (mut clipped, mut removed, blend) = (0, 0, Blend::new());
+    let (mut clipped, mut removed) = (0, 0);
     for value in phi.iter_mut() {
         let kept = without_trace(*value);
         let within = bounded(kept);
@@ -94,7 +92,7 @@ pub(crate) fn bound_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> Bo
         is_left |= within != 0.0;
     }
     for (value, density) in gas.iter_mut().zip(density) {
-        let kept = without_trace(blend.loaded(*value));
+        let kept = without_trace(*value);
         removed += u64::from(kept != *value);
         has_missing |= missing_mass(*density, kept) != [0.0; 2];
         *value = kept;
@@ -108,9 +106,9 @@ pub(crate) fn bound_gas(phi: &mut [f64], density: &[f64], gas: &mut [f64]) -> Bo
 /// - returns: whether any is left, and how many were set to zero.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn remove_traces(phi: &mut [f64]) -> (bool, u64) {
-    let (mut is_left, mut removed, blend) = (false, 0, Blend::new());
+    let (mut is_left, mut removed) = (false, 0);
     for value in phi {
-        let kept = without_trace(blend.loaded(*value));
+        let kept = without_trace(*value);
         removed += u64::from(kept != *value);
         *value = kept;
         is_left |= kept != 0.0;

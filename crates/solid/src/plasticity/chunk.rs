@@ -1,7 +1,5 @@
 //! Cells whose Johnson–Cook returns are solved together.
 
-use mesh::Blend;
-
 use super::powers::NEAR;
 
 type Lane<const L: usize> = [f64; L];
@@ -30,33 +28,27 @@ pub(super) struct Chunk<const L: usize> {
     pub next_left: Lane<L>,
     /// 0 while it is solved, 1 solved, 2 elastic, 3 left to the bracketed solver.
     pub done: Lane<L>,
-    /// For what a cell keeps.
-    pub blend: Blend,
 }
 
 impl<const L: usize> Chunk<L> {
-    #[inline(always)]
-    pub fn zeros() -> Self {
-        Self {
-            q: [0.0; L],
-            strain: [0.0; L],
-            rise: [0.0; L],
-            static_stress: [0.0; L],
-            base: [0.0; L],
-            base_strain: [0.0; L],
-            power: [0.0; L],
-            base_rise: [0.0; L],
-            lost: [0.0; L],
-            increment: [0.0; L],
-            log: [0.0; L],
-            left: [0.0; L],
-            step: [0.0; L],
-            verdict: [0.0; L],
-            next_left: [0.0; L],
-            done: [0.0; L],
-            blend: Blend::new(),
-        }
-    }
+    pub const ZERO: Self = Self {
+        q: [0.0; L],
+        strain: [0.0; L],
+        rise: [0.0; L],
+        static_stress: [0.0; L],
+        base: [0.0; L],
+        base_strain: [0.0; L],
+        power: [0.0; L],
+        base_rise: [0.0; L],
+        lost: [0.0; L],
+        increment: [0.0; L],
+        log: [0.0; L],
+        left: [0.0; L],
+        step: [0.0; L],
+        verdict: [0.0; L],
+        next_left: [0.0; L],
+        done: [0.0; L],
+    };
 
     /// Whether the power of a cell's strain can be made of that which is known.
     #[inline(always)]

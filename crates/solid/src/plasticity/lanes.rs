@@ -144,7 +144,7 @@ impl PowerLaw {
             let is_rated = (self.rate_coefficient > 0.0) & (alone > slowest) & (rated > 0.0);
             let guess = lower(if is_rated { rated } else { alone }, q / self.three_mu);
             let own = chunk.increment[k];
-            chunk.increment[k] = chunk.blend.choose(!(own > 0.0), guess, own);
+            chunk.increment[k] = if own > 0.0 { own } else { guess };
         }
     }
 
@@ -156,7 +156,7 @@ impl PowerLaw {
             let increment = chunk.increment[k];
             let small = !(increment > SMALLEST);
             let open = chunk.done[k] == 0.0;
-            chunk.done[k] = chunk.blend.choose(open & small, 3.0, chunk.done[k]);
+            chunk.done[k] = if open & small { 3.0 } else { chunk.done[k] };
             chunk.log[k] = ln(upper(increment, SMALLEST));
         }
         for _ in 0..MOST_STEPS {
@@ -256,9 +256,9 @@ impl PowerLaw {
         let strain = chunk.strain[k] + x;
         let far = self.hardening * exp(self.exponent * ln(strain));
         let is_near = chunk.is_near(k);
-        chunk.base[k] = chunk.blend.choose(!is_near, x, base);
-        chunk.base_strain[k] = chunk.blend.choose(!is_near, strain, base_strain);
-        chunk.power[k] = chunk.blend.choose(!is_near, far, chunk.power[k]);
+        chunk.base[k] = if is_near { base } else { x };
+        chunk.base_strain[k] = if is_near { base_strain } else { strain };
+        chunk.power[k] = if is_near { chunk.power[k] } else { far };
         if is_near { near } else { far }
     }
 
@@ -281,8 +281,8 @@ impl PowerLaw {
         }
         let far = self.lost::<M1>(rise * self.per_kelvin);
         let is_near = (rise - base).abs() < self.near_in_heat * base;
-        chunk.base_rise[k] = chunk.blend.choose(!is_near, rise, base);
-        chunk.lost[k] = chunk.blend.choose(!is_near, far, chunk.lost[k]);
+        chunk.base_rise[k] = if is_near { base } else { rise };
+        chunk.lost[k] = if is_near { chunk.lost[k] } else { far };
         if is_near { near } else { far }
     }
 
@@ -306,11 +306,10 @@ impl PowerLaw {
             let is_lost = !(next > SMALLEST) | !(self.three_mu * next <= q);
             let verdict = if is_lost { 3.0 } else { chunk.verdict[k] };
             let verdict = if verdict == 1.5 { 1.0 } else { verdict };
-            let choose = |new: f64, old: f64| chunk.blend.choose(is_open, new, old);
-            let (done, log) = (choose(verdict, chunk.done[k]), choose(chunk.log[k] + step, chunk.log[k]));
-            let (next, left) = (choose(next, x), choose(lower(chunk.next_left[k], q), chunk.left[k]));
-            (chunk.done[k], chunk.log[k]) = (done, log);
-            (chunk.increment[k], chunk.left[k]) = (next, left);
+            chunk.done[k] = if is_open { verdict } else { chunk.done[k] };
+            chunk.increment[k] = if is_open { next } else { x };
+            chunk.log[k] = if is_open { chunk.log[k] + step } else { chunk.log[k] };
+            chunk.left[k] = if is_open { lower(chunk.next_left[k], q) } else { chunk.left[k] };
         }
     }
 
@@ -319,7 +318,7 @@ impl PowerLaw {
     fn chunk<const L: usize, const M1: bool>(&self, cells: &mut LaneCells<'_>, first: usize, dt: f64) {
         const { assert!(L > 0) };
         let n = L.min(cells.von_mises.len() - first);
-        let mut chunk = Chunk::<L>::zeros();
+        let mut chunk = Chunk::<L>::ZERO;
         chunk.q[..n].copy_from_slice(&cells.von_mises[first..][..n]);
         chunk.strain[..n].copy_from_slice(&cells.strain[first..][..n]);
         chunk.increment[..n].copy_from_slice(&cells.increment[first..][..n]);

@@ -105,7 +105,7 @@ pub(super) fn fluxes<const WITH_GAS: bool, const B: bool, const OTHERS: bool>(
     phi: &mut [f64],
     compression: &mut Lane,
 ) {
-    let Chunk { left, right, weak: Weak { is_weak, p, u }, blend, .. } = chunk;
+    let Chunk { left, right, weak: Weak { is_weak, p, u }, .. } = chunk;
     for k in 0..n.min(LANES) {
         let (p, u) = (p[k], u[k]);
         let from_left = u >= 0.0;
@@ -134,8 +134,8 @@ pub(super) fn fluxes<const WITH_GAS: bool, const B: bool, const OTHERS: bool>(
         let rho = rho * compressed;
         let [b1, b2] = mixture.free_betas::<B>(phi_side, rho, rho * gas);
         let total = b1 * p + b2 + 0.5 * rho * (u * u + v * v);
-        let counts = is_weak[k] != 0.0;
-        let keep = |own: f64, other: f64| if OTHERS { blend.choose(counts, own, other) } else { own };
+        let counts = !OTHERS || is_weak[k] != 0.0;
+        let keep = |own: f64, other: f64| if counts { own } else { other };
         mass[k] = keep(rho * u, mass[k]);
         velocity[k] = keep(u, velocity[k]);
         pressure[k] = keep(p, pressure[k]);
