@@ -28,6 +28,38 @@ struct Segment {
     modulus: f64,
     /// 3μ ε_p + Y where it begins, Pa: returns end on it where q_trial + 3μ ε_p is no less.
     reach: f64,
+    /// 1/(3μ + H), 1/Pa.
+    compliance: f64,
+}
+
+/// The segments that cells are on.
+struct On<const L: usize> {
+    strain: [f64; L],
+    stress: [f64; L],
+    modulus: [f64; L],
+    compliance: [f64; L],
+}
+
+impl<const L: usize> On<L> {
+    #[inline(always)]
+    fn all(segment: &Segment) -> Self {
+        let Segment { strain, stress, modulus, compliance, .. } = *segment;
+        Self { strain: [strain; L], stress: [stress; L], modulus: [modulus; L], compliance: [compliance; L] }
+    }
+
+    #[inline(always)]
+    fn go_on(&mut self, k: usize, does: bool, to: &Segment, blend: Blend) {
+        self.strain[k] = blend.choose(does, to.strain, self.strain[k]);
+        self.stress[k] = blend.choose(does, to.stress, self.stress[k]);
+        self.modulus[k] = blend.choose(does, to.modulus, self.modulus[k]);
+        self.compliance[k] = blend.choose(does, to.compliance, self.compliance[k]);
+    }
+
+    /// Y of a cell at a plastic strain, Pa.
+    #[inline(always)]
+    fn stress_at(&self, k: usize, strain: f64) -> f64 {
+        self.stress[k] + self.modulus[k] * (strain - self.strain[k])
+    }
 }
 
 /// What a return of cells gives.
@@ -55,6 +87,7 @@ impl Polyline {
             stress,
             modulus,
             reach: three_mu * strain + stress,
+            compliance: 1.0 / (three_mu + modulus),
         };
         let slope = |a: [f64; 2], b: [f64; 2]| (b[1] - a[1]) / (b[0] - a[0]);
         let before = segment([0.0, points.first()?[1]], 0.0);
@@ -70,29 +103,23 @@ impl Polyline {
     /// Δε_p = ε − ε_p + (q_trial − 3μ (ε − ε_p) − Y)/(3μ + H).
     #[inline(always)]
     fn returns<const L: usize>(&self, trial: &[f64; L], strain: &[f64; L]) -> Returns<L> {
-        let first = self.segments[0];
-        let (mut own, mut end) = ([[0.0, first.stress, 0.0]; L], [[0.0, first.stress, 0.0]; L]);
-        for Segment { strain: begin, stress, modulus, reach } in &self.segments[1..] {
+        let (mut own, mut end) = (On::<L>::all(&self.segments[0]), On::<L>::all(&self.segments[0]));
+        let blend = Blend::new();
+        for segment in &self.segments[1..] {
             for k in 0..L {
-                let here = [*begin, *stress, *modulus];
-                let (is_own, is_end) = (strain[k] >= *begin, trial[k] + self.three_mu * strain[k] >= *reach);
-                for c in 0..3 {
-                    own[k][c] = if is_own { here[c] } else { own[k][c] };
-                    end[k][c] = if is_end { here[c] } else { end[k][c] };
-                }
+                own.go_on(k, strain[k] >= segment.strain, segment, blend);
+                end.go_on(k, trial[k] + self.three_mu * strain[k] >= segment.reach, segment, blend);
             }
         }
         let (mut yields, mut left_share) = ([false; L], [0.0; L]);
         let (mut von_mises, mut increment) = ([0.0; L], [0.0; L]);
         for k in 0..L {
-            let (q, [begin, stress, modulus]) = (trial[k], own[k]);
-            let bound = stress + modulus * (strain[k] - begin);
-            yields[k] = q > bound;
-            let [begin, stress, modulus] = end[k];
+            let (q, begin) = (trial[k], end.strain[k]);
+            yields[k] = q > own.stress_at(k, strain[k]);
             let from = if begin > strain[k] { begin } else { strain[k] };
-            let (ahead, line) = (from - strain[k], stress + modulus * (from - begin));
-            increment[k] = ahead + (q - self.three_mu * ahead - line) / (self.three_mu + modulus);
-            let line = stress + modulus * (strain[k] + increment[k] - begin);
+            let ahead = from - strain[k];
+            increment[k] = ahead + (q - self.three_mu * ahead - end.stress_at(k, from)) * end.compliance[k];
+            let line = end.stress_at(k, strain[k] + increment[k]);
             // Rounding must not put a stress that just yields outside of where it was.
             von_mises[k] = if line < q { line } else { q };
             left_share[k] = von_mises[k] / q;
