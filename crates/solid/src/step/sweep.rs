@@ -189,10 +189,10 @@ fn r_faces_between(n: usize, s: &Sweep<'_>, cells: [(&Strip, usize); 2], faces: 
     faces_body(n, lower, upper, &s.elasticity, &mut v_n[..n], &mut v_t[..n], &mut s_nn[..n], &mut s_nt[..n]);
 }
 
-#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
 /// The new cells of a row.
 ///
 /// - `j`: its number, counted from the first row of ghosts; `strip`: where it is at mid-step; `faces`: along r, below and above.
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
 #[inline(always)]
 fn update_row_of<const N: usize, const ALONG: usize>(
     j: usize,
