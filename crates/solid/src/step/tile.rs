@@ -1,4 +1,4 @@
-//! The step of a tile, a block or four, in which nothing has a say but waves.
+//! The step of a tile, a block or four, in one sweep: nothing has a say in it but waves and, by some laws, plastic flow.
 
 use mesh::{BlockWork, Side, Tile};
 
@@ -79,9 +79,8 @@ fn sweep_tile<const N: usize>(
     let BlockScratch { cells, inverse_r, sweep: within, .. } = scratch;
     let (model, frame) = (ctx.model, cells.frame());
     let widths = ctx.mesh.widths(ctx.mesh.first_of(tile).level);
-    let flow = model.plasticity.as_ref().filter(|_| has_flowed);
     let flows = |slot: usize| model.following.as_ref().is_some_and(|own| !own.of_block(slot).rates.is_zero);
-    let mut flow = flow.map(|plasticity| {
+    let mut flow = model.plasticity.as_ref().filter(|_| has_flowed).map(|plasticity| {
         let strain = cells.component(PLASTIC_STRAIN);
         FlowOfStrips::new(plasticity, strain, ctx.dt, tile.slots().all(flows))
     });
