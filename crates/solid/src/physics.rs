@@ -55,6 +55,11 @@ impl Solid {
         strength * strength
     }
 
+    /// Whether cells of a block flowed in its last step.
+    pub(crate) fn flows(&self, slot: usize) -> bool {
+        self.following.as_ref().is_some_and(|following| !following.of_block(slot).rates.is_zero)
+    }
+
     /// Whether neither a block nor a neighbour of it has yielded so far.
     pub(crate) fn is_untouched<const N: usize>(&self, mesh: &Mesh<N>, slot: usize) -> bool {
         let around = mesh.tree().neighbours(slot).iter().flat_map(Neighbour::slots);

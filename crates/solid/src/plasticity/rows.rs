@@ -51,17 +51,8 @@ impl Plasticity {
     pub fn return_rows(&self, rows: &mut PlasticRows<'_>, dt: f64) -> usize {
         if let Some(line) = self.line {
             // As cheap as to look first.
-            let PlasticRows {
-                stress_zz: zz,
-                stress_zr: zr,
-                stress_rr: rr,
-                stress_phiphi,
-                strain,
-                increment,
-                work,
-                ..
-            } = rows;
-            return closed::return_batch(line, zz, zr, rr, stress_phiphi, strain, increment, work);
+            let [zz, zr, rr, phiphi, strain, increment, work] = rows.of_line();
+            return closed::return_batch(line, zz, zr, rr, phiphi, strain, increment, work);
         }
         let n = rows.strain.len();
         let mut count = 0;
@@ -77,17 +68,8 @@ impl Plasticity {
                 batch.increment.fill(0.0);
                 batch.work.fill(0.0);
             } else if let Some(law) = &self.polyline {
-                let PlasticRows {
-                    stress_zz: zz,
-                    stress_zr: zr,
-                    stress_rr: rr,
-                    stress_phiphi,
-                    strain,
-                    increment,
-                    work,
-                    ..
-                } = batch;
-                count += polyline::return_batch(law, zz, zr, rr, stress_phiphi, strain, increment, work);
+                let [zz, zr, rr, phiphi, strain, increment, work] = batch.of_line();
+                count += polyline::return_batch(law, zz, zr, rr, phiphi, strain, increment, work);
             } else if let Some(law) = &self.power {
                 count += self.return_power(law, &mut batch, dt);
             } else {
@@ -205,5 +187,11 @@ impl PlasticRows<'_> {
             increment: &mut self.increment[cells.clone()],
             work: &mut self.work[cells],
         }
+    }
+
+    /// What laws on straight lines read and write, in the order of the fields.
+    fn of_line(&mut self) -> [&mut [f64]; 7] {
+        let Self { stress_zz, stress_zr, stress_rr, stress_phiphi, strain, increment, work, .. } = self;
+        [stress_zz, stress_zr, stress_rr, stress_phiphi, strain, increment, work]
     }
 }

@@ -168,8 +168,7 @@ impl<const N: usize> BlockStep<'_, N> {
         let hottest = if is_warm { maximum(&cells.component(TEMPERATURE)[first..][..n]) } else { cold };
         // Most blocks need no look at their cells. What has just flowed goes on with it.
         let most_mises = most_mises_at_rest(plasticity, hottest);
-        let has_flowed =
-            self.ctx.model.following.as_ref().is_some_and(|own| !own.of_block(self.slot).rates.is_zero);
+        let has_flowed = self.ctx.model.flows(self.slot);
         flow.acts = has_flowed || !(largest_mises([&*zz, &*zr, &*rr, &*phiphi]) <= most_mises);
         if !flow.acts {
             return;

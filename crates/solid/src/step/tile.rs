@@ -27,10 +27,7 @@ pub(crate) fn can_be_swept<const N: usize>(ctx: &SolidStep<'_, N>, tile: Tile) -
 /// Whether neither a block nor a neighbour has yielded so far, nor flows.
 fn has_never_flowed<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize) -> bool {
     let model = ctx.model;
-    model
-        .following
-        .as_ref()
-        .is_none_or(|following| model.is_untouched(ctx.mesh, slot) && following.of_block(slot).rates.is_zero)
+    model.plasticity.is_none() || (model.is_untouched(ctx.mesh, slot) && !model.flows(slot))
 }
 
 /// Advances the blocks of a tile that [`can_be_swept`] by one step from `ctx.old`.
@@ -79,10 +76,9 @@ fn sweep_tile<const N: usize>(
     let BlockScratch { cells, inverse_r, sweep: within, .. } = scratch;
     let (model, frame) = (ctx.model, cells.frame());
     let widths = ctx.mesh.widths(ctx.mesh.first_of(tile).level);
-    let flows = |slot: usize| model.following.as_ref().is_some_and(|own| !own.of_block(slot).rates.is_zero);
     let mut flow = model.plasticity.as_ref().filter(|_| has_flowed).map(|plasticity| {
         let strain = cells.component(PLASTIC_STRAIN);
-        FlowOfStrips::new(plasticity, strain, ctx.dt, tile.slots().all(flows))
+        FlowOfStrips::new(plasticity, strain, ctx.dt, tile.slots().all(|slot| model.flows(slot)))
     });
     let most_mises = match &model.plasticity {
         Some(plasticity) if !has_flowed => most_mises_at_rest(plasticity, plasticity.reference()),

@@ -5,7 +5,7 @@ use crate::Mixture;
 /// The law of pure liquid without a covolume.
 #[derive(Clone, Copy)]
 pub(super) struct Liquid {
-    /// As in [`Sides`].
+    /// As in [`super::Sides`].
     pub m: f64,
     pub pi: f64,
 }
