@@ -142,7 +142,7 @@ impl<const N: usize> Model<N> for Solid {
             let mut report = PlasticReport::default();
             let id = adapted.mesh.tree().leaves()[slot];
             report.corrected =
-                return_block(plasticity, &adapted.mesh, id, new.block_mut(slot), None, &mut report);
+                return_block(plasticity, &adapted.mesh, id, new.block_mut(slot), None, &mut report).cells;
             self.plastic.take(&report);
         }
     }

@@ -75,15 +75,33 @@ pub(super) fn return_batch(
     for k in 0..n {
         let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
         let returned = line.return_map(trial, strain[k]);
+        let stress = returned.stress.or(blend, returned.yields, trial);
+        (zz[k], zr[k], rr[k], phiphi[k]) = (stress.zz, stress.zr, stress.rr, stress.phiphi);
         let select = |new: f64, old: f64| blend.choose(returned.yields, new, old);
-        zz[k] = select(returned.stress.zz, trial.zz);
-        zr[k] = select(returned.stress.zr, trial.zr);
-        rr[k] = select(returned.stress.rr, trial.rr);
-        phiphi[k] = select(returned.stress.phiphi, trial.phiphi);
         strain[k] = select(strain[k] + returned.increment, strain[k]);
         increment[k] = select(returned.increment, 0.0);
         work[k] = select(returned.von_mises * returned.increment, 0.0);
         count += u64::from(returned.yields);
     }
     count as usize
+}
+
+/// Their stresses alone; plastic strains below zero count as none.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(super) fn return_stresses(
+    line: Line,
+    zz: &mut [f64],
+    zr: &mut [f64],
+    rr: &mut [f64],
+    phiphi: &mut [f64],
+    strain: &[f64],
+) {
+    let (n, blend) = (strain.len(), Blend::new());
+    let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
+    for k in 0..n {
+        let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
+        let returned = line.return_map(trial, strain[k].max(0.0));
+        let stress = returned.stress.or(blend, returned.yields, trial);
+        (zz[k], zr[k], rr[k], phiphi[k]) = (stress.zz, stress.zr, stress.rr, stress.phiphi);
+    }
 }

@@ -103,22 +103,22 @@ impl Polyline {
     /// Δε_p = ε − ε_p + (q_trial − 3μ (ε − ε_p) − Y)/(3μ + H).
     #[inline(always)]
     fn returns<const L: usize>(&self, trial: &[f64; L], strain: &[f64; L]) -> Returns<L> {
-        let (mut own, mut end) = (On::<L>::all(&self.segments[0]), On::<L>::all(&self.segments[0]));
-        let blend = Blend::new();
+        let (mut end, blend) = (On::<L>::all(&self.segments[0]), Blend::new());
+        let reach: [f64; L] = std::array::from_fn(|k| trial[k] + self.three_mu * strain[k]);
         for segment in &self.segments[1..] {
             for k in 0..L {
-                own.go_on(k, strain[k] >= segment.strain, segment, blend);
-                end.go_on(k, trial[k] + self.three_mu * strain[k] >= segment.reach, segment, blend);
+                end.go_on(k, reach[k] >= segment.reach, segment, blend);
             }
         }
         let (mut yields, mut left_share) = ([false; L], [0.0; L]);
         let (mut von_mises, mut increment) = ([0.0; L], [0.0; L]);
         for k in 0..L {
             let (q, begin) = (trial[k], end.strain[k]);
-            yields[k] = q > own.stress_at(k, strain[k]);
             let from = if begin > strain[k] { begin } else { strain[k] };
             let ahead = from - strain[k];
             increment[k] = ahead + (q - self.three_mu * ahead - end.stress_at(k, from)) * end.compliance[k];
+            // Inside of its surface a cell is on no segment beyond its own, and that one's line or an earlier one's lies above it.
+            yields[k] = increment[k] > 0.0;
             let line = end.stress_at(k, strain[k] + increment[k]);
             // Rounding must not put a stress that just yields outside of where it was.
             von_mises[k] = if line < q { line } else { q };
@@ -132,6 +132,30 @@ impl Polyline {
         let Returns { yields: [yields], von_mises: [left], increment: [increment], .. } =
             self.returns(&[trial], &[strain]);
         yields.then_some((increment, left))
+    }
+
+    /// Returns the stresses of cells with these plastic strains.
+    #[inline(always)]
+    fn return_stresses<const L: usize>(
+        &self,
+        zz: &mut [f64; L],
+        zr: &mut [f64; L],
+        rr: &mut [f64; L],
+        phiphi: &mut [f64; L],
+        strain: &[f64; L],
+    ) -> Returns<L> {
+        let mut von_mises = [0.0; L];
+        for k in 0..L {
+            let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
+            von_mises[k] = trial.von_mises_squared().sqrt();
+        }
+        let (returns, blend) = (self.returns(&von_mises, strain), Blend::new());
+        for k in 0..L {
+            let old = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
+            let new = old.with_deviator_times(returns.left_share[k]).or(blend, returns.yields[k], old);
+            (zz[k], zr[k], rr[k], phiphi[k]) = (new.zz, new.zr, new.rr, new.phiphi);
+        }
+        returns
     }
 }
 
@@ -148,31 +172,67 @@ pub(super) fn return_batch(
     increment: &mut [f64],
     work: &mut [f64],
 ) -> usize {
-    let n = strain.len();
-    let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
-    let (increment, work) = (&mut increment[..n], &mut work[..n]);
-    let (mut count, blend) = (0, Blend::new());
-    for first in (0..n).step_by(LANES) {
-        let m = LANES.min(n - first);
-        let (mut trial, mut before) = ([0.0; LANES], [0.0; LANES]);
-        for k in 0..m {
-            let at = first + k;
-            let stress = Stress { zz: zz[at], zr: zr[at], rr: rr[at], phiphi: phiphi[at] };
-            (trial[k], before[k]) = (stress.von_mises_squared().sqrt(), strain[at]);
-        }
-        let returns = law.returns(&trial, &before);
-        for k in 0..m {
-            let at = first + k;
-            let old = Stress { zz: zz[at], zr: zr[at], rr: rr[at], phiphi: phiphi[at] };
-            let new = old.with_deviator_times(returns.left_share[k]);
-            let select = |new: f64, old: f64| blend.choose(returns.yields[k], new, old);
-            (zz[at], zr[at]) = (select(new.zz, old.zz), select(new.zr, old.zr));
-            (rr[at], phiphi[at]) = (select(new.rr, old.rr), select(new.phiphi, old.phiphi));
-            strain[at] = select(before[k] + returns.increment[k], before[k]);
-            increment[at] = select(returns.increment[k], 0.0);
-            work[at] = select(returns.von_mises[k] * returns.increment[k], 0.0);
-            count += u64::from(returns.yields[k]);
-        }
+    let (n, mut count) = (strain.len(), 0);
+    let whole = n - n % LANES;
+    for at in (0..whole).step_by(LANES) {
+        count += return_part::<LANES>(law, at, zz, zr, rr, phiphi, strain, increment, work);
+    }
+    for at in whole..n {
+        count += return_part::<1>(law, at, zz, zr, rr, phiphi, strain, increment, work);
     }
     count as usize
+}
+
+/// The returns of so many cells from number `at` on.
+#[expect(clippy::too_many_arguments, reason = "slices in a struct lose noalias; the fluid has measured it")]
+#[inline(always)]
+fn return_part<const L: usize>(
+    law: &Polyline,
+    at: usize,
+    zz: &mut [f64],
+    zr: &mut [f64],
+    rr: &mut [f64],
+    phiphi: &mut [f64],
+    strain: &mut [f64],
+    increment: &mut [f64],
+    work: &mut [f64],
+) -> u64 {
+    let [strain, increment, work] = [strain, increment, work].map(|row| part::<L>(row, at));
+    let returns = law.return_stresses(part(zz, at), part(zr, at), part(rr, at), part(phiphi, at), strain);
+    let (mut count, blend) = (0, Blend::new());
+    for k in 0..L {
+        let select = |new: f64, old: f64| blend.choose(returns.yields[k], new, old);
+        strain[k] = select(strain[k] + returns.increment[k], strain[k]);
+        increment[k] = select(returns.increment[k], 0.0);
+        work[k] = select(returns.von_mises[k] * returns.increment[k], 0.0);
+        count += u64::from(returns.yields[k]);
+    }
+    count
+}
+
+/// Their stresses alone; plastic strains below zero count as none.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(super) fn return_stresses(
+    law: &Polyline,
+    zz: &mut [f64],
+    zr: &mut [f64],
+    rr: &mut [f64],
+    phiphi: &mut [f64],
+    strain: &[f64],
+) {
+    let (whole, rest) = strain.as_chunks::<LANES>();
+    for (number, strain) in whole.iter().enumerate() {
+        let (at, strain) = (number * LANES, strain.map(|strain| strain.max(0.0)));
+        law.return_stresses(part(zz, at), part(zr, at), part(rr, at), part(phiphi, at), &strain);
+    }
+    for (number, strain) in rest.iter().enumerate() {
+        let (at, strain) = (whole.len() * LANES + number, [strain.max(0.0)]);
+        law.return_stresses(part(zz, at), part(zr, at), part(rr, at), part(phiphi, at), &strain);
+    }
+}
+
+/// So many cells of a row from number `at` on.
+#[inline(always)]
+fn part<const L: usize>(row: &mut [f64], at: usize) -> &mut [f64; L] {
+    row[at..].first_chunk_mut().expect("rows of unequal length panic")
 }

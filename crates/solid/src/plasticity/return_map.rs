@@ -80,6 +80,11 @@ impl Plasticity {
         self.power.is_some()
     }
 
+    /// Whether it has neither rate nor heat and is straight between points: stresses and plastic strain are all that a return needs.
+    pub(crate) fn is_on_lines(&self) -> bool {
+        self.line.is_some() || self.polyline.is_some()
+    }
+
     /// χ/(ρ c_p), K m³/J.
     pub(super) fn heating(&self) -> f64 {
         self.heating

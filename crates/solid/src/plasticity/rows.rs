@@ -51,7 +51,7 @@ impl Plasticity {
     pub fn return_rows(&self, rows: &mut PlasticRows<'_>, dt: f64) -> usize {
         if let Some(line) = self.line {
             // As cheap as to look first.
-            let [zz, zr, rr, phiphi, strain, increment, work] = rows.of_line();
+            let [zz, zr, rr, phiphi, strain, increment, work] = rows.all_but_temperature();
             return closed::return_batch(line, zz, zr, rr, phiphi, strain, increment, work);
         }
         let n = rows.strain.len();
@@ -68,7 +68,7 @@ impl Plasticity {
                 batch.increment.fill(0.0);
                 batch.work.fill(0.0);
             } else if let Some(law) = &self.polyline {
-                let [zz, zr, rr, phiphi, strain, increment, work] = batch.of_line();
+                let [zz, zr, rr, phiphi, strain, increment, work] = batch.all_but_temperature();
                 count += polyline::return_batch(law, zz, zr, rr, phiphi, strain, increment, work);
             } else if let Some(law) = &self.power {
                 count += self.return_power(law, &mut batch, dt);
@@ -78,6 +78,20 @@ impl Plasticity {
             }
         }
         count
+    }
+
+    /// The radial return of stresses alone, by laws on straight lines: others need a time, or heat.
+    ///
+    /// - `stress`: σ_zz, σ_zr, σ_rr, σ_φφ, Pa, trial stresses before. `strain`: plastic strains at the beginning, less than none counts as none.
+    /// - returns: `false` where the law is no such one, nothing happens then.
+    /// - tested by: equality with [`Plasticity::return_rows`].
+    pub(crate) fn return_stresses(&self, [zz, zr, rr, phiphi]: [&mut [f64]; 4], strain: &[f64]) -> bool {
+        match (&self.line, &self.polyline) {
+            (Some(line), _) => closed::return_stresses(*line, zz, zr, rr, phiphi, strain),
+            (None, Some(law)) => polyline::return_stresses(law, zz, zr, rr, phiphi, strain),
+            (None, None) => return false,
+        }
+        true
     }
 
     /// A batch by the Johnson–Cook law.
@@ -158,11 +172,9 @@ fn end(heating: f64, batch: &mut PlasticRows<'_>, von_mises: &[f64], left: &[f64
         let flows = increment[k] > 0.0;
         let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
         let stress = trial.with_deviator_times(left[k] / von_mises[k]);
+        let stress = stress.or(blend, flows, trial);
+        (zz[k], zr[k], rr[k], phiphi[k]) = (stress.zz, stress.zr, stress.rr, stress.phiphi);
         let select = |new: f64, old: f64| blend.choose(flows, new, old);
-        zz[k] = select(stress.zz, trial.zz);
-        zr[k] = select(stress.zr, trial.zr);
-        rr[k] = select(stress.rr, trial.rr);
-        phiphi[k] = select(stress.phiphi, trial.phiphi);
         strain[k] = select(strain[k] + increment[k], strain[k]);
         work[k] = select(left[k] * increment[k], 0.0);
         solved += u64::from(flows);
@@ -189,8 +201,8 @@ impl PlasticRows<'_> {
         }
     }
 
-    /// What laws on straight lines read and write, in the order of the fields.
-    fn of_line(&mut self) -> [&mut [f64]; 7] {
+    /// All but the temperature, in the order of the fields.
+    pub(crate) fn all_but_temperature(&mut self) -> [&mut [f64]; 7] {
         let Self { stress_zz, stress_zr, stress_rr, stress_phiphi, strain, increment, work, .. } = self;
         [stress_zz, stress_zr, stress_rr, stress_phiphi, strain, increment, work]
     }

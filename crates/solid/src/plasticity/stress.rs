@@ -1,5 +1,7 @@
 //! Axisymmetric stress, its deviator, and the elastic energy in it.
 
+use mesh::Blend;
+
 use crate::material::yield_criterion::von_mises_squared;
 
 /// A stress tensor without the components that vanish in axisymmetry; Pa, positive in tension.
@@ -48,6 +50,17 @@ impl Stress {
             zr: factor * self.zr,
             rr: mean + factor * (self.rr - mean),
             phiphi: mean + factor * (self.phiphi - mean),
+        }
+    }
+
+    /// This one, or another; without a branch.
+    #[inline(always)]
+    pub(super) fn or(self, blend: Blend, is_this: bool, other: Self) -> Self {
+        Self {
+            zz: blend.choose(is_this, self.zz, other.zz),
+            zr: blend.choose(is_this, self.zr, other.zr),
+            rr: blend.choose(is_this, self.rr, other.rr),
+            phiphi: blend.choose(is_this, self.phiphi, other.phiphi),
         }
     }
 

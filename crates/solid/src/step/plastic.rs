@@ -15,12 +15,14 @@ use crate::plasticity::{PlasticRows, Plasticity};
 use crate::state::component::COUNT;
 use crate::step::flow_of_strips::most_mises_at_rest;
 use crate::step::mises::largest_mises;
-use crate::step::report::{BlockReport, PlasticReport, largest_mises_of_block};
+use crate::step::report::{BlockReport, PlasticReport};
 
 /// Cells that are returned together: whole rows of a block.
 const BATCH: usize = 64;
 /// The most rows that are.
 const MOST_ROWS: usize = 8;
+/// Cells that are looked at in a SIMD batch.
+const LANES: usize = 8;
 
 /// What a return in a step of time has besides the cells.
 pub(crate) struct InStep<'a> {
@@ -32,6 +34,14 @@ pub(crate) struct InStep<'a> {
     pub rates: &'a mut [f64],
 }
 
+/// What a return of a block tells besides its [`PlasticReport`].
+pub(crate) struct BlockReturn {
+    /// How many cells flowed.
+    pub cells: u32,
+    /// The largest squared von Mises stress after it, Pa²; infinite if one is not a number.
+    pub mises_squared: f64,
+}
+
 /// Returns the cells of a block onto their yield surfaces.
 ///
 /// [`Plasticity::return_rows`]; what flows is counted.
@@ -40,7 +50,7 @@ pub(crate) struct InStep<'a> {
 ///   correction along a level jump or a change of the grid: a law without rate returns all the same; one with rate does
 ///   not flow in no time, so what such a change has added stays as overstress and relaxes in the next step. (Another return
 ///   over Δt would let the overstress that a rate holds relax twice.)
-/// - returns: how many cells flowed; `report` gets all but the counts.
+/// - returns: `report` gets all but the counts.
 /// - tested by: the change of the elastic energy; ledgers of adaptive runs.
 pub(crate) fn return_block<const N: usize>(
     plasticity: &Plasticity,
@@ -49,15 +59,15 @@ pub(crate) fn return_block<const N: usize>(
     block: &mut [f64],
     mut step: Option<InStep<'_>>,
     report: &mut PlasticReport,
-) -> u32 {
+) -> BlockReturn {
     const { assert!(BATCH.is_multiple_of(N) && BATCH / N <= MOST_ROWS) };
     let mut components = block.chunks_exact_mut(N * N);
     let mut next = || components.next().expect("fields of what can yield have plastic strain");
     let [_, _, zz, zr, rr, phiphi, strain] = std::array::from_fn(|_| next());
     let temperature = if plasticity.has_heat() { components.next().unwrap_or_default() } else { &mut [] };
     let dt = step.as_ref().map_or(0.0, |step| step.dt);
-    let (mut count, mut largest): (usize, f64) = (0, 0.0);
-    let (mut increment, mut work) = ([0.0; BATCH], [0.0; BATCH]);
+    let (mut count, mut totals) = (0, Totals::default());
+    let (mut increment, mut work, mut no_rates) = ([0.0; BATCH], [0.0; BATCH], [0.0; BATCH]);
     for first in (0..N * N).step_by(BATCH) {
         if plasticity.wants_guess() {
             increment.fill(0.0);
@@ -79,57 +89,71 @@ pub(crate) fn return_block<const N: usize>(
             increment: &mut increment,
             work: &mut work,
         };
-        let flowed = plasticity.return_rows(&mut rows, dt);
-        if flowed == 0 {
-            if let Some(step) = &mut step {
-                step.rates[first..][..BATCH].fill(0.0);
-            }
-            continue;
-        }
-        count += flowed;
-        let (sums, most) = totals::<N>(&increment, &work, 1.5 * plasticity.mu());
-        largest = largest.max(most);
-        for (row, [work, released]) in sums.into_iter().take(BATCH / N).enumerate() {
-            let volume = mesh.volume(id, first / N + row);
-            report.work += volume * work;
-            report.released += volume * released;
-        }
-        if let Some(step) = &mut step {
-            let per_second = 1.0 / step.dt;
-            let rates = step.rates[first..].iter_mut().zip(&increment);
-            rates.for_each(|(rate, increment)| *rate = increment * per_second);
-        }
+        count += plasticity.return_rows(&mut rows, dt);
+        let (per_second, rates) = match &mut step {
+            Some(step) => (1.0 / step.dt, &mut step.rates[first..][..BATCH]),
+            None => (0.0, &mut no_rates[..]),
+        };
+        let volumes: [f64; MOST_ROWS] =
+            std::array::from_fn(|row| if row < BATCH / N { mesh.volume(id, first / N + row) } else { 0.0 });
+        tally::<N>(rows.all_but_temperature(), volumes, per_second, rates, &mut totals);
     }
+    let [work, squares] = [totals.work, totals.squares].map(|lanes| lanes.iter().sum::<f64>());
+    report.work += work;
+    report.released += work + 1.5 * plasticity.mu() * squares;
     if count > 0 && dt > 0.0 {
-        report.rate = report.rate.max(largest / dt);
+        report.rate = report.rate.max(maximum(&totals.increment) / dt);
     }
-    measure_flow::<N>(block, report);
+    (report.strain, report.temperature) = (maximum(&totals.strain), maximum(temperature));
     // No block has that many cells.
-    u32::try_from(count).unwrap_or(u32::MAX)
+    let cells = u32::try_from(count).unwrap_or(u32::MAX);
+    BlockReturn { cells, mises_squared: maximum(&totals.mises_squared) }
 }
 
-/// Plastic work and released energy summed over the rows of a batch, J/m³, and the largest increment.
+/// Of a block, by SIMD lanes.
+#[derive(Clone, Copy, Default)]
+struct Totals {
+    /// Plastic work, J, and squares of the increments, m³, summed over the volume.
+    work: [f64; LANES],
+    squares: [f64; LANES],
+    /// The largest.
+    increment: [f64; LANES],
+    strain: [f64; LANES],
+    mises_squared: [f64; LANES],
+}
+
+/// Looks once at all that a return has made of some rows of cells.
+///
+/// - `volumes`: of a cell in each row, m³. `rates`: written, the increments times `per_second`.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
-fn totals<const N: usize>(
-    increment: &[f64; BATCH],
-    work: &[f64; BATCH],
-    three_halves_mu: f64,
-) -> ([[f64; 2]; MOST_ROWS], f64) {
-    const LANES: usize = 8;
-    let mut sums = [[0.0; 2]; MOST_ROWS];
-    let rows = increment.chunks_exact(N).zip(work.chunks_exact(N));
-    for (sum, (increment, work)) in sums.iter_mut().zip(rows) {
-        let (mut works, mut losses) = ([0.0; LANES], [0.0; LANES]);
-        for (increment, work) in increment.chunks_exact(LANES).zip(work.chunks_exact(LANES)) {
+fn tally<const N: usize>(
+    cells: [&mut [f64]; 7],
+    volumes: [f64; MOST_ROWS],
+    per_second: f64,
+    rates: &mut [f64],
+    totals: &mut Totals,
+) {
+    let [zz, zr, rr, phiphi, strain, increment, work] = cells.map(|row| row.as_chunks::<LANES>().0);
+    let rates = rates.as_chunks_mut::<LANES>().0;
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    // In registers.
+    let mut own = *totals;
+    for (row, volume) in volumes.into_iter().take(BATCH / N).enumerate() {
+        for k in row * (N / LANES)..(row + 1) * (N / LANES) {
             for lane in 0..LANES {
-                works[lane] += work[lane];
-                losses[lane] += increment[lane] * increment[lane];
+                let grown = increment[k][lane];
+                rates[k][lane] = grown * per_second;
+                own.work[lane] += volume * work[k][lane];
+                own.squares[lane] += volume * (grown * grown);
+                let mises = von_mises_squared(zz[k][lane], zr[k][lane], rr[k][lane], phiphi[k][lane]);
+                let mises = if mises <= f64::MAX { mises } else { f64::INFINITY };
+                own.mises_squared[lane] = larger(mises, own.mises_squared[lane]);
+                own.increment[lane] = larger(grown, own.increment[lane]);
+                own.strain[lane] = larger(strain[k][lane], own.strain[lane]);
             }
         }
-        let (work, loss): (f64, f64) = (works.iter().sum(), losses.iter().sum());
-        *sum = [work, work + three_halves_mu * loss];
     }
-    (sums, maximum(increment))
+    *totals = own;
 }
 
 /// Takes the largest plastic strain and the highest temperature of a block's cells into its report.
@@ -234,12 +258,11 @@ impl<const N: usize> BlockStep<'_, N> {
         let has_guess = scratch.flow.acts && plasticity.wants_guess();
         let by_middle = has_guess.then_some(&scratch.flow.increment[..]);
         let step = InStep { dt: ctx.dt, by_middle, rates: &mut rates.cells };
-        report.plastic.returned =
-            return_block(plasticity, ctx.mesh, id, new, Some(step), &mut report.plastic);
-        rates.is_zero = report.plastic.returned == 0;
+        let returned = return_block(plasticity, ctx.mesh, id, new, Some(step), &mut report.plastic);
+        (report.plastic.returned, report.mises_squared) = (returned.cells, returned.mises_squared);
+        rates.is_zero = returned.cells == 0;
         if !rates.is_zero {
             model.untouched.yields(slot);
-            report.mises_squared = largest_mises_of_block::<N>(new);
         }
     }
 }
@@ -275,7 +298,7 @@ mod tests {
             let (before, mut report) = (energy(&block), PlasticReport::default());
             let mut rates = vec![0.0; N * N];
             let step = InStep { dt: 1e-6, by_middle: None, rates: &mut rates };
-            let count = return_block(&plasticity, &mesh, id, &mut block, Some(step), &mut report);
+            let count = return_block(&plasticity, &mesh, id, &mut block, Some(step), &mut report).cells;
             assert_eq!(rates.iter().filter(|rate| **rate > 0.0).count(), count as usize);
             let lost = before - energy(&block);
             assert!(count > 20 && (report.released / lost - 1.0).abs() < 1e-12, "{lost} {report:?}");

@@ -86,7 +86,8 @@ pub(crate) fn correct<const N: usize>(
         },
     );
     if let Some(plasticity) = &ctx.model.plasticity {
-        report.plastic.corrected += return_block(plasticity, ctx.mesh, id, new, None, &mut report.plastic);
+        let returned = return_block(plasticity, ctx.mesh, id, new, None, &mut report.plastic);
+        report.plastic.corrected += returned.cells;
     }
     report_stresses(ctx.mesh, slot, new, ctx.model.yield_squared(), report);
 }

@@ -4,12 +4,13 @@
 //! and read them again: more than fits the first-level cache. Here all stages are made of two rows at a time, by the same loops over
 //! cells, so the results are the same to the last bit.
 
+use std::ops::ControlFlow;
+
 use mesh::{Blend, GHOSTS, Tile, fetch_lines, maximum};
 
 use crate::boundary::outer_states::MidStep;
 use crate::reconstruction::predictor::{Predicted, Predictor, predict_from};
 use crate::state::component::COUNT;
-use crate::step::mises::largest_mises;
 use crate::step::rim::Rim;
 use crate::step::rows::{Elasticity, Reconstruction, Rows, faces_body};
 use crate::step::update::{FaceSlices, row, row_mut, split_block, update_row};
@@ -74,21 +75,19 @@ pub(crate) struct Sweep<'a> {
     pub elasticity: Elasticity,
     /// Length of the step, s.
     pub dt: f64,
-    /// The squared von Mises stress at mid-step beyond which the sweep ends, Pa².
-    pub most_mises: f64,
     /// Whether the cells come from far away, so that it is worth while to ask for memory before it is needed.
     pub is_far: bool,
 }
 
 /// What else has a say between the predictor and the faces: gets the number of two rows, the first of which are those of the ghosts below
-/// the cells and of the first cells, and their states at mid-step.
-pub(crate) type Between<'a> = &'a mut dyn FnMut(usize, MidStep<'_>);
+/// the cells and of the first cells, and their states at mid-step; tells whether the sweep goes on.
+pub(crate) type Between<'a> = &'a mut dyn FnMut(usize, MidStep<'_>) -> ControlFlow<()>;
 
 /// Advances the blocks of a tile, `ALONG` along each side.
 ///
 /// - `cells`: the padded cells; `new`: block after block, written.
-/// - returns: the largest squared von Mises stress of each block, infinite if one is not finite; `None` where the one at mid-step is beyond its
-///   bound, nothing that was written counts then.
+/// - returns: the largest squared von Mises stress of each block, infinite if one is not finite; `None` where it did not go
+///   on, nothing that was written counts then.
 /// - tested by: equality with the stages one after the other.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(crate) fn sweep<const N: usize, const ALONG: usize>(
@@ -112,13 +111,9 @@ pub(crate) fn sweep<const N: usize, const ALONG: usize>(
             [j - 1, j].into_iter().for_each(|j| ask_for_row::<N, ALONG>(j, new));
         }
         predict_strip(j * stride, len, cells, s, here);
-        if s.most_mises < f64::INFINITY {
-            let stress = [2, 3, 4, 5].map(|c| &here.half[c][..len]);
-            if !(largest_mises(stress) <= s.most_mises) {
-                return None;
-            }
+        if between(strip, here.mid_step(j * stride, len)).is_break() {
+            return None;
         }
-        between(strip, here.mid_step(j * stride, len));
         z_faces_of(len, s, here);
         r_faces_between(n, s, [(&*here, 0), (&*here, stride)], north);
         rim.take_strip(n, strip, &here.z_faces, &north.0);

@@ -1,5 +1,7 @@
 //! The step of a tile, a block or four, in one sweep: nothing has a say in it but waves and, by some laws, plastic flow.
 
+use std::ops::ControlFlow;
+
 use mesh::{BlockWork, Side, Tile};
 
 use super::sweep::{Sweep, sweep};
@@ -9,15 +11,15 @@ use crate::components::PLASTIC_STRAIN;
 use crate::physics::SolidStep;
 use crate::reconstruction::predictor::Predictor;
 use crate::state::component::COUNT;
-use crate::step::flow_of_strips::{FlowOfStrips, most_mises_at_rest};
+use crate::step::flow_of_strips::FlowOfStrips;
 use crate::step::reflux::register_stars;
 use crate::step::report::{BlockReport, boundary_inflow, yielded_volume};
 
-/// Whether the blocks of a tile can be made in one sweep: no terms, no other medium, and what may flow in them does so by a law whose return
-/// needs neither guess nor heat, or none has flowed so far, in no neighbour either.
+/// Whether the blocks of a tile can be made in one sweep: no terms, no other medium, and what may flow in them does so by a law on straight
+/// lines, or none has flowed so far, in no neighbour either.
 pub(crate) fn can_be_swept<const N: usize>(ctx: &SolidStep<'_, N>, tile: Tile) -> bool {
     let model = ctx.model;
-    let needs_more = model.plasticity.as_ref().is_some_and(|own| own.wants_guess() || own.has_heat());
+    let needs_more = model.plasticity.as_ref().is_some_and(|own| !own.is_on_lines());
     let is_plain = |slot: usize| {
         ctx.interface.first_face(slot).is_none() && (!needs_more || has_never_flowed(ctx, slot))
     };
@@ -76,14 +78,11 @@ fn sweep_tile<const N: usize>(
     let BlockScratch { cells, inverse_r, sweep: within, .. } = scratch;
     let (model, frame) = (ctx.model, cells.frame());
     let widths = ctx.mesh.widths(ctx.mesh.first_of(tile).level);
-    let mut flow = model.plasticity.as_ref().filter(|_| has_flowed).map(|plasticity| {
-        let strain = cells.component(PLASTIC_STRAIN);
-        FlowOfStrips::new(plasticity, strain, ctx.dt, tile.slots().all(|slot| model.flows(slot)))
+    let flow = model.plasticity.as_ref().map(|plasticity| {
+        let strain = has_flowed.then(|| cells.component(PLASTIC_STRAIN));
+        FlowOfStrips::new(plasticity, strain, tile.slots().all(|slot| model.flows(slot)))
     });
-    let most_mises = match &model.plasticity {
-        Some(plasticity) if !has_flowed => most_mises_at_rest(plasticity, plasticity.reference()),
-        _ => f64::INFINITY,
-    };
+    let (is_far, strips) = (ctx.old.is_far(), frame.cells() / 2 + 1);
     let this = Sweep {
         predictor: Predictor {
             limiter: model.setup.limiter,
@@ -95,22 +94,21 @@ fn sweep_tile<const N: usize>(
         dispersion: [0, 1].map(|axis| model.dispersion(widths, ctx.dt, axis)),
         elasticity: model.elasticity,
         dt: ctx.dt,
-        most_mises,
-        is_far: ctx.old.is_far(),
+        is_far,
     };
     let has_sides = Side::ALL.into_iter().any(|side| ctx.mesh.tile_touches(tile, side));
-    let (is_far, strips) = (this.is_far, frame.cells() / 2 + 1);
     let mut between = |strip: usize, mut mid_step: MidStep<'_>| {
         if is_far {
             ctx.old.look_beyond(tile, strip, strips);
         }
-        if let Some(flow) = &mut flow {
-            flow.return_strip(&mut mid_step);
+        if let Some(flow) = &flow {
+            flow.return_strip(&mut mid_step)?;
         }
         if has_sides {
             let first = 2 * strip as isize - 1;
             model.boundaries.impose_outer(ctx, tile, cells, first..first + 2, &mut mid_step);
         }
+        ControlFlow::Continue(())
     };
     if tile.is_one() {
         sweep::<N, 1>(cells.split(), &this, within, new, &mut between)

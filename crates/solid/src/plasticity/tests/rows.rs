@@ -64,6 +64,29 @@ fn rows_return_what_single_cells_return() {
     }
 }
 
+/// Stresses alone are those of whole returns, of strains below zero those of none.
+#[test]
+fn stresses_alone_are_those_of_rows() {
+    let mut dice = Dice::new(31);
+    let mut on_lines = 0;
+    for (hardening, plasticity) in in_steel() {
+        for (n, beyond) in [(1, 1.0), (63, 0.5), (200, 0.05), (300, 1.0)] {
+            let mut rows = columns(&mut dice, n, beyond);
+            rows[4].iter_mut().step_by(3).for_each(|strain| *strain *= -1.0);
+            let [mut zz, mut zr, mut rr, mut phiphi, strain, _] = rows.clone();
+            let done = plasticity.return_stresses([&mut zz, &mut zr, &mut rr, &mut phiphi], &strain);
+            assert_eq!(done, plasticity.is_on_lines(), "{hardening:?}");
+            on_lines += usize::from(done);
+            if done {
+                rows[4].iter_mut().for_each(|strain| *strain = strain.max(0.0));
+                return_columns(&plasticity, &mut rows, [&mut vec![0.0; n], &mut vec![0.0; n]]);
+            }
+            assert_eq!([zz, zr, rr, phiphi], rows[..4], "{hardening:?}");
+        }
+    }
+    assert!(on_lines >= 12, "{on_lines}");
+}
+
 /// Whatever the guess, the increment is the same but for rounding.
 #[test]
 fn guesses_change_nothing_but_rounding() {
