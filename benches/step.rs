@@ -8,6 +8,8 @@
 
 #[path = "step/calibration.rs"]
 mod calibration;
+#[path = "step/solids.rs"]
+mod solids;
 
 use std::time::Instant;
 
@@ -17,8 +19,8 @@ use fluid::{
     RiemannSolver, Shape,
 };
 use mesh::{Domain, Geometry, Limiter};
-use solid::plasticity::{Hardening, JohnsonCook, RateFactor, Table, ThermalSoftening};
-use solid::{ElasticState, SolidError, SolidSetup, SolidSolver, WaveSpeeds};
+use solid::SolidError;
+use solids::{Yielding, over_elastic, solid_with_a_pulse};
 
 /// Samples per measurement; the median is reported.
 const SAMPLES: usize = 5;
@@ -72,11 +74,10 @@ fn main() -> Result<(), Failure> {
         if !wanted(&format!("solids that can yield, {law}, mc, 512 16")) {
             continue;
         }
-        let cost = |yielding| pool(1)?.install(|| measure::<16>(Solver::Solid(Limiter::Mc, yielding), 512));
         let mut row = format!("| {law}");
         for flows in [false, true] {
-            let (own, elastic) = (cost(Some(Yielding { law, flows }))?, cost(None)?);
-            row += &format!(" | {:.1} | {:.2}", own.nanoseconds, own.ratio / elastic.ratio);
+            let [own, ratio] = pool(1)?.install(|| over_elastic(Yielding { law, flows }, 512))?;
+            row += &format!(" | {own:.1} | {ratio:.2}");
         }
         println!("{row} |");
     }
@@ -121,31 +122,6 @@ struct Scheme {
 enum Solver {
     Fluid(Scheme, Flow),
     Solid(Limiter, Option<Yielding>),
-}
-
-/// How the solid yields.
-#[derive(Clone, Copy)]
-struct Yielding {
-    /// As in case files.
-    law: &'static str,
-    /// Whether it is so weak that everything that moves flows, or so strong that nothing does.
-    flows: bool,
-}
-
-impl Yielding {
-    fn hardening(self) -> Result<Hardening, Failure> {
-        let strength = if self.flows { 1.0 } else { 1e12 };
-        Ok(match self.law {
-            "perfect" => Hardening::perfect(strength)?,
-            "linear" => Hardening::linear(strength, strength)?,
-            "table" => Hardening::Table(Table::new(&[[0.0, strength], [0.1, 2.0 * strength]])?),
-            _ => {
-                let heat = ThermalSoftening::new(1.0, 1700.0, 293.0, 480.0, 0.9)?;
-                let law = JohnsonCook::new(strength, strength, 0.3)?;
-                Hardening::JohnsonCook(law.with_rate(RateFactor::new(0.02, 1.0)?).with_softening(heat))
-            }
-        })
-    }
 }
 
 /// What the fluid does.
@@ -362,33 +338,4 @@ fn patches([z, r]: [f64; 2], cells: usize) -> Primitive {
         pressure,
         phi: if gas { 1.0 } else { 0.0 },
     }
-}
-
-/// Steel with a smooth axial stress at rest, free above.
-fn solid_with_a_pulse<const N: usize>(
-    cells: usize,
-    limiter: Limiter,
-    yielding: Option<Yielding>,
-) -> Result<SolidSolver<N>, Failure> {
-    use solid::Boundary::{Axis, Free, NonReflecting};
-    let setup = SolidSetup {
-        domain: Domain { geometry: Geometry::Axisymmetric, z: [-0.04, 0.01], r: [0.0, 0.05] },
-        coarsest: [cells, cells],
-        levels: 0,
-        speeds: WaveSpeeds { density: 7800.0, c1: 5990.0, c2: 3458.0 },
-        yield_strength: 250e6,
-        plasticity: yielding.map(Yielding::hardening).transpose()?,
-        limiter,
-        boundaries: [NonReflecting, Free, Axis, NonReflecting],
-        adaptation: None,
-        stress_scale: 1e6,
-        weight: None,
-    };
-    // What flows dies away within a few steps: such a solid is strained all the while, at 100 1/s.
-    let strain_rate = if yielding.is_some_and(|yielding| yielding.flows) { 100.0 } else { 0.0 };
-    Ok(SolidSolver::new(setup, |[z, r]| ElasticState {
-        v_z: strain_rate * z,
-        stress_zz: 1e5 * (-((z + 0.01) * (z + 0.01) + r * r) / 1e-5).exp(),
-        ..ElasticState::default()
-    })?)
 }

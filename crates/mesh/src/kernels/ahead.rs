@@ -68,15 +68,14 @@ impl Field {
         self.as_slice().len() >= NEAR
     }
 
-    /// Asks for a part of the blocks that follow a tile, as many as it has, for the second-level cache: in the first one they would take the
-    /// place of what is worked on.
-    pub fn look_beyond(&self, tile: Tile, part: usize, parts: usize) {
+    /// Asks for a part of the blocks that follow a tile, as many as it has and of each the first so many components, for the second-level
+    /// cache: in the first one they would take the place of what is worked on.
+    pub fn look_beyond(&self, tile: Tile, components: usize, part: usize, parts: usize) {
         debug_assert!(part < parts, "part {part} of {parts}");
         let Range { start, end } = tile.slots();
-        let len = self.block_len();
-        let all = self.as_slice();
-        let following = &all[(end * len).min(all.len())..((end + end - start) * len).min(all.len())];
-        fetch_from_afar(part_of(following, part, parts));
+        let len = self.block_len() / self.components() * components;
+        let following = self.as_slice().chunks_exact(self.block_len()).skip(end).take(end - start);
+        following.for_each(|block| fetch_from_afar(part_of(&block[..len], part, parts)));
     }
 }
 

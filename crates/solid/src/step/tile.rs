@@ -32,6 +32,11 @@ fn has_never_flowed<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize) -> bool
     model.plasticity.is_none() || (model.is_untouched(ctx.mesh, slot) && !model.flows(slot))
 }
 
+/// How many components of the cells a sweep looks at: where nothing has flowed so far, those of elastic solids.
+fn components_read<const N: usize>(ctx: &SolidStep<'_, N>, has_flowed: bool) -> usize {
+    if has_flowed { ctx.old.components() } else { COUNT }
+}
+
 /// Advances the blocks of a tile that [`can_be_swept`] by one step from `ctx.old`.
 ///
 /// - returns: whether they have been; not where something may yield for the first time until mid-step.
@@ -43,7 +48,7 @@ pub(crate) fn step_tile<const N: usize>(
 ) -> bool {
     let BlockWork { new, register, scratch, timer } = work;
     let has_flowed = !tile.slots().all(|slot| has_never_flowed(ctx, slot));
-    stages::assemble(ctx, tile, if has_flowed { ctx.old.components() } else { COUNT }, scratch);
+    stages::assemble(ctx, tile, components_read(ctx, has_flowed), scratch);
     timer.end(Stage::Assemble as usize);
     let Some(largest) = sweep_tile(ctx, tile, has_flowed, scratch, new) else { return false };
     timer.end(Stage::Sweep as usize);
@@ -83,6 +88,7 @@ fn sweep_tile<const N: usize>(
         FlowOfStrips::new(plasticity, strain, tile.slots().all(|slot| model.flows(slot)))
     });
     let (is_far, strips) = (ctx.old.is_far(), frame.cells() / 2 + 1);
+    let read = components_read(ctx, has_flowed);
     let this = Sweep {
         predictor: Predictor {
             limiter: model.setup.limiter,
@@ -99,7 +105,7 @@ fn sweep_tile<const N: usize>(
     let has_sides = Side::ALL.into_iter().any(|side| ctx.mesh.tile_touches(tile, side));
     let mut between = |strip: usize, mut mid_step: MidStep<'_>| {
         if is_far {
-            ctx.old.look_beyond(tile, strip, strips);
+            ctx.old.look_beyond(tile, read, strip, strips);
         }
         if let Some(flow) = &flow {
             flow.return_strip(&mut mid_step)?;
