@@ -18,7 +18,7 @@ use crate::step::update::{FaceSlices, row, row_mut, split_block, update_row};
 /// Rows that are made at a time. Together they are whole cache lines: rows have four numbers more than such.
 const ROWS: usize = 2;
 /// Numbers of so many of the widest rows, and a line more: there is a neighbour beyond the last one.
-pub(crate) const MOST: usize = ROWS * (Tile::MOST_CELLS + 2 * GHOSTS) + 8;
+const MOST: usize = ROWS * (Tile::MOST_CELLS + 2 * GHOSTS) + 8;
 
 /// What a tile's step has between the predictor and the update.
 #[derive(Debug)]
