@@ -24,6 +24,12 @@ mesh::named! {
 }
 
 impl Boundary {
+    /// Whether what is beyond it is the mirror image of what is within.
+    #[must_use]
+    pub fn is_mirror(self) -> bool {
+        matches!(self, Self::Axis | Self::Symmetry)
+    }
+
     /// Whether waves leave over it.
     #[must_use]
     pub fn is_open(self) -> bool {

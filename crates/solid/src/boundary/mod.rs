@@ -1,6 +1,7 @@
 //! What bounds the solid: ghost cells before the slopes, outer states and interface tractions after them.
 
 pub(crate) mod absorbing;
+mod even;
 pub(crate) mod held;
 pub(crate) mod outer_states;
 pub(crate) mod participant;
@@ -8,6 +9,7 @@ pub(crate) mod participant;
 use mesh::{FaceState, Limiter, Mesh, Padded, Side, SideStates, Tile, TileRows};
 
 use crate::Boundary;
+use crate::boundary::even::lead_to_even_slopes;
 use crate::boundary::held::Held;
 use crate::riemann::{Outward, star_interface};
 use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
@@ -31,7 +33,15 @@ impl Boundaries {
     }
 
     /// Fills the ghosts of a tile beyond the domain.
-    pub fn fill_ghosts<const N: usize>(&self, mesh: &Mesh<N>, tile: Tile, cells: &mut TileRows<N>) {
+    ///
+    /// - `limiter`: of the slopes that are made with them.
+    pub fn fill_ghosts<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        tile: Tile,
+        limiter: Limiter,
+        cells: &mut TileRows<N>,
+    ) {
         let frame = cells.frame();
         // r first: the z sides then find the ghosts beyond r filled and complete the corners.
         for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
@@ -40,8 +50,14 @@ impl Boundaries {
             }
             for component in 0..6 {
                 let row = cells.component_mut(component);
-                match parity(self.kind(side), side, component) {
-                    Some(sign) => frame.reflect(row, side, sign),
+                let kind = self.kind(side);
+                match parity(kind, side, component) {
+                    Some(sign) => {
+                        frame.reflect(row, side, sign);
+                        if sign > 0.0 && kind.is_mirror() {
+                            lead_to_even_slopes(limiter, row, frame, side);
+                        }
+                    }
                     None => frame.extrapolate(row, side),
                 }
             }

@@ -72,9 +72,10 @@ impl Boundaries {
                 let k = frame.index(i, j) - first_row;
                 let inner = frame.index(i.clamp(0, n - 1), j.clamp(0, n - 1)) - first_row;
                 if !kind.is_open() {
-                    for component in components {
-                        let row = &mut half[component];
-                        row[k] = parity(kind, side, component).unwrap_or(1.0) * row[inner];
+                    for (component, slopes) in components.into_iter().zip(differences.iter_mut()) {
+                        let sign = parity(kind, side, component).unwrap_or(1.0);
+                        half[component][k] = sign * half[component][inner];
+                        slopes[k] = -sign * slopes[inner];
                     }
                     continue;
                 }

@@ -33,7 +33,7 @@ pub(super) fn assemble<const N: usize>(
 ) {
     let BlockScratch { cells, patch, inverse_r, .. } = scratch;
     cells.assemble(components, ctx.mesh, ctx.old, tile, &ctx.model.analysis, patch);
-    ctx.model.boundaries.fill_ghosts(ctx.mesh, tile, cells);
+    ctx.model.boundaries.fill_ghosts(ctx.mesh, tile, ctx.model.setup.limiter, cells);
     ctx.mesh.inverse_radii(tile, inverse_r);
 }
 
