@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Pits and plastic strains that others have published or computed, beside this program's: docs/verification/pits.md's tables.
 
-    python3 scripts/published_pits.py [plateau] [loads] [ratios] [--out DIR] [--cells 20] [--levels 4] [--first ROWS]
+    python3 scripts/published_pits.py [plateau] [loads] [ratios] [--out DIR] [--cells 20] [--limiter mc] [--levels 4]
+        [--first ROWS]
 
 plateau: depth over the duration of the load, which Chahine finds to be the same above 2 us. loads: pits under Gaussian loads by
 an independent finite-element program. ratios: a jet's plastic strain and zone over those of a shock, after Joshi.
@@ -68,7 +69,7 @@ def say(*words):
     print(*words, file=sys.stderr, flush=True)
 
 
-def gaussian_case(solid, amplitude, radius, duration, cells):
+def gaussian_case(solid, amplitude, radius, duration, cells, limiter):
     """A solid alone under P0 exp(-(r/dr)^2) exp(-((t - 3 dt)/dt)^2), with so many cells to dr within 2.4 dr.
 
     The load ends at 6 dt, with exp(-9) of P0; the run when the surface is still.
@@ -84,7 +85,7 @@ def gaussian_case(solid, amplitude, radius, duration, cells):
     return pycav.Case.from_dict({
         "time": {"end": "settled", "longest": 6.0 * duration + 30.0 * reach / 3000.0},
         "solid": {"z": [-reach, 0.0], "r": [0.0, reach], "cells": [coarsest, coarsest], "levels": levels, "error": 1e-3,
-                  "refine": [within, beyond], "material": material, "plasticity": law},
+                  "limiter": limiter, "refine": [within, beyond], "material": material, "plasticity": law},
         "coupling": {"scheme": "load", "load": {"amplitude": amplitude, "radius": radius,
                                                 "history": np.column_stack([times, factors]).tolist()}},
     }, "load")
@@ -93,7 +94,7 @@ def gaussian_case(solid, amplitude, radius, duration, cells):
 def pit(options, solid, amplitude, radius, duration):
     """The summary of a run under such a load."""
     out = options.out / f"{solid[0]['density']:g}-{solid[1].get('rate_coefficient', 0):g}-{amplitude:g}-{radius:g}-{duration:g}"
-    case = gaussian_case(solid, amplitude, radius, duration, options.cells)
+    case = gaussian_case(solid, amplitude, radius, duration, options.cells, options.limiter)
     summary = pycav.run(case, out, force=True).summary
     say(out.name, f"{summary['wall_seconds']:.0f} s, still {summary['surface_still']:.1e}, settled {summary['settled']}")
     return summary
@@ -188,6 +189,7 @@ def main():
     parser.add_argument("parts", nargs="*", metavar="PART", help=f"any of {', '.join(PARTS)}; all without")
     parser.add_argument("--out", type=Path, default=ROOT / "runs/published-pits", help="directory of the runs")
     parser.add_argument("--cells", type=int, default=20, choices=[5, 10, 20, 40], help="cells to the load's radius")
+    parser.add_argument("--limiter", default="mc", choices=["mc", "none"], help="of the solids under plateau and loads")
     parser.add_argument("--levels", type=int, default=4, help="levels of the bubble's grids: 2 cells per radius, times 2 each")
     parser.add_argument("--first", type=int, metavar="ROWS", help="only so many rows of plateau and loads")
     options = parser.parse_args()
