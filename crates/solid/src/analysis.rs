@@ -3,7 +3,7 @@
 use mesh::{ComponentsOfCell, MOST_COMPONENTS, Multiresolution, Side};
 
 use crate::Boundary;
-use crate::boundary::parity;
+use crate::boundary::mirrored;
 use crate::components::PLASTIC_STRAIN;
 use crate::state::component::{S_NORMAL, S_ZR, V_R, V_Z};
 
@@ -25,7 +25,7 @@ impl Multiresolution for Analysis {
     fn parity(&self, side: Side, component: usize) -> Option<f64> {
         match self.boundaries[side as usize] {
             Boundary::Periodic => None,
-            kind => parity(kind, side, component),
+            kind => mirrored(kind, side, component),
         }
     }
 

@@ -51,14 +51,14 @@ impl Boundaries {
             for component in 0..6 {
                 let row = cells.component_mut(component);
                 let kind = self.kind(side);
-                match parity(kind, side, component) {
+                match mirrored(kind, side, component) {
                     Some(sign) => {
                         frame.reflect(row, side, sign);
-                        if sign > 0.0 && kind.is_mirror() {
+                        if sign > 0.0 {
                             lead_to_even_slopes(limiter, row, frame, side);
                         }
                     }
-                    None => frame.extrapolate(row, side),
+                    _ => frame.extrapolate(row, side),
                 }
             }
         }
@@ -140,8 +140,14 @@ fn surface_difference(
     }
 }
 
-/// The sign with which a component is reflected at a side; `None` where it is extrapolated.
-pub(crate) fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64> {
+/// The sign with which a component's cells are mirrored at a side; `None` where they are continued: at open sides, and what is even about a
+/// free or fixed one, as it has a slope there.
+pub(crate) fn mirrored(kind: Boundary, side: Side, component: usize) -> Option<f64> {
+    parity(kind, side, component).filter(|sign| *sign < 0.0 || kind.is_mirror())
+}
+
+/// The sign with which a component's states at mid-step are reflected at a side; `None` where other states meet them.
+fn parity(kind: Boundary, side: Side, component: usize) -> Option<f64> {
     let across_z = matches!(side, Side::ZMin | Side::ZMax);
     let v_normal = if across_z { V_Z } else { V_R };
     let s_normal = S_NORMAL[usize::from(!across_z)];

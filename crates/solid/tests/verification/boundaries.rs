@@ -77,6 +77,55 @@ fn plane_waves_at_normal_incidence() {
     }
 }
 
+/// All cells, `[j][i]`, of n × n ones within sides of a kind, after a lump has gone to them and halfway back.
+fn in_a_box(kind: Boundary, limiter: Limiter, n: usize) -> Vec<Vec<[f64; 6]>> {
+    let lump = |[z, r]: [f64; 2]| {
+        let stress = STEEL.z1() * (-((z - 0.3) / 0.1).powi(2) - ((r - 0.65) / 0.1).powi(2)).exp();
+        ElasticState {
+            stress_zz: stress,
+            stress_rr: stress,
+            stress_phiphi: stress,
+            ..ElasticState::default()
+        }
+    };
+    let mut solid =
+        SolidSolver::<8>::new(SolidSetup { limiter, ..setup(PLANAR, [n, n], [kind; 4]) }, lump).unwrap();
+    run_to(&mut solid, 1.3 / STEEL.c1);
+    global(&solid, n)
+}
+
+/// What is not zero on a side has a slope there, too: of the cells next to it the limiter must not find none.
+#[test]
+fn waves_keep_second_order_beside_free_and_clamped_sides() {
+    const FINE: usize = 256;
+    for kind in [Boundary::Free, Boundary::Fixed] {
+        let fine = in_a_box(kind, Limiter::None, FINE);
+        let errors = [64, 128].map(|n| {
+            let (cells, parts) = (in_a_box(kind, Limiter::Mc, n), FINE / n);
+            relative_l1(|compare| {
+                let beside = |k: usize| k == 0 || k == n - 1;
+                for (j, i) in (0..n * n).map(|k| (k / n, k % n)).filter(|&(j, i)| beside(j) || beside(i)) {
+                    // Velocities as the stresses of their waves.
+                    let weighed = |w: &[f64; 6]| {
+                        std::array::from_fn::<_, 6, _>(|c| if c < 2 { STEEL.z1() * w[c] } else { w[c] })
+                    };
+                    let mut mean = [0.0; 6];
+                    for part in
+                        (0..parts * parts).map(|k| &fine[j * parts + k / parts][i * parts + k % parts])
+                    {
+                        mean.iter_mut()
+                            .zip(weighed(part))
+                            .for_each(|(sum, w)| *sum += w / (parts * parts) as f64);
+                    }
+                    compare(&weighed(&cells[j][i]), &mean);
+                }
+            })
+        });
+        // By mirror images of what is even 1.5 and 1.4.
+        assert!(order(&format!("cells beside {kind:?} sides"), &errors) > 1.9, "{errors:?}");
+    }
+}
+
 #[test]
 fn pre_stress_stays_at_rest_bitwise() {
     let p = 5e7;
