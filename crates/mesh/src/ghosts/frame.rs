@@ -60,6 +60,7 @@ impl Frame {
     }
 
     /// The number of the cell at a depth below a side, 0 for the cell next to it, −1 and −2 for the ghosts beyond; not of a part.
+    #[inline]
     pub fn below(self, side: Side, depth: isize, along: isize) -> usize {
         across(self.cells, side, depth, along)
     }

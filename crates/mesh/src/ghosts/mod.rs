@@ -60,6 +60,7 @@ pub(crate) fn mean_of_cells<const N: usize>(block: &[f64], i: usize, j: usize, l
 }
 
 /// The ghost cells beyond a side, `layer` layers from it, and the inner cells at a depth.
+#[inline]
 fn across(n: usize, side: Side, depth: isize, along: isize) -> usize {
     let last = n as isize - 1;
     match side {

@@ -50,15 +50,14 @@ impl Boundaries {
             }
             for component in 0..6 {
                 let row = cells.component_mut(component);
-                let kind = self.kind(side);
-                match mirrored(kind, side, component) {
+                match mirrored(self.kind(side), side, component) {
                     Some(sign) => {
                         frame.reflect(row, side, sign);
                         if sign > 0.0 {
                             lead_to_even_slopes(limiter, row, frame, side);
                         }
                     }
-                    _ => frame.extrapolate(row, side),
+                    None => frame.extrapolate(row, side),
                 }
             }
         }

@@ -63,14 +63,7 @@ impl Boundaries {
                 )
             });
             for a in along_side {
-                let (i, j) = match side {
-                    Side::ZMin => (-1, a),
-                    Side::ZMax => (n, a),
-                    Side::RMin => (a, -1),
-                    Side::RMax => (a, n),
-                };
-                let k = frame.index(i, j) - first_row;
-                let inner = frame.index(i.clamp(0, n - 1), j.clamp(0, n - 1)) - first_row;
+                let [k, inner] = [-1, 0].map(|depth| frame.below(side, depth, a) - first_row);
                 if !kind.is_open() {
                     for (component, slopes) in components.into_iter().zip(differences.iter_mut()) {
                         let sign = parity(kind, side, component).unwrap_or(1.0);
@@ -84,11 +77,9 @@ impl Boundaries {
                 let mut outer = held.face;
                 if let Some((absorption, followed)) = &mut absorption {
                     let before = ctx.model.sides.at(side, id.level, along);
-                    let (di, dj) = (i - i.clamp(0, n - 1), j - j.clamp(0, n - 1));
-                    let within = |depth: isize| frame.index(i - (1 + depth) * di, j - (1 + depth) * dj);
                     let initial = held.cells.map(ElasticState::to_array);
                     let change = |depth: isize, c: usize| {
-                        cells.component(c)[within(depth)] - initial[depth as usize][c]
+                        cells.component(c)[frame.below(side, depth, a)] - initial[depth as usize][c]
                     };
                     let after = absorption.follow(before, change);
                     followed.of_mut(id.level, along).fill(after);
