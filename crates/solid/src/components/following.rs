@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 use crate::analysis::Analysis;
 use crate::state::component::S_PHIPHI;
 
-/// Own steps of a block between two of its velocities that are counted. A P wave crosses about a cell in them, so nothing that a grid can
-/// hold passes unseen; memory is what counting costs.
-const EVERY: u8 = 2;
+/// Own steps of a block between two of its velocities that are counted. A P wave crosses less than two cells in them, so the shortest wave
+/// that the scheme carries, four cells long, still has two counts in a period and nothing is aliased; memory is what counting costs.
+const EVERY: u8 = 4;
 
 /// Displacement and rate of the plastic strain of solids that can yield.
 pub(crate) struct Following {
@@ -274,7 +274,8 @@ mod tests {
             }
             worst
         };
-        let [coarse, fine] = [far(80), far(320)];
+        // As many of them are counted in a period.
+        let [coarse, fine] = [50, 200].map(|counted| far(usize::from(EVERY) * counted));
         assert!(coarse < 0.01 && fine < 0.08 * coarse, "{coarse} {fine}");
     }
 }
