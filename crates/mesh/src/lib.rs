@@ -34,6 +34,7 @@ pub use block_solver::{
     Scratches, Step,
 };
 pub use cell_fields::{CellField, CellLevels, CellSnapshot};
+pub use ghosts::cell_below;
 pub use ghosts::frame::Frame;
 pub use ghosts::padded::{GHOSTS, Padded};
 pub use ghosts::side_faces::SideFaces;

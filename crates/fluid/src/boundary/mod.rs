@@ -217,18 +217,7 @@ pub(crate) fn tangential(side: Side) -> usize {
 
 /// The padded cell next to a side, `along` cells from its beginning, and the ghost beyond.
 pub(crate) fn beside(side: Side, frame: Frame, along: isize) -> [usize; 2] {
-    cells_beside(side, frame.cells(), along).map(|(i, j)| frame.index(i, j))
-}
-
-/// (i, j) of the cell next to a side of a square of so many cells along each, and of the ghost beyond.
-pub(crate) fn cells_beside(side: Side, cells: usize, along: isize) -> [(isize, isize); 2] {
-    let n = cells as isize;
-    match side {
-        Side::ZMin => [(0, along), (-1, along)],
-        Side::ZMax => [(n - 1, along), (n, along)],
-        Side::RMin => [(along, 0), (along, -1)],
-        Side::RMax => [(along, n - 1), (along, n)],
-    }
+    [0, -1].map(|depth| frame.below(side, depth, along))
 }
 
 #[cfg(test)]

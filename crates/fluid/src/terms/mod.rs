@@ -13,9 +13,8 @@ pub(crate) mod super_stepping;
 pub(crate) mod surface_tension;
 pub(crate) mod viscosity;
 
-use mesh::{FaceState, Side};
+use mesh::{FaceState, Side, cell_below};
 
-use crate::boundary::cells_beside;
 use crate::capillarity::CapillaryRows;
 use crate::reconstruction::Rows;
 use crate::state::primitive::PHI;
@@ -81,7 +80,10 @@ impl TermBlock<'_> {
 /// The padded places of the cell next to a side, `along` cells from its beginning, and of the ghost beyond.
 pub(crate) fn beside_padded(side: Side, cells: usize, metric: &Metric<'_>, along: isize) -> [usize; 2] {
     let [origin, stride] = [metric.origin, metric.stride].map(|place| place as isize);
-    cells_beside(side, cells, along).map(|(i, j)| (origin + j * stride + i) as usize)
+    [0, -1].map(|depth| {
+        let (i, j) = cell_below(cells, side, depth, along);
+        (origin + j * stride + i) as usize
+    })
 }
 
 /// What walls do with heat, in a step of a block.

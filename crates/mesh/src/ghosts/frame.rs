@@ -1,6 +1,6 @@
 //! Where the cells of padded rows lie.
 
-use crate::ghosts::{across, extrapolate, ghost_range, mirror};
+use crate::ghosts::{cell_below, extrapolate, ghost_range, mirror};
 use crate::{GHOSTS, Side};
 
 /// Where n × n cells lie in rows of numbers `[j][i]` with [`GHOSTS`] layers around them, walked as [`crate::Padded`] says: the rows of a
@@ -59,10 +59,11 @@ impl Frame {
         (self.origin as isize + j * self.stride as isize + i) as usize
     }
 
-    /// The number of the cell at a depth below a side, 0 for the cell next to it, −1 and −2 for the ghosts beyond; not of a part.
-    #[inline]
+    /// The number of the cell at a depth below a side, see [`cell_below`].
+    #[inline(always)]
     pub fn below(self, side: Side, depth: isize, along: isize) -> usize {
-        across(self.cells, side, depth, along)
+        let (i, j) = cell_below(self.cells, side, depth, along);
+        self.index(i, j)
     }
 
     /// Fills the ghosts beyond a side by reflection, times `parity` (±1); not of a part.

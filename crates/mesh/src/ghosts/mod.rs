@@ -59,16 +59,24 @@ pub(crate) fn mean_of_cells<const N: usize>(block: &[f64], i: usize, j: usize, l
     mean([[block[k], block[k + 1]], [block[k + N], block[k + N + 1]]], lower_share)
 }
 
-/// The ghost cells beyond a side, `layer` layers from it, and the inner cells at a depth.
-#[inline]
-fn across(n: usize, side: Side, depth: isize, along: isize) -> usize {
+/// (i, j) of the cell at a depth below a side of n × n cells, 0 for the cell next to it, −1 and −2 for the ghosts beyond; `along` cells
+/// from the side's beginning.
+#[inline(always)]
+pub fn cell_below(n: usize, side: Side, depth: isize, along: isize) -> (isize, isize) {
     let last = n as isize - 1;
     match side {
-        Side::ZMin => index(n, depth, along),
-        Side::ZMax => index(n, last - depth, along),
-        Side::RMin => index(n, along, depth),
-        Side::RMax => index(n, along, last - depth),
+        Side::ZMin => (depth, along),
+        Side::ZMax => (last - depth, along),
+        Side::RMin => (along, depth),
+        Side::RMax => (along, last - depth),
     }
+}
+
+/// The flat index of [`cell_below`] among n × n cells with ghosts.
+#[inline]
+fn across(n: usize, side: Side, depth: isize, along: isize) -> usize {
+    let (i, j) = cell_below(n, side, depth, along);
+    index(n, i, j)
 }
 
 /// Fills the ghosts beyond some cells along a side by reflection, times `parity` (±1).
