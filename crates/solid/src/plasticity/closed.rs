@@ -36,6 +36,11 @@ impl Line {
         Some(Self { strength, modulus, compliance: 1.0 / (3.0 * mu + modulus) })
     }
 
+    /// Whether H = 0.
+    pub fn is_level(self) -> bool {
+        self.modulus == 0.0
+    }
+
     /// Δε_p = (q_trial − Y)/(3μ + H), free of branches.
     #[inline(always)]
     pub fn return_map(self, trial: Stress, strain: f64) -> LineReturn {
@@ -96,11 +101,36 @@ pub(super) fn return_stresses(
     phiphi: &mut [f64],
     strain: &[f64],
 ) {
-    let (n, blend) = (strain.len(), Blend::new());
-    let (zz, zr, rr, phiphi) = (&mut zz[..n], &mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
+    let strain = &strain[..zz.len()];
+    return_each(line, zz, zr, rr, phiphi, |k| strain[k].max(0.0));
+}
+
+/// The same on a level line, where plastic strains have no say.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(super) fn return_stresses_to_level(
+    line: Line,
+    zz: &mut [f64],
+    zr: &mut [f64],
+    rr: &mut [f64],
+    phiphi: &mut [f64],
+) {
+    return_each(Line { modulus: 0.0, ..line }, zz, zr, rr, phiphi, |_| 0.0);
+}
+
+#[inline(always)]
+fn return_each(
+    line: Line,
+    zz: &mut [f64],
+    zr: &mut [f64],
+    rr: &mut [f64],
+    phiphi: &mut [f64],
+    strain: impl Fn(usize) -> f64,
+) {
+    let (n, blend) = (zz.len(), Blend::new());
+    let (zr, rr, phiphi) = (&mut zr[..n], &mut rr[..n], &mut phiphi[..n]);
     for k in 0..n {
         let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
-        let returned = line.return_map(trial, strain[k].max(0.0));
+        let returned = line.return_map(trial, strain(k));
         let stress = returned.stress.or(blend, returned.yields, trial);
         (zz[k], zr[k], rr[k], phiphi[k]) = (stress.zz, stress.zr, stress.rr, stress.phiphi);
     }

@@ -85,6 +85,11 @@ impl Plasticity {
         self.line.is_some() || self.polyline.is_some()
     }
 
+    /// Whether the flow stress depends on the plastic strain.
+    pub(crate) fn needs_strain(&self) -> bool {
+        self.line.is_none_or(|line| !line.is_level())
+    }
+
     /// χ/(ρ c_p), K m³/J.
     pub(super) fn heating(&self) -> f64 {
         self.heating

@@ -82,11 +82,15 @@ impl Plasticity {
 
     /// The radial return of stresses alone, by laws on straight lines: others need a time, or heat.
     ///
-    /// - `stress`: σ_zz, σ_zr, σ_rr, σ_φφ, Pa, trial stresses before. `strain`: plastic strains at the beginning, less than none counts as none.
+    /// - `stress`: σ_zz, σ_zr, σ_rr, σ_φφ, Pa, trial stresses before. `strain`: plastic strains at the beginning, less than none counts as none; not
+    ///   looked at where [`Plasticity::needs_strain`] is false.
     /// - returns: `false` where the law is no such one, nothing happens then.
     /// - tested by: equality with [`Plasticity::return_rows`].
     pub(crate) fn return_stresses(&self, [zz, zr, rr, phiphi]: [&mut [f64]; 4], strain: &[f64]) -> bool {
         match (&self.line, &self.polyline) {
+            (Some(line), _) if line.is_level() => {
+                closed::return_stresses_to_level(*line, zz, zr, rr, phiphi);
+            }
             (Some(line), _) => closed::return_stresses(*line, zz, zr, rr, phiphi, strain),
             (None, Some(law)) => polyline::return_stresses(law, zz, zr, rr, phiphi, strain),
             (None, None) => return false,

@@ -9,15 +9,15 @@ use crate::step::mises::{LEAST, largest_mises};
 /// Of a tile whose law is on straight lines, or of any in which nothing has flowed so far.
 pub(super) struct FlowOfStrips<'a> {
     plasticity: &'a Plasticity,
-    /// Plastic strain of the padded cells at the beginning of the step; `None` where nothing has flowed so far.
+    /// Plastic strain of the padded cells at the beginning of the step, empty where returns need none; `None` where nothing has flowed so far.
     strain: Option<&'a [f64]>,
     /// See [`most_mises_at_rest`], Pa²; `None` where it is not worth while to look, as cells flow.
     most_mises: Option<f64>,
 }
 
 impl<'a> FlowOfStrips<'a> {
-    /// - `strain`: plastic strain of the padded cells at the beginning of the step, if anything has flowed before. `flows`: whether
-    ///   cells have in the last one.
+    /// - `strain`: plastic strain of the padded cells at the beginning of the step if anything has flowed before, empty where returns need none.
+    ///   `flows`: whether cells have in the last one.
     pub fn new(plasticity: &'a Plasticity, strain: Option<&'a [f64]>, flows: bool) -> Self {
         let most_mises = (!flows).then(|| most_mises_at_rest(plasticity, plasticity.reference()));
         Self { plasticity, strain, most_mises }
@@ -30,7 +30,7 @@ impl<'a> FlowOfStrips<'a> {
             return ControlFlow::Continue(());
         }
         // Ghosts that are predicted or continued may have less plastic strain than none.
-        let strain = self.strain.map(|strain| &strain[*first..][..zz.len()]);
+        let strain = self.strain.map(|strain| strain.get(*first..*first + zz.len()).unwrap_or_default());
         let is_done = strain.is_some_and(|old| self.plasticity.return_stresses([zz, zr, rr, phiphi], old));
         if is_done { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }

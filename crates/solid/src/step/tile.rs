@@ -9,6 +9,7 @@ use super::{BlockScratch, BlockStep, Stage, stages};
 use crate::boundary::outer_states::MidStep;
 use crate::components::PLASTIC_STRAIN;
 use crate::physics::SolidStep;
+use crate::plasticity::Plasticity;
 use crate::reconstruction::predictor::Predictor;
 use crate::state::component::COUNT;
 use crate::step::flow_of_strips::FlowOfStrips;
@@ -32,9 +33,13 @@ fn has_never_flowed<const N: usize>(ctx: &SolidStep<'_, N>, slot: usize) -> bool
     model.plasticity.is_none() || (model.is_untouched(ctx.mesh, slot) && !model.flows(slot))
 }
 
-/// How many components of the cells a sweep looks at: where nothing has flowed so far, those of elastic solids.
+/// How many components of the cells a sweep looks at: where nothing has flowed so far, or what has does not matter, those of elastic solids.
 fn components_read<const N: usize>(ctx: &SolidStep<'_, N>, has_flowed: bool) -> usize {
-    if has_flowed { ctx.old.components() } else { COUNT }
+    if has_flowed && needs_strain(ctx) { ctx.old.components() } else { COUNT }
+}
+
+fn needs_strain<const N: usize>(ctx: &SolidStep<'_, N>) -> bool {
+    ctx.model.plasticity.as_ref().is_some_and(Plasticity::needs_strain)
 }
 
 /// Advances the blocks of a tile that [`can_be_swept`] by one step from `ctx.old`.
@@ -84,7 +89,8 @@ fn sweep_tile<const N: usize>(
     let (model, frame) = (ctx.model, cells.frame());
     let widths = ctx.mesh.widths(ctx.mesh.first_of(tile).level);
     let flow = model.plasticity.as_ref().map(|plasticity| {
-        let strain = has_flowed.then(|| cells.component(PLASTIC_STRAIN));
+        let of_cells = || if needs_strain(ctx) { cells.component(PLASTIC_STRAIN) } else { &[] };
+        let strain = has_flowed.then(of_cells);
         FlowOfStrips::new(plasticity, strain, tile.slots().all(|slot| model.flows(slot)))
     });
     let (is_far, strips) = (ctx.old.is_far(), frame.cells() / 2 + 1);

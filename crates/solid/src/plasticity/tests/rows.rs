@@ -74,7 +74,8 @@ fn stresses_alone_are_those_of_rows() {
             let mut rows = columns(&mut dice, n, beyond);
             rows[4].iter_mut().step_by(3).for_each(|strain| *strain *= -1.0);
             let [mut zz, mut zr, mut rr, mut phiphi, strain, _] = rows.clone();
-            let done = plasticity.return_stresses([&mut zz, &mut zr, &mut rr, &mut phiphi], &strain);
+            let known = if plasticity.needs_strain() { &strain[..] } else { &[] };
+            let done = plasticity.return_stresses([&mut zz, &mut zr, &mut rr, &mut phiphi], known);
             assert_eq!(done, plasticity.is_on_lines(), "{hardening:?}");
             on_lines += usize::from(done);
             if done {
