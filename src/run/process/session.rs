@@ -43,7 +43,8 @@ struct Coupled {
 }
 
 impl Coupled {
-    /// One step: the fluid begins it, the solid makes its own, the fluid completes it.
+    /// One step: the fluid begins it, the solid makes its own, the fluid completes it. What of the longer step does not
+    /// depend on the other side goes on beside that one's turn, so that neither leaves threads without work.
     fn step(&mut self, stop: &Stop) -> Result<Turn, RunError> {
         if !self.met {
             self.solid.open(&mut self.to_fluid, stop)?;
@@ -51,10 +52,10 @@ impl Coupled {
             self.met = true;
         }
         let turn = self.fluid.begin(&mut self.to_solid, stop)?;
-        self.solid.turn(&mut self.to_fluid, stop)?;
+        both(|| self.fluid.meanwhile(), || self.solid.answer(&mut self.to_fluid, stop))?;
         if turn == Turn::Continues {
-            while !self.fluid.complete(&mut self.to_solid)? {
-                self.solid.turn(&mut self.to_fluid, stop)?;
+            while !both(|| self.fluid.complete(&mut self.to_solid), || self.solid.meanwhile())?.0 {
+                self.solid.answer(&mut self.to_fluid, stop)?;
             }
             self.solid.settle(&mut self.to_fluid)?;
         }
@@ -69,6 +70,15 @@ pub struct Solvers {
     pub fluid: Option<FluidSolver<BLOCK>>,
     /// The solid.
     pub solid: Option<SolidSolver<BLOCK>>,
+}
+
+/// Does both, at the same time where there are threads for it; the first one's error counts.
+fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> Result<A, RunError> + Send,
+    second: impl FnOnce() -> Result<B, RunError> + Send,
+) -> Result<(A, B), RunError> {
+    let (first, second) = rayon::join(first, second);
+    Ok((first?, second?))
 }
 
 impl Session {

@@ -40,7 +40,9 @@ pub enum Turn {
 /// A step under way.
 #[derive(Clone, Copy, Debug)]
 enum Pending {
-    /// The fluid's is the longer one; it waits for what the solid makes of it.
+    /// The fluid's is the longer one, of which the solid has been shown the trace.
+    Shown(Plan),
+    /// What does not depend on the solid is done; it waits for what the solid makes of the rest.
     Long(Plan, GroupStep),
     /// The solid's is.
     Short(Plan),
@@ -102,6 +104,7 @@ impl FluidSide {
     ///
     /// - returns: whether the step has ended. If not, the solid has been told more, and its next word is to be waited for.
     pub fn complete(&mut self, link: &mut impl Link) -> Result<bool, RunError> {
+        self.meanwhile()?;
         let pending = self.pending.take();
         if let Some(Pending::Short(plan)) = pending {
             self.step_shortly(link, plan)?;
@@ -122,9 +125,17 @@ impl FluidSide {
                 self.judge(link, plan, step)?;
                 return Ok(false);
             }
-            Some(Pending::Short(_) | Pending::Made) | None => {}
+            Some(Pending::Short(_) | Pending::Shown(_) | Pending::Made) | None => {}
         }
         Ok(true)
+    }
+
+    /// Does what of a step under way does not depend on the solid, if there is any left: while the solid has its turn.
+    pub fn meanwhile(&mut self) -> Result<(), RunError> {
+        if let Some(Pending::Shown(plan)) = self.pending {
+            self.pending = Some(Pending::Long(plan, self.own.begin_long(plan)?));
+        }
+        Ok(())
     }
 
     /// Takes the solid's first word, which it says before it knows of any faces: how long a step it allows. If a run was taken
@@ -184,7 +195,7 @@ impl FluidSide {
         if self.cells.is_some() {
             self.begin_exchange(link, plan)?
         } else if is_long {
-            self.begin_long(link, plan)?
+            self.show_trace(link, plan)?
         } else {
             self.ask_for_trace(link, plan)?
         }
@@ -204,8 +215,8 @@ impl FluidSide {
         Ok(())
     }
 
-    /// Shows the trace on the wall, and does meanwhile what does not depend on the solid.
-    fn begin_long(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
+    /// Shows the trace on the wall.
+    fn show_trace(&mut self, link: &mut impl Link, plan: Plan) -> Result<(), RunError> {
         let faces = self.own.solver.interface().faces();
         let mut header = self.header(FrameKind::Trace, faces, plan.dt);
         if plan.snapshot {
@@ -215,10 +226,7 @@ impl FluidSide {
         let filled = self.own.show_trace(link, header, plan.dt)?;
         // What comes after the frame is filled is the exchange.
         self.own.clock.computing += filled;
-        let start = Instant::now();
-        let step = coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?;
-        self.own.clock.computing += start.elapsed();
-        self.pending = Some(Pending::Long(plan, step));
+        self.pending = Some(Pending::Shown(plan));
         Ok(())
     }
 

@@ -21,6 +21,7 @@ use std::ops::DerefMut;
 use std::time::{Duration, Instant};
 
 use coupler::{CouplerError, FrameHeader, Link, LinkCounters, Meeting, StarSolver, TraceRow};
+use mesh::GroupStep;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
@@ -181,6 +182,14 @@ impl<R: Record<Solver: CoupledSolver>> InRun<R> {
             filled = start.elapsed();
         })?;
         Ok(filled)
+    }
+
+    /// Begins a step whose end depends on the other side, see [`coupled_solver::begin_long`].
+    fn begin_long(&mut self, plan: Plan) -> Result<GroupStep, RunError> {
+        let start = Instant::now();
+        let step = coupled_solver::begin_long(&mut self.solver, plan.dt, &self.rule)?;
+        self.clock.computing += start.elapsed();
+        Ok(step)
     }
 
     /// Makes short steps within the other side's, of which the trace has been read; see [`coupled_solver::short_steps`].

@@ -41,8 +41,8 @@ pub struct SolidSide {
     factor: KappaFactor,
     /// Outer radii of the fluid's faces on the interface; none before the first trace.
     fluid_edges: Vec<f64>,
-    /// The long step that waits for what the fluid made of it.
-    pending: Option<(Plan, GroupStep)>,
+    /// The long step of which the fluid has been shown the trace; begun once all is done that does not depend on the fluid.
+    pending: Option<(Plan, Option<GroupStep>)>,
     /// The step that is tried in the strong scheme.
     trial: Option<GroupStep>,
     /// The fluid's steps within the last long one; infinite after short ones.
@@ -118,7 +118,8 @@ impl SolidSide {
 
     /// Ends the long step under way with what the fluid made of it; does nothing if there is none.
     pub fn settle(&mut self, link: &mut impl Link) -> Result<(), RunError> {
-        let Some((plan, step)) = self.pending.take() else { return Ok(()) };
+        self.meanwhile()?;
+        let Some((plan, Some(step))) = self.pending.take() else { return Ok(()) };
         let solver = &mut self.own.solver;
         link.receive(|frame| {
             frame.require(FrameKind::Register)?;
@@ -139,8 +140,16 @@ impl SolidSide {
         self.adapt_if(adapts, plan.dt)
     }
 
-    /// Begins a long step: shows the trace and does what does not depend on the fluid.
-    fn begin_long(&mut self, link: &mut impl Link, asked: Plan, stop: &Stop) -> Result<(), RunError> {
+    /// Does what of a long step does not depend on the fluid, if there is any left: while the fluid has its turn.
+    pub fn meanwhile(&mut self) -> Result<(), RunError> {
+        if let Some((plan, None)) = self.pending {
+            self.pending = Some((plan, Some(self.own.begin_long(plan)?)));
+        }
+        Ok(())
+    }
+
+    /// Begins a long step: shows the trace.
+    fn show_trace(&mut self, link: &mut impl Link, asked: Plan, stop: &Stop) -> Result<(), RunError> {
         let limit =
             self.own.rule.unless_collapsed(self.own.rule.long(&self.own.solver).limit, &self.own.solver)?;
         let plan =
@@ -150,10 +159,8 @@ impl SolidSide {
         let header =
             FrameHeader { count: faces as u64, ..self.header(FrameKind::Trace, TraceRow::COUNT, stop) };
         let filled = self.own.show_trace(link, header, plan.dt)?;
-        let start = Instant::now();
-        let step = coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?;
-        self.own.clock.computing += filled + start.elapsed();
-        self.pending = Some((plan, step));
+        self.own.clock.computing += filled;
+        self.pending = Some((plan, None));
         Ok(())
     }
 

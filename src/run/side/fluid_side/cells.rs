@@ -8,7 +8,7 @@ use mesh::{GroupStep, Part};
 use super::{FluidSide, Pending};
 use crate::run::RunError;
 use crate::run::schedule::Plan;
-use crate::run::side::coupled_solver::{self, CoupledSolver as _};
+use crate::run::side::coupled_solver::CoupledSolver as _;
 
 impl FluidSide {
     /// Begins a step of one of the paper's schemes.
@@ -22,9 +22,7 @@ impl FluidSide {
         self.own.clock.computing += start.elapsed();
         match (scheme, first) {
             (Scheme::Strong, _) => {
-                let start = Instant::now();
-                let step = coupled_solver::begin_long(&mut self.own.solver, plan.dt, &self.own.rule)?;
-                self.own.clock.computing += start.elapsed();
+                let step = self.own.begin_long(plan)?;
                 self.try_step(link, plan, step)?;
             }
             (Scheme::Weak, Participant::Fluid) => {

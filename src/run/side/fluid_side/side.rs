@@ -31,7 +31,9 @@ impl RunSide for FluidSide {
     }
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
-        if self.complete(link)? { self.begin(link, stop) } else { Ok(Turn::Continues) }
+        let turn = if self.complete(link)? { self.begin(link, stop)? } else { Turn::Continues };
+        self.meanwhile()?;
+        Ok(turn)
     }
 
     fn summary(&self) -> Map<String, Value> {

@@ -44,6 +44,37 @@ impl RunSide for SolidSide {
     }
 
     fn turn(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
+        let turn = self.answer(link, stop)?;
+        self.meanwhile()?;
+        Ok(turn)
+    }
+
+    fn leave(&self, directory: &RunDirectory) -> Result<(), RunError> {
+        let Some(wall) = &self.wall else { return Ok(()) };
+        let surface = self.own.record.as_ref().and_then(SolidRecord::surface);
+        let displacement = surface.map_or_else(Vec::new, |surface| surface.displacement().profile());
+        Ok(wall.leave(&self.own.solver, displacement, directory)?)
+    }
+
+    fn summary(&self) -> Map<String, Value> {
+        let mut part = self.own.summary();
+        part.insert("fixups".to_owned(), json!({ "floored_stars": self.own.meeting.floored() }));
+        part
+    }
+
+    fn keep_by(&self, keeper: &mut Keeper, step: u64, counters: LinkCounters) -> Result<(), OutputError> {
+        keeper.write(Participant::Solid, step, &self.saved(counters))
+    }
+
+    fn line(&self) -> ProgressLine {
+        let own = self.own.line("solid");
+        ProgressLine { solid_cells: own.cells, ..own }
+    }
+}
+
+impl SolidSide {
+    /// Answers the fluid, or shows it the trace of a long step, of which [`SolidSide::meanwhile`] does its share.
+    pub fn answer(&mut self, link: &mut impl Link, stop: &Stop) -> Result<Turn, RunError> {
         self.settle(link)?;
         // As they stand before this frame, which comes again if the run is taken up here.
         let counters = self.own.keeper.is_some().then(|| link.counters());
@@ -69,7 +100,7 @@ impl RunSide for SolidSide {
         let plan = Plan { dt: header.dt, snapshot: header.has(FrameHeader::SNAPSHOT) };
         if header.kind == FrameKind::Yours as u32 {
             self.fluids_step = header.dt_max;
-            self.begin_long(link, plan, stop)?;
+            self.show_trace(link, plan, stop)?;
             return Ok(Turn::Continues);
         }
         self.own.last_dt = plan.dt;
@@ -82,27 +113,5 @@ impl RunSide for SolidSide {
             self.step_shortly(link, plan, stop)?;
         }
         Ok(Turn::Continues)
-    }
-
-    fn leave(&self, directory: &RunDirectory) -> Result<(), RunError> {
-        let Some(wall) = &self.wall else { return Ok(()) };
-        let surface = self.own.record.as_ref().and_then(SolidRecord::surface);
-        let displacement = surface.map_or_else(Vec::new, |surface| surface.displacement().profile());
-        Ok(wall.leave(&self.own.solver, displacement, directory)?)
-    }
-
-    fn summary(&self) -> Map<String, Value> {
-        let mut part = self.own.summary();
-        part.insert("fixups".to_owned(), json!({ "floored_stars": self.own.meeting.floored() }));
-        part
-    }
-
-    fn keep_by(&self, keeper: &mut Keeper, step: u64, counters: LinkCounters) -> Result<(), OutputError> {
-        keeper.write(Participant::Solid, step, &self.saved(counters))
-    }
-
-    fn line(&self) -> ProgressLine {
-        let own = self.own.line("solid");
-        ProgressLine { solid_cells: own.cells, ..own }
     }
 }
