@@ -53,9 +53,16 @@ impl BackgroundWriter {
         // No room in between: handing over is meeting the thread when it has nothing to do.
         let (sender, receiver) = sync_channel(0);
         let path = writer.path().to_path_buf();
+        // As many as the solver has, which waits for the last snapshot. They sleep while there is none.
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(rayon::current_num_threads())
+            .thread_name(|number| format!("chunks-{number}"))
+            .build()
+            .map_err(std::io::Error::other)
+            .map_err(OutputError::io(&path, "start the threads that compress"))?;
         let handle = std::thread::Builder::new()
             .name("snapshots".to_owned())
-            .spawn(move || write_all(writer, &receiver))
+            .spawn(move || pool.install(|| write_all(writer, receiver)))
             .map_err(OutputError::io(&path, "start the thread that writes"))?;
         Ok(Self { thread: Some(Thread { sender, handle }), path })
     }
@@ -131,7 +138,7 @@ impl Drop for BackgroundWriter {
 }
 
 /// Writes what comes until nothing more can come.
-fn write_all(mut writer: SeriesWriter, jobs: &Receiver<Job>) -> Result<(), OutputError> {
+fn write_all(mut writer: SeriesWriter, jobs: Receiver<Job>) -> Result<(), OutputError> {
     for job in jobs {
         let snapshot = match job {
             Job::Write(snapshot) => snapshot,

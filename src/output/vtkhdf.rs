@@ -13,6 +13,7 @@ use super::hdf5_attributes::text;
 use super::{CellMesh, CellValues, OutputError, hdf5_memory, safe_file};
 use layout::{LARGEST_CHUNK, append_made, append_rows, create_datasets, write_mesh, write_step_count};
 
+mod chunks;
 mod end;
 mod layout;
 

@@ -8,15 +8,15 @@ use hdf5::{Dataset, File, Group, H5Type};
 use ndarray::ArrayView2;
 
 use super::super::hdf5_attributes::{set_text, set_texts};
+use super::chunks::{Chunks, Number};
 use super::{CellMesh, End, FieldSpec, Storage};
 
 /// Cells (or points) per chunk, 64 KiB of a scalar field.
 const CHUNK_ROWS: usize = 8192;
 /// Bytes of the largest chunk, of three components or of the points of the cells.
 pub(super) const LARGEST_CHUNK: usize = 4 * CHUNK_ROWS * size_of::<f64>();
-/// Rows written in one call of the HDF5 library, which serves one thread at a time: so many chunks that are compressed
-/// before another thread has its turn.
-const PIECE_ROWS: usize = 4 * CHUNK_ROWS;
+/// Rows made and compressed at once: enough chunks for some threads, few enough to need little memory.
+const PIECE_ROWS: usize = 8 * CHUNK_ROWS;
 /// Steps per chunk of the small datasets that have one entry per step or mesh.
 const CHUNK_STEPS: usize = 64;
 /// VTK's number of the quadrilateral cell type.
@@ -94,7 +94,7 @@ fn create_dataset<T: H5Type>(
 }
 
 /// Writes `values` from row `row` on and ends the dataset with them.
-pub(super) fn append_rows<T: H5Type>(dataset: &Dataset, values: &[T], row: usize) -> hdf5::Result<()> {
+pub(super) fn append_rows<T: Number>(dataset: &Dataset, values: &[T], row: usize) -> hdf5::Result<()> {
     let columns = dataset.shape().get(1).copied();
     let width = columns.unwrap_or(1).max(1);
     set_rows(dataset, row + values.len() / width)?;
@@ -107,7 +107,7 @@ pub(super) fn append_rows<T: H5Type>(dataset: &Dataset, values: &[T], row: usize
 }
 
 /// [`append_rows`] of so many rows that are made piece by piece: `make` adds the numbers of some of them to a list.
-pub(super) fn append_made<T: H5Type>(
+pub(super) fn append_made<T: Number>(
     dataset: &Dataset,
     rows: usize,
     row: usize,
@@ -124,13 +124,35 @@ pub(super) fn append_made<T: H5Type>(
     Ok(())
 }
 
-/// Writes some rows into a dataset of so many columns that has room for them.
-fn write_piece<T: H5Type>(
+/// Writes some rows into a dataset of so many columns that has room for them: whole chunks by all threads, what is before and
+/// after them through the library's filters.
+fn write_piece<T: Number>(
     dataset: &Dataset,
     columns: Option<usize>,
     piece: &[T],
     start: usize,
 ) -> hdf5::Result<()> {
+    let Some(chunks) = Chunks::of(dataset) else { return write_plainly(dataset, columns, piece, start) };
+    let rows = piece.len() / chunks.width;
+    let before = (start.next_multiple_of(chunks.rows) - start).min(rows);
+    let whole = (rows - before) / chunks.rows * chunks.rows;
+    let (first, rest) = piece.split_at(before * chunks.width);
+    let (middle, last) = rest.split_at(whole * chunks.width);
+    write_plainly(dataset, columns, first, start)?;
+    chunks.write(dataset, middle, start + before)?;
+    write_plainly(dataset, columns, last, start + before + whole)
+}
+
+/// Writes some rows through the library's filters.
+fn write_plainly<T: H5Type>(
+    dataset: &Dataset,
+    columns: Option<usize>,
+    piece: &[T],
+    start: usize,
+) -> hdf5::Result<()> {
+    if piece.is_empty() {
+        return Ok(());
+    }
     match columns {
         None => dataset.write_slice(piece, start..start + piece.len()),
         Some(columns) => {

@@ -90,23 +90,21 @@ impl Session {
     pub fn new(case: &Case, directory: Option<&RunDirectory>, solvers: Solvers) -> Result<Self, RunError> {
         RunError::unless_whole(case)?;
         case.fits_memory([true; 2])?;
-        let fluid = match &case.fluid {
-            Some(fluid) => {
-                let solver = solvers.fluid.map_or_else(|| fluid_solver(case, fluid), Ok)?;
-                let record = FluidRecord::create(case, directory, &solver)?;
-                Some(FluidSide::with(case, solver, Some(record)))
-            }
-            None => None,
+        let fluid = |fluid| {
+            let solver = solvers.fluid.map_or_else(|| fluid_solver(case, fluid), Ok)?;
+            let record = FluidRecord::create(case, directory, &solver)?;
+            Ok(FluidSide::with(case, solver, Some(record)))
         };
-        let solid = match &case.solid {
-            Some(solid) => {
-                let made = solvers.solid.map(|solver| (solver, None));
-                let (solver, displacement) = made.map_or_else(|| solid_and_displacement(case, solid), Ok)?;
-                let record = SolidRecord::create(case, directory, &solver, displacement.as_deref())?;
-                Some(SolidSide::with(case, solver, Some(record)))
-            }
-            None => None,
+        let solid = |solid| {
+            let made = solvers.solid.map(|solver| (solver, None));
+            let (solver, displacement) = made.map_or_else(|| solid_and_displacement(case, solid), Ok)?;
+            let record = SolidRecord::create(case, directory, &solver, displacement.as_deref())?;
+            Ok(SolidSide::with(case, solver, Some(record)))
         };
+        let (fluid, solid) = both(
+            || case.fluid.as_ref().map(fluid).transpose(),
+            || case.solid.as_ref().map(solid).transpose(),
+        )?;
         Ok(Self::of(case, fluid, solid))
     }
 
