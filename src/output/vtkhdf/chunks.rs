@@ -84,7 +84,7 @@ fn write_deflated(dataset: hid_t, row: usize, chunk: &[u8]) -> hdf5::Result<()> 
 mod tests {
     use super::super::layout::append_rows;
     use super::*;
-    use hdf5::{Dataspace, File};
+    use hdf5::File;
 
     /// A dataset with chunks of eight rows, to which rows are added in several goes, as the library reads it.
     fn read_back<T: Number>(width: usize, goes: &[Vec<T>]) -> Vec<T> {
@@ -138,8 +138,7 @@ mod tests {
             file.new_dataset::<f64>().shuffle().deflate(2).chunk((8,)).shape((0..,)).create("n").unwrap();
         assert!(write_deflated(dataset.id(), 8, &[0]).unwrap_err().to_string().contains("H5D"));
         assert!(write_deflated(file.id(), 0, &[0]).is_err());
-        let plain = Dataspace::try_new(8).unwrap();
-        let plain = file.new_dataset::<f64>().shape(plain.shape()).create("plain").unwrap();
+        let plain = file.new_dataset::<f64>().shape((8,)).create("plain").unwrap();
         assert!(Chunks::of(&plain).is_none());
     }
 }

@@ -22,7 +22,7 @@ use crate::run::side::{RunSide, end, line};
 /// Told of every step.
 pub type OnStep<'a> = dyn FnMut(&ProgressLine) + 'a;
 
-/// All media of a case in this process, turn by turn through the same frames.
+/// All media of a case in this process, through the same frames; see [`Session::step`].
 pub fn in_process(
     case: &Case,
     directory: &RunDirectory,
