@@ -111,20 +111,18 @@ impl Session {
     /// A run that goes on from the checkpoint of a step.
     pub fn resume(case: &Case, directory: &RunDirectory, step: u64) -> Result<Self, RunError> {
         let checkpoints = Checkpoints::of(case, directory);
-        let fluid = match &case.fluid {
-            Some(fluid) => {
-                let saved = checkpoints.read(Participant::Fluid, step)?;
-                Some(FluidSide::resumed(case, fluid, directory, saved)?)
-            }
-            None => None,
+        let fluid = |fluid| {
+            let saved = checkpoints.read(Participant::Fluid, step)?;
+            FluidSide::resumed(case, fluid, directory, saved)
         };
-        let solid = match &case.solid {
-            Some(solid) => {
-                let saved = checkpoints.read(Participant::Solid, step)?;
-                Some(SolidSide::resumed(case, solid, directory, saved)?)
-            }
-            None => None,
+        let solid = |solid| {
+            let saved = checkpoints.read(Participant::Solid, step)?;
+            SolidSide::resumed(case, solid, directory, saved)
         };
+        let (fluid, solid) = both(
+            || case.fluid.as_ref().map(fluid).transpose(),
+            || case.solid.as_ref().map(solid).transpose(),
+        )?;
         Ok(Self::of(case, fluid, solid))
     }
 
@@ -179,9 +177,13 @@ impl Session {
                     Ok(turn) => Ok(*turn),
                     Err(_) => Ok(Turn::Over(FrameHeader::STOP_TERMINATE)),
                 };
-                let fluid = end(&mut both.fluid, directory, result, both.to_solid.counters());
-                let solid = end(&mut both.solid, directory, result_of_solid, both.to_fluid.counters());
-                fluid.and(solid)
+                let Coupled { fluid, solid, to_solid, to_fluid, .. } = both.as_mut();
+                let (of_fluid, of_solid) = (to_solid.counters(), to_fluid.counters());
+                self::both(
+                    || end(fluid, directory, result, of_fluid),
+                    || end(solid, directory, result_of_solid, of_solid),
+                )
+                .map(|_| ())
             }
         }
     }

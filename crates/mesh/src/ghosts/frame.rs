@@ -66,14 +66,14 @@ impl Frame {
         self.index(i, j)
     }
 
-    /// Fills the ghosts beyond a side by reflection, times `parity` (±1); not of a part.
+    /// Fills the ghosts beyond a side by reflection, times `parity` (±1).
     pub fn reflect(self, row: &mut [f64], side: Side, parity: f64) {
-        mirror(row, self.cells, side, ghost_range(self.cells), parity);
+        mirror(row, self, side, ghost_range(self.cells), parity);
     }
 
     /// Fills the ghosts beyond a side by continuing the inner differences: by the parabola through three cells where the data are
-    /// smooth, see `continued`; not of a part.
+    /// smooth, see `continued`.
     pub fn extrapolate(self, row: &mut [f64], side: Side) {
-        extrapolate(row, self.cells, side);
+        extrapolate(row, self, side);
     }
 }

@@ -11,14 +11,7 @@ pub(crate) mod tile_rows;
 
 use std::ops::Range;
 
-use crate::{GHOSTS, Side};
-
-/// The flat index of cell (i, j) among n × n cells with ghosts.
-#[inline(always)]
-pub(crate) fn index(n: usize, i: isize, j: isize) -> usize {
-    let ghosts = GHOSTS as isize;
-    ((j + ghosts) * (n as isize + 2 * ghosts) + i + ghosts) as usize
-}
+use crate::{Frame, GHOSTS, Side};
 
 /// The cells along a side, ghosts at its ends included.
 #[inline(always)]
@@ -72,27 +65,20 @@ pub fn cell_below(n: usize, side: Side, depth: isize, along: isize) -> (isize, i
     }
 }
 
-/// The flat index of [`cell_below`] among n × n cells with ghosts.
-#[inline]
-fn across(n: usize, side: Side, depth: isize, along: isize) -> usize {
-    let (i, j) = cell_below(n, side, depth, along);
-    index(n, i, j)
-}
-
 /// Fills the ghosts beyond some cells along a side by reflection, times `parity` (±1).
-pub(crate) fn mirror(row: &mut [f64], n: usize, side: Side, along: Range<isize>, parity: f64) {
+pub(crate) fn mirror(row: &mut [f64], frame: Frame, side: Side, along: Range<isize>, parity: f64) {
     for layer in 0..GHOSTS as isize {
         for along in along.clone() {
-            row[across(n, side, -1 - layer, along)] = parity * row[across(n, side, layer, along)];
+            row[frame.below(side, -1 - layer, along)] = parity * row[frame.below(side, layer, along)];
         }
     }
 }
 
-/// Fills the ghosts beyond a side of n × n cells by continuing the inner differences: by the parabola through three cells where the data
+/// Fills the ghosts beyond a side by continuing the inner differences: by the parabola through three cells where the data
 /// are smooth, see `continued`.
-pub(crate) fn extrapolate(row: &mut [f64], n: usize, side: Side) {
-    for along in ghost_range(n) {
-        let at = |depth: isize| across(n, side, depth, along);
+pub(crate) fn extrapolate(row: &mut [f64], frame: Frame, side: Side) {
+    for along in ghost_range(frame.cells()) {
+        let at = |depth: isize| frame.below(side, depth, along);
         let [first, second, third] = [row[at(0)], row[at(1)], row[at(2)]];
         let difference = continued(first - second, second - third);
         row[at(-1)] = first + difference;
@@ -127,28 +113,28 @@ fn continued(near: f64, far: f64) -> f64 {
 /// a parity, else by continuing it.
 pub(crate) fn continue_within(
     row: &mut [f64],
-    n: usize,
+    frame: Frame,
     side: Side,
     along: Range<isize>,
     parity: Option<f64>,
 ) {
     match parity {
-        Some(parity) => mirror(row, n, side, along, parity),
-        None => continue_parabola(row, n, side, along),
+        Some(parity) => mirror(row, frame, side, along, parity),
+        None => continue_parabola(row, frame, side, along),
     }
 }
 
 /// Fills the ghosts beyond some cells along a side by the parabola through the three cells next to it. A linear map, unlike
 /// [`Padded::extrapolate`]: prediction must be the same one for all fields; and of prediction's own order, so that
 /// the details of smooth fields are no larger here than elsewhere.
-fn continue_parabola(row: &mut [f64], n: usize, side: Side, along: Range<isize>) {
+fn continue_parabola(row: &mut [f64], frame: Frame, side: Side, along: Range<isize>) {
     for along in along {
-        let [first, second, third] = [0, 1, 2].map(|depth| row[across(n, side, depth, along)]);
+        let [first, second, third] = [0, 1, 2].map(|depth| row[frame.below(side, depth, along)]);
         // u(−k) = u₀ + k (u₀ − u₁) + ½k(k + 1) (u₀ − 2u₁ + u₂), exactly u₀ for a constant.
         let (slope, bend) = (first - second, (first - second) - (second - third));
         for layer in 1..=GHOSTS as isize {
             let k = layer as f64;
-            row[across(n, side, -layer, along)] = first + k * slope + 0.5 * k * (k + 1.0) * bend;
+            row[frame.below(side, -layer, along)] = first + k * slope + 0.5 * k * (k + 1.0) * bend;
         }
     }
 }

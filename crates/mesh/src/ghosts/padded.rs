@@ -1,7 +1,6 @@
 //! One block with its ghost layers (halo).
 
 use crate::ghosts::assemble::assemble;
-use crate::ghosts::{extrapolate, ghost_range, mirror};
 use crate::{AlignedRow, Field, Frame, Mesh, Multiresolution, Patch, Side, Tile};
 
 /// Ghost layers on each side: what a slope in a neighbouring cell needs.
@@ -31,7 +30,7 @@ impl<const N: usize> Padded<N> {
     /// Flat index of cell (i, j) of the block; ghosts have i or j in −2..0 and N..N + 2.
     #[inline(always)]
     pub const fn index(i: isize, j: isize) -> usize {
-        ((j + GHOSTS as isize) * Self::STRIDE as isize + i + GHOSTS as isize) as usize
+        Frame::of(N).index(i, j)
     }
 
     /// Numbers per cell.
@@ -111,13 +110,13 @@ impl<const N: usize> Padded<N> {
 
     /// Fills the ghosts beyond a side of one component by reflection, times `parity` (±1).
     pub fn reflect(row: &mut [f64], side: Side, parity: f64) {
-        mirror(row, N, side, ghost_range(N), parity);
+        Frame::of(N).reflect(row, side, parity);
     }
 
     /// Fills the ghosts beyond a side of one component by continuing its inner differences: by the parabola through three
     /// cells where the data are smooth, see `continued`.
     pub fn extrapolate(row: &mut [f64], side: Side) {
-        extrapolate(row, N, side);
+        Frame::of(N).extrapolate(row, side);
     }
 }
 

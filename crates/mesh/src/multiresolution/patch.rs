@@ -1,11 +1,11 @@
 //! A block and its surroundings, seen on the next coarser level: what prediction (prolongation) starts from.
 
-use crate::ghosts::{continue_within, ghost_range, index};
+use crate::ghosts::{continue_within, ghost_range};
 use crate::multiresolution::details::{DetailRows, details_of_rows};
 use crate::multiresolution::project::{Window, copy_cells, project_rows, project_window};
 use crate::multiresolution::radial::RadialRow;
 use crate::multiresolution::{MOST_COMPONENTS, MOST_IN_FIELD, Multiresolution, deviations};
-use crate::{Field, GHOSTS, Mesh, Padded, Side};
+use crate::{Field, Frame, GHOSTS, Mesh, Padded, Side};
 
 mod beside_coarser;
 
@@ -30,8 +30,10 @@ pub(crate) fn odd_components(components: usize, rule: &impl Multiresolution) -> 
 
 impl<const N: usize> Patch<N> {
     const HALF: usize = N / 2;
-    const STRIDE: usize = N / 2 + 2 * GHOSTS;
-    const LEN: usize = Self::STRIDE * Self::STRIDE;
+    /// Where the cells of a component lie.
+    pub(crate) const FRAME: Frame = Frame::of(N / 2);
+    const STRIDE: usize = Self::FRAME.stride();
+    const LEN: usize = Self::FRAME.len();
 
     /// All zero.
     pub fn zeros(components: usize) -> Self {
@@ -69,7 +71,7 @@ impl<const N: usize> Patch<N> {
         self.place(mesh, id.level, i64::from(id.j) * Self::HALF as i64, rule);
         project_window(&mut self.data, &self.rows, mesh, field, slot, window);
         for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
-            continue_beyond(row, Self::HALF, component, rule, |side| mesh.touches(slot, side));
+            continue_beyond(row, Self::FRAME, component, rule, |side| mesh.touches(slot, side));
         }
     }
 
@@ -100,7 +102,7 @@ impl<const N: usize> Patch<N> {
             let weights = std::array::from_fn(|component| {
                 if component < self.components { self.radial(component, j + GHOSTS) } else { [0.0; 2] }
             });
-            let from = index(Self::HALF, -1, j as isize - 1);
+            let from = Self::FRAME.index(-1, j as isize - 1);
             details_of_rows(&self.data, Self::LEN, from, Self::STRIDE, &weights, rule, &mut rows);
             for (b, sizes) in rows.sizes.iter().enumerate() {
                 // Most rows hold nothing significant.
@@ -141,7 +143,7 @@ impl<const N: usize> Patch<N> {
             for (component, row) in child.data.chunks_exact(Self::LEN).enumerate() {
                 let to = around.component_mut(component);
                 for j in window[1].clone() {
-                    let from = index(Self::HALF, window[0].start, j);
+                    let from = Self::FRAME.index(window[0].start, j);
                     let at = Padded::<N>::index(first_i + window[0].start, first_j + j);
                     copy_cells(&mut to[at..at + width], &row[from..from + width]);
                 }
@@ -152,7 +154,7 @@ impl<const N: usize> Patch<N> {
         for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
             for j in -1..half + 1 {
                 let from = &around.component(component)[Padded::<N>::index(-2, 2 * j)..];
-                let to = index(Self::HALF, -1, j);
+                let to = Self::FRAME.index(-1, j);
                 let share = self.rows[(j + GHOSTS as isize) as usize].lower_share;
                 project_rows(from, Padded::<N>::STRIDE, share, &mut row[to..to + Self::HALF + 2]);
             }
@@ -164,7 +166,7 @@ impl<const N: usize> Patch<N> {
                 };
                 mesh.touches(last, side)
             };
-            continue_beyond(row, Self::HALF, component, rule, is_boundary);
+            continue_beyond(row, Self::FRAME, component, rule, is_boundary);
         }
     }
 }
@@ -172,7 +174,7 @@ impl<const N: usize> Patch<N> {
 /// Fills the ghosts of one component beyond the domain in the way that prediction needs: linear in the values.
 pub(crate) fn continue_beyond(
     row: &mut [f64],
-    n: usize,
+    frame: Frame,
     component: usize,
     rule: &impl Multiresolution,
     is_boundary: impl Fn(Side) -> bool,
@@ -180,7 +182,8 @@ pub(crate) fn continue_beyond(
     // r first: the z sides then find the ghosts beyond r filled and complete the corners.
     for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
         if is_boundary(side) {
-            continue_within(row, n, side, ghost_range(n), rule.parity(side, component));
+            let along = ghost_range(frame.cells());
+            continue_within(row, frame, side, along, rule.parity(side, component));
         }
     }
 }

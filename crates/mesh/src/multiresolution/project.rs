@@ -5,9 +5,9 @@
 
 use std::ops::Range;
 
-use crate::ghosts::{copy_row, ghost_span, index, mean};
+use crate::ghosts::{copy_row, ghost_span, mean};
 use crate::multiresolution::radial::RadialRow;
-use crate::{BlockId, Field, Frame, GHOSTS, Mesh, Neighbour, Offset};
+use crate::{BlockId, Field, Frame, GHOSTS, Mesh, Neighbour, Offset, Patch};
 
 /// Ranges of cells along z and r.
 pub(crate) type Window = [Range<isize>; 2];
@@ -124,7 +124,7 @@ pub(crate) fn project_for_ghosts<const N: usize>(
     let ((known_i, window_i), (known_j, window_j)) = (spans(towards.i), spans(towards.j));
     let known_rows = &rows[(known_j.start + GHOSTS as isize) as usize..][..known_j.len()];
     let from = at.index(2 * known_i.start, 2 * known_j.start);
-    let to = index(N / 2, known_i.start, known_j.start);
+    let to = Patch::<N>::FRAME.index(known_i.start, known_j.start);
     for (row, cells) in patch.chunks_exact_mut(len).zip(padded.chunks_exact(at.len())) {
         let (row, cells) = (&mut row[to..], &cells[from..]);
         // Of known width; no iterator over chunks, which would divide to know its length.
@@ -151,8 +151,10 @@ pub(crate) fn project_for_ghosts<const N: usize>(
         let components = patch.chunks_exact_mut(len);
         match *neighbour {
             Neighbour::Coarser(other) => {
-                let (from, to) =
-                    (first_of_coarser::<N>(offset, &span, id), index(N / 2, span[0].start, span[1].start));
+                let (from, to) = (
+                    first_of_coarser::<N>(offset, &span, id),
+                    Patch::<N>::FRAME.index(span[0].start, span[1].start),
+                );
                 for (row, owner) in components.zip(rows_of(other)) {
                     let (row, owner, lines) = (&mut row[to..], &owner[from..], span[1].len());
                     match span[0].len() {
@@ -268,12 +270,12 @@ fn project_same<const N: usize>(
     [span_i, span_j]: &Window,
     rows: &[RadialRow],
 ) {
-    let (half, n) = (N / 2, N as isize);
+    let n = N as isize;
     let local_i = (2 * span_i.start - isize::from(offset.i) * n) as usize;
     for j in span_j.clone() {
         let share = rows[(j + GHOSTS as isize) as usize].lower_share;
         let local_j = (2 * j - isize::from(offset.j) * n) as usize;
-        let to = index(half, span_i.start, j);
+        let to = Patch::<N>::FRAME.index(span_i.start, j);
         project_rows(&owner[local_j * N + local_i..], N, share, &mut row[to..to + span_i.len()]);
     }
 }
@@ -284,7 +286,7 @@ fn copy_coarser<const N: usize>(row: &mut [f64], owner: &[f64], offset: Offset, 
     let first = first_of_coarser::<N>(offset, span, id);
     let [span_i, span_j] = span;
     for (line, j) in span_j.clone().enumerate() {
-        let (from, to) = (first + line * N, index(N / 2, span_i.start, j));
+        let (from, to) = (first + line * N, Patch::<N>::FRAME.index(span_i.start, j));
         copy_cells(&mut row[to..to + span_i.len()], &owner[from..from + span_i.len()]);
     }
 }
@@ -322,7 +324,7 @@ fn project_twice<const N: usize>(
             let means = &mut means[..from.len()];
             project_children::<N>(fine, offset, from.clone(), local_j, halves[b].lower_share, means);
         }
-        let to = index(N / 2, span_i.start, j);
+        let to = Patch::<N>::FRAME.index(span_i.start, j);
         let share = rows[(j + GHOSTS as isize) as usize].lower_share;
         project_rows(between.as_flattened(), N, share, &mut row[to..to + span_i.len()]);
     }

@@ -6,7 +6,7 @@ use crate::ghosts::mean_of_cells;
 use crate::multiresolution::marks::{Marked, wanted_levels};
 use crate::multiresolution::patch::{continue_beyond, odd_components, predict};
 use crate::multiresolution::{MOST_IN_FIELD, Multiresolution};
-use crate::{Adaptation, BlockId, Field, GHOSTS, Mesh, Padded, Patch, ScratchPool};
+use crate::{Adaptation, BlockId, Field, Frame, GHOSTS, Mesh, Padded, Patch, ScratchPool};
 
 /// Where the values of a new block come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,7 +145,13 @@ impl<const N: usize> Remap<'_, N> {
                     patches.with(|patch| padded.assemble(old_mesh, field, slot, rule, patch));
                     for component in 0..components {
                         let is_boundary = |side| old_mesh.touches(slot, side);
-                        continue_beyond(padded.component_mut(component), N, component, rule, is_boundary);
+                        continue_beyond(
+                            padded.component_mut(component),
+                            Frame::of(N),
+                            component,
+                            rule,
+                            is_boundary,
+                        );
                     }
                     predict_child(old_mesh, slot, child, rule, padded, block);
                 }),

@@ -32,45 +32,42 @@ struct Segment {
     compliance: f64,
 }
 
-/// The segments that cells are on.
-struct On<const L: usize> {
-    strain: [f64; L],
-    stress: [f64; L],
-    modulus: [f64; L],
-    compliance: [f64; L],
-}
-
-impl<const L: usize> On<L> {
+impl Segment {
+    /// Y at a plastic strain, Pa.
     #[inline(always)]
-    fn all(segment: &Segment) -> Self {
-        let Segment { strain, stress, modulus, compliance, .. } = *segment;
-        Self { strain: [strain; L], stress: [stress; L], modulus: [modulus; L], compliance: [compliance; L] }
+    fn stress_at(&self, strain: f64) -> f64 {
+        self.stress + self.modulus * (strain - self.strain)
     }
 
+    /// This one where a condition holds, another one otherwise; of that the reach, which no return needs.
     #[inline(always)]
-    fn go_on(&mut self, k: usize, does: bool, to: &Segment, blend: Blend) {
-        self.strain[k] = blend.choose(does, to.strain, self.strain[k]);
-        self.stress[k] = blend.choose(does, to.stress, self.stress[k]);
-        self.modulus[k] = blend.choose(does, to.modulus, self.modulus[k]);
-        self.compliance[k] = blend.choose(does, to.compliance, self.compliance[k]);
-    }
-
-    /// Y of a cell at a plastic strain, Pa.
-    #[inline(always)]
-    fn stress_at(&self, k: usize, strain: f64) -> f64 {
-        self.stress[k] + self.modulus[k] * (strain - self.strain[k])
+    fn or(&self, blend: Blend, holds: bool, other: Self) -> Self {
+        Self {
+            strain: blend.choose(holds, self.strain, other.strain),
+            stress: blend.choose(holds, self.stress, other.stress),
+            modulus: blend.choose(holds, self.modulus, other.modulus),
+            reach: other.reach,
+            compliance: blend.choose(holds, self.compliance, other.compliance),
+        }
     }
 }
 
 /// What a return of cells gives.
 struct Returns<const L: usize> {
-    /// Whether a cell yields; nothing else means anything otherwise.
-    yields: [bool; L],
     /// Of the trial's deviator, what is left.
     left_share: [f64; L],
     /// q at the end, Pa.
     von_mises: [f64; L],
+    /// Positive where a cell yields; nothing else means anything otherwise.
     increment: [f64; L],
+}
+
+impl<const L: usize> Returns<L> {
+    #[inline(always)]
+    fn yields(&self, k: usize) -> bool {
+        // Inside of its surface a cell is on no segment beyond its own, and that one's line or an earlier one's lies above it.
+        self.increment[k] > 0.0
+    }
 }
 
 impl Polyline {
@@ -96,45 +93,62 @@ impl Polyline {
         Some(Self { segments: [before].into_iter().chain(between).chain([beyond]).collect(), three_mu })
     }
 
-    /// The return of cells with these q of their trial stresses (Pa) and plastic strains, free of branches.
+    /// The return of cells with these q of their trial stresses (Pa) and plastic strains.
+    #[inline(always)]
+    fn returns<const L: usize>(&self, trial: &[f64; L], strain: &[f64; L]) -> Returns<L> {
+        let reach: [f64; L] = std::array::from_fn(|k| trial[k] + self.three_mu * strain[k]);
+        let (first, further) = (&self.segments[0], &self.segments[1..]);
+        // As a rule cells beside each other end on one.
+        let before = further.iter().take_while(|segment| reach[0] >= segment.reach).count();
+        let own = self.segments[before];
+        let begins = if before > 0 { own.reach } else { f64::NEG_INFINITY };
+        let ends = further.get(before).map_or(f64::INFINITY, |next| next.reach);
+        if reach.iter().fold(true, |alike, reach| alike & (*reach >= begins) & (*reach < ends)) {
+            return self.returns_on(trial, strain, |_| own);
+        }
+        let (mut end, blend) = ([*first; L], Blend::new());
+        for segment in further {
+            for k in 0..L {
+                end[k] = segment.or(blend, reach[k] >= segment.reach, end[k]);
+            }
+        }
+        self.returns_on(trial, strain, |k| end[k])
+    }
+
+    /// The same, free of branches, of cells whose returns end on segments that are known.
     ///
-    /// On the segment where it ends, from ε = max(ε_p, where that begins) with Y = Y(ε),
+    /// From ε = max(ε_p, where the segment begins) with Y = Y(ε),
     ///
     /// Δε_p = ε − ε_p + (q_trial − 3μ (ε − ε_p) − Y)/(3μ + H).
     #[inline(always)]
-    fn returns<const L: usize>(&self, trial: &[f64; L], strain: &[f64; L]) -> Returns<L> {
-        let (mut end, blend) = (On::<L>::all(&self.segments[0]), Blend::new());
-        let reach: [f64; L] = std::array::from_fn(|k| trial[k] + self.three_mu * strain[k]);
-        for segment in &self.segments[1..] {
-            for k in 0..L {
-                end.go_on(k, reach[k] >= segment.reach, segment, blend);
-            }
-        }
-        let (mut yields, mut left_share) = ([false; L], [0.0; L]);
-        let (mut von_mises, mut increment) = ([0.0; L], [0.0; L]);
+    fn returns_on<const L: usize>(
+        &self,
+        trial: &[f64; L],
+        strain: &[f64; L],
+        end: impl Fn(usize) -> Segment,
+    ) -> Returns<L> {
+        let (mut left_share, mut von_mises, mut increment) = ([0.0; L], [0.0; L], [0.0; L]);
         for k in 0..L {
-            let (q, begin) = (trial[k], end.strain[k]);
-            let from = if begin > strain[k] { begin } else { strain[k] };
+            let (q, end) = (trial[k], end(k));
+            let from = if end.strain > strain[k] { end.strain } else { strain[k] };
             let ahead = from - strain[k];
-            increment[k] = ahead + (q - self.three_mu * ahead - end.stress_at(k, from)) * end.compliance[k];
-            // Inside of its surface a cell is on no segment beyond its own, and that one's line or an earlier one's lies above it.
-            yields[k] = increment[k] > 0.0;
-            let line = end.stress_at(k, strain[k] + increment[k]);
+            increment[k] = ahead + (q - self.three_mu * ahead - end.stress_at(from)) * end.compliance;
+            let line = end.stress_at(strain[k] + increment[k]);
             // Rounding must not put a stress that just yields outside of where it was.
             von_mises[k] = if line < q { line } else { q };
             left_share[k] = von_mises[k] / q;
         }
-        Returns { yields, left_share, von_mises, increment }
+        Returns { left_share, von_mises, increment }
     }
 
     /// Δε_p and q at the end, Pa, of one cell; `None` where it stays elastic. Bitwise what [`return_batch`] makes of it.
     pub fn single(&self, trial: f64, strain: f64) -> Option<(f64, f64)> {
-        let Returns { yields: [yields], von_mises: [left], increment: [increment], .. } =
-            self.returns(&[trial], &[strain]);
-        yields.then_some((increment, left))
+        let returns = self.returns(&[trial], &[strain]);
+        returns.yields(0).then_some((returns.increment[0], returns.von_mises[0]))
     }
 
-    /// Returns the stresses of cells with these plastic strains.
+    /// Returns the stresses of cells with these plastic strains; `None` where all lie within what the curve begins with, nothing happens
+    /// then.
     #[inline(always)]
     fn return_stresses<const L: usize>(
         &self,
@@ -143,19 +157,21 @@ impl Polyline {
         rr: &mut [f64; L],
         phiphi: &mut [f64; L],
         strain: &[f64; L],
-    ) -> Returns<L> {
-        let mut von_mises = [0.0; L];
-        for k in 0..L {
-            let trial = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
-            von_mises[k] = trial.von_mises_squared().sqrt();
+    ) -> Option<Returns<L>> {
+        let cell = |k: usize| Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
+        let squared: [f64; L] = std::array::from_fn(|k| cell(k).von_mises_squared());
+        let bound = self.segments[0].stress;
+        let within = squared.iter().fold(true, |within, squared| within & (*squared <= bound * bound));
+        if within {
+            return None;
         }
-        let (returns, blend) = (self.returns(&von_mises, strain), Blend::new());
+        let (returns, blend) = (self.returns(&squared.map(f64::sqrt), strain), Blend::new());
         for k in 0..L {
             let old = Stress { zz: zz[k], zr: zr[k], rr: rr[k], phiphi: phiphi[k] };
-            let new = old.with_deviator_times(returns.left_share[k]).or(blend, returns.yields[k], old);
+            let new = old.with_deviator_times(returns.left_share[k]).or(blend, returns.yields(k), old);
             (zz[k], zr[k], rr[k], phiphi[k]) = (new.zz, new.zr, new.rr, new.phiphi);
         }
-        returns
+        Some(returns)
     }
 }
 
@@ -199,13 +215,17 @@ fn return_part<const L: usize>(
 ) -> u64 {
     let [strain, increment, work] = [strain, increment, work].map(|row| part::<L>(row, at));
     let returns = law.return_stresses(part(zz, at), part(zr, at), part(rr, at), part(phiphi, at), strain);
+    let Some(returns) = returns else {
+        (*increment, *work) = ([0.0; L], [0.0; L]);
+        return 0;
+    };
     let (mut count, blend) = (0, Blend::new());
     for k in 0..L {
-        let select = |new: f64, old: f64| blend.choose(returns.yields[k], new, old);
+        let select = |new: f64, old: f64| blend.choose(returns.yields(k), new, old);
         strain[k] = select(strain[k] + returns.increment[k], strain[k]);
         increment[k] = select(returns.increment[k], 0.0);
         work[k] = select(returns.von_mises[k] * returns.increment[k], 0.0);
-        count += u64::from(returns.yields[k]);
+        count += u64::from(returns.yields(k));
     }
     count
 }

@@ -54,6 +54,11 @@ impl Plasticity {
             let [zz, zr, rr, phiphi, strain, increment, work] = rows.all_but_temperature();
             return closed::return_batch(line, zz, zr, rr, phiphi, strain, increment, work);
         }
+        if let Some(law) = &self.polyline {
+            // Looks first, at fewer cells at a time.
+            let [zz, zr, rr, phiphi, strain, increment, work] = rows.all_but_temperature();
+            return polyline::return_batch(law, zz, zr, rr, phiphi, strain, increment, work);
+        }
         let n = rows.strain.len();
         let mut count = 0;
         for first in (0..n).step_by(BATCH) {
@@ -67,9 +72,6 @@ impl Plasticity {
             if !any {
                 batch.increment.fill(0.0);
                 batch.work.fill(0.0);
-            } else if let Some(law) = &self.polyline {
-                let [zz, zr, rr, phiphi, strain, increment, work] = batch.all_but_temperature();
-                count += polyline::return_batch(law, zz, zr, rr, phiphi, strain, increment, work);
             } else if let Some(law) = &self.power {
                 count += self.return_power(law, &mut batch, dt);
             } else {

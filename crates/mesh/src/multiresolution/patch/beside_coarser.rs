@@ -1,6 +1,6 @@
 //! The ghosts of a block beside coarser blocks: predicted line by line, so that the inner loops are plain ones.
 
-use crate::ghosts::{continue_within, index};
+use crate::ghosts::continue_within;
 use crate::multiresolution::project::project_for_ghosts;
 use crate::multiresolution::radial::RadialRow;
 use crate::multiresolution::{
@@ -51,7 +51,7 @@ impl<const N: usize> Patch<N> {
         let along = if step < 0 { -2..1 } else { half - 1..half + 2 };
         for side in sides.into_iter().filter(|side| mesh.touches(slot, *side)) {
             for (component, row) in self.data.chunks_exact_mut(Self::LEN).enumerate() {
-                continue_within(row, Self::HALF, side, along.clone(), rule.parity(side, component));
+                continue_within(row, Self::FRAME, side, along.clone(), rule.parity(side, component));
             }
         }
     }
@@ -65,7 +65,7 @@ impl<const N: usize> Patch<N> {
             _ => half,
         };
         let (i, j) = (first(offset.i), first(offset.j));
-        let (from, to) = (index(Self::HALF, i, j), at.index(2 * i, 2 * j));
+        let (from, to) = (Self::FRAME.index(i, j), at.index(2 * i, 2 * j));
         let rows = &self.rows[(j + GHOSTS as isize) as usize..];
         match offset {
             Offset { i: 0, .. } => {
