@@ -48,7 +48,7 @@ pub use kernels::dispersion::{dispersion_share, oblique_dispersion_shares};
 pub use kernels::elementary::{exp_and_less_one, ln_of};
 pub use kernels::limiter::{Limiter, limited_differences};
 pub use kernels::parallel::{SUMS_AT_ONCE, ScratchPool, for_each_tile, for_some_blocks, map_in_order};
-pub use kernels::reduce::maximum;
+pub use kernels::reduce::{maximum, sum};
 pub use multiresolution::adaptation::{Adaptation, LevelBound, RegionOfInterest, Zone};
 pub use multiresolution::horizon::Horizon;
 pub use multiresolution::patch::Patch;

@@ -212,7 +212,7 @@ impl<const N: usize> FluidSolver<N> {
                 let volume = self.mesh().volume(leaves[slot], j);
                 for (sum, component) in block.iter_mut().zip(components) {
                     let row = &self.component(slot, *component)[j * N..(j + 1) * N];
-                    *sum += volume * row.iter().sum::<f64>();
+                    *sum += volume * mesh::sum(row);
                 }
             }
             block
@@ -240,7 +240,7 @@ impl<const N: usize> FluidSolver<N> {
         let leaves = self.mesh().tree().leaves();
         let of_block = move |component: usize, slot: usize| {
             let rows = self.component(slot, component).chunks_exact(N).enumerate();
-            rows.map(|(j, row)| self.mesh().volume(leaves[slot], j) * row.iter().sum::<f64>()).sum::<f64>()
+            rows.map(|(j, row)| self.mesh().volume(leaves[slot], j) * mesh::sum(row)).sum::<f64>()
         };
         let carried = self.model().carried.iter().zip(self.model().carried_components());
         carried.map(move |(carried, component)| {

@@ -77,12 +77,14 @@ pub(crate) fn mirror(row: &mut [f64], frame: Frame, side: Side, along: Range<isi
 /// Fills the ghosts beyond a side by continuing the inner differences: by the parabola through three cells where the data
 /// are smooth, see `continued`.
 pub(crate) fn extrapolate(row: &mut [f64], frame: Frame, side: Side) {
-    for along in ghost_range(frame.cells()) {
-        let at = |depth: isize| frame.below(side, depth, along);
-        let [first, second, third] = [row[at(0)], row[at(1)], row[at(2)]];
-        let difference = continued(first - second, second - third);
-        row[at(-1)] = first + difference;
-        row[at(-2)] = first + 2.0 * difference;
+    let layers = [-2, -1, 0, 1, 2].map(|depth| frame.below(side, depth, -(GHOSTS as isize)));
+    let step = if side.axis_across() == 0 { frame.stride() } else { 1 };
+    for along in 0..frame.cells() + 2 * GHOSTS {
+        let [beyond, before, first, second, third] = layers.map(|layer| layer + along * step);
+        let at_side = row[first];
+        let difference = continued(at_side - row[second], row[second] - row[third]);
+        row[before] = at_side + difference;
+        row[beyond] = at_side + 2.0 * difference;
     }
 }
 
@@ -105,8 +107,11 @@ fn continued(near: f64, far: f64) -> f64 {
     const MOST: f64 = 2.0;
     let sign = if near > 0.0 { 1.0 } else { -1.0 };
     let (near, far) = (sign * near, sign * far);
-    let parabola = (2.0 * near - far).max(LEAST * near);
-    sign * parabola.min(MOST * far).max(0.0)
+    // Comparisons: `max` and `min` take more care of what is no number, and longer.
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let parabola = larger(2.0 * near - far, LEAST * near);
+    let most = if parabola < MOST * far { parabola } else { MOST * far };
+    sign * larger(most, 0.0)
 }
 
 /// Fills the ghosts beyond some cells along a side in the way that prediction needs: by reflection where the component has
