@@ -25,6 +25,13 @@ const LAWS: [(&str, Law); 4] = [
     ("table", Law::Table),
 ];
 
+impl Law {
+    /// As in case files.
+    fn name(self) -> &'static str {
+        LAWS.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
+    }
+}
+
 /// What each key is in, and a value that is usual.
 const HELP: [(&str, &str); 11] = [
     ("yield_strength", "give A in Pa, or a material that has one"),
@@ -104,6 +111,12 @@ pub(super) fn plasticity(
     table.finish(faults);
     let (law, material) = (law?.value, material?);
     if faults.0.len() > before || numbers.refuse_tiny(faults) {
+        return None;
+    }
+    if let Some(place) = place.as_ref().filter(|_| law != Law::Table) {
+        let message = format!("`table` has no say in law = \"{}\"", law.name());
+        let help = "remove it, or choose law = \"table\"";
+        faults.at(&format!("{path}.table"), &place.span, message, help);
         return None;
     }
     let library = MaterialHardening::of(material.name()).map(|entry| entry.law);
@@ -230,7 +243,7 @@ impl Numbers {
             Law::JohnsonCook => return true,
             Law::Table => &["rate_coefficient", "reference_rate"],
         };
-        let name = LAWS.iter().find(|(_, known)| *known == law).map_or("", |(name, _)| name);
+        let name = law.name();
         let mut all = true;
         for (key, given) in self.0.iter().filter(|(key, _)| !allowed.contains(key)) {
             let message = format!("`{key}` has no say in law = \"{name}\", got {:?}", given.value);

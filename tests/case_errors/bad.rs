@@ -178,6 +178,7 @@ pub const BAD: &[(Edit, &[&str])] = &[
     (Append("[solid.plasticity]\nlaw = \"perfekt\""), &["solid.plasticity.law", "did you mean `perfect`?"]),
     (Append("[solid.plasticity]\nlaw = \"perfect\"\nyield_strength = 0"), &["solid.plasticity.yield_strength: yield_strength must be positive, got 0 Pa", "give A in Pa"]),
     (Append("[solid.plasticity]\nlaw = \"perfect\"\nhardening_modulus = 1e9"), &["solid.plasticity.hardening_modulus: `hardening_modulus` has no say in law = \"perfect\"", "remove it"]),
+    (Append("[solid.plasticity]\nlaw = \"perfect\"\ntable = [[0, 1e7]]"), &["solid.plasticity.table: `table` has no say in law = \"perfect\"", "choose law = \"table\""]),
     (Append("[solid.plasticity]\nlaw = \"linear\""), &["solid.plasticity.hardening_modulus: `hardening_modulus` is missing", "1e9 for mild steel"]),
     (Append("[solid.plasticity]\nlaw = \"linear\"\nhardening_modulus = -1.0"), &["solid.plasticity.hardening_modulus", "zero or positive, got -1 Pa"]),
     (Replace("\"structural-steel\"", "\"titanium\"\n[solid.plasticity]\nlaw = \"johnson-cook\""), &["solid.plasticity.hardening_modulus", "the material titanium brings none"]),

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use cav::case;
 use cav::output::{Progress, RunDirectory};
+use cav::run::checkpoints::DEFAULT_INTERVAL;
 use cav::run::process::launch::{prepare, thread_pool};
 use cav::run::process::launch_options::Options;
 use cav::run::process::session::{Session, Solvers};
@@ -106,7 +107,16 @@ impl Run {
         if self.over.is_some() {
             return Ok(());
         }
-        match self.end(Ok(Turn::Over(FrameHeader::STOP_INTERRUPT)), Over::Closed) {
+        self.stop.interrupt();
+        let Self { session, pool, stop, log, .. } = self;
+        let halted = match guarded(|| Ok(pool.install(|| log.during(|| session.halt(stop))))) {
+            Ok(halted) => halted,
+            Err(panic) => {
+                self.over = Some(Over::Failed);
+                return Err(panic);
+            }
+        };
+        match self.end(halted, Over::Closed) {
             Err(Failure::Run(cav::run::RunError::Interrupted)) => Ok(()),
             other => other,
         }
@@ -195,11 +205,14 @@ impl Simulation {
                     let solid = solid_initial.as_ref().map(|f| solid_from(case, f)).transpose()?;
                     Ok(Session::new(case, directory.as_ref(), Solvers { fluid, solid })?)
                 };
-                let session = pool.install(|| log.during(make)).inspect_err(|failure| {
+                let mut session = pool.install(|| log.during(make)).inspect_err(|failure| {
                     if let Failure::Run(error) = failure {
                         log.failed(error);
                     }
                 })?;
+                if let Some(directory) = &directory {
+                    session.keep_checkpoints(case, directory, DEFAULT_INTERVAL);
+                }
                 let (stop, case) = (Stop::default(), case.clone());
                 Ok(Run { case, session, directory, log, pool, stop, over: None })
             })

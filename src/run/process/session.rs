@@ -161,6 +161,18 @@ impl Session {
         }
     }
 
+    /// Makes no further step, and keeps a checkpoint of those made if any are kept: for a run that is broken off between two.
+    ///
+    /// - `stop`: has asked for the end.
+    pub fn halt(&mut self, stop: &Stop) -> Result<Turn, RunError> {
+        match &mut self.sides {
+            Sides::Fluid(side) => halt_alone(side.as_mut(), stop),
+            Sides::Solid(side) => halt_alone(side.as_mut(), stop),
+            // Both learn of it before they begin a step.
+            Sides::Both(both) => both.step(stop),
+        }
+    }
+
     /// Writes what is left to write, and with a directory each side's part of the summary.
     ///
     /// - `result`: what the last step came to; its error is passed on.
@@ -260,4 +272,11 @@ fn step_alone(side: &mut impl RunSide, stop: &Stop) -> Result<Turn, RunError> {
     let flags = stop.flags();
     side.keep_alone(flags != 0)?;
     Ok(if flags == 0 { Turn::Continues } else { Turn::Over(flags) })
+}
+
+fn halt_alone(side: &mut impl RunSide, stop: &Stop) -> Result<Turn, RunError> {
+    if side.solver().steps() > 0 {
+        side.keep_alone(true)?;
+    }
+    Ok(Turn::Over(stop.flags()))
 }

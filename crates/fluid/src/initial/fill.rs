@@ -29,6 +29,10 @@ pub(crate) fn average(
         None => cell(initial, &initial.ambient, geometry, centre, widths),
         Some(field) => cell_in_field(initial, field, geometry, mixture, centre, widths),
     };
+    if contents.state.phi > TRACE_GAS {
+        // A pulse is one of the liquid, at whose amplitude a thin gas would be no gas.
+        return contents;
+    }
     for pulse in &initial.pulses {
         let density = contents.state.density;
         add_pulse(pulse, centre, mixture, &mut contents.state);
@@ -347,6 +351,30 @@ mod tests {
             }
         }
         assert!(mixed > 50 && lowest < 0.05 * 5e7, "{mixed} mixed cells, lowest pressure {lowest}");
+    }
+
+    #[test]
+    fn a_pulse_stays_out_of_the_gas() {
+        let mut initial = bubble(0.5);
+        let (_, before, _) = filled(&initial);
+        initial.pulses = vec![crate::Pulse {
+            shape: PulseShape::Plane { direction: Some([-1.0, 0.0]) },
+            centre: [0.5, 0.0],
+            width: 0.2,
+            amplitude: -1e6,
+        }];
+        let (mesh, after, _) = filled(&initial);
+        let (mut gas, mut changed) = (0, 0);
+        for slot in 0..mesh.blocks() {
+            for k in 0..64 {
+                let [old, new] =
+                    [&before, &after].map(|field| [0, 1, 2, 3, 4].map(|c| field.component(slot, c)[k]));
+                gas += usize::from(old[4] > 0.0);
+                changed += usize::from(old != new);
+                assert!(old[4] == 0.0 || old == new, "{old:?} {new:?}");
+            }
+        }
+        assert!(gas > 300 && changed > 1000, "{gas} cells with gas, {changed} changed");
     }
 
     #[test]

@@ -92,21 +92,31 @@ pub(crate) fn predict(w: Rows<'_>, p: Predictor<'_>, out: Predicted<'_>) -> bool
     let eno = |a, b| Limiter::Eno.difference(a, b);
     let none = |a, b| Limiter::None.difference(a, b);
     // Without gas all limiters give the gas fraction the same slopes: none.
-    match (p.limiter, p.fraction_limiter, p.with_gas, p.mixture.has_covolume()) {
-        (Limiter::Mc, _, true, false) => body::<true, false>(mc, mc, w, p, out),
-        (Limiter::Mc, _, false, false) => body::<false, false>(mc, mc, w, p, out),
-        (Limiter::Mc, _, true, true) => body::<true, true>(mc, mc, w, p, out),
-        (Limiter::Mc, _, false, true) => body::<false, true>(mc, mc, w, p, out),
-        (Limiter::Minmod, Limiter::Mc, true, false) => body::<true, false>(minmod, mc, w, p, out),
-        (Limiter::Minmod, _, true, false) => body::<true, false>(minmod, minmod, w, p, out),
-        (Limiter::Minmod, _, false, false) => body::<false, false>(minmod, minmod, w, p, out),
-        (Limiter::Minmod, Limiter::Mc, true, true) => body::<true, true>(minmod, mc, w, p, out),
-        (Limiter::Minmod, _, true, true) => body::<true, true>(minmod, minmod, w, p, out),
-        (Limiter::Minmod, _, false, true) => body::<false, true>(minmod, minmod, w, p, out),
-        (Limiter::Eno, .., false) => body::<true, false>(eno, eno, w, p, out),
-        (Limiter::Eno, .., true) => body::<true, true>(eno, eno, w, p, out),
-        (Limiter::None, .., false) => body::<true, false>(none, none, w, p, out),
-        (Limiter::None, .., true) => body::<true, true>(none, none, w, p, out),
+    match (p.with_gas, p.limiter, p.fraction_limiter) {
+        (true, Limiter::Mc, _) => body_of::<true>(mc, mc, w, p, out),
+        (true, Limiter::Minmod, Limiter::Mc) => body_of::<true>(minmod, mc, w, p, out),
+        (true, Limiter::Minmod, _) => body_of::<true>(minmod, minmod, w, p, out),
+        (true, Limiter::Eno, _) => body_of::<true>(eno, eno, w, p, out),
+        (true, Limiter::None, _) => body_of::<true>(none, none, w, p, out),
+        (false, Limiter::Mc, _) => body_of::<false>(mc, mc, w, p, out),
+        (false, Limiter::Minmod, _) => body_of::<false>(minmod, minmod, w, p, out),
+        (false, Limiter::Eno, _) => body_of::<false>(eno, eno, w, p, out),
+        (false, Limiter::None, _) => body_of::<false>(none, none, w, p, out),
+    }
+}
+
+#[inline(always)]
+fn body_of<const WITH_GAS: bool>(
+    limit: impl Fn(f64, f64) -> f64 + Copy,
+    limit_fraction: impl Fn(f64, f64) -> f64 + Copy,
+    w: Rows<'_>,
+    p: Predictor<'_>,
+    out: Predicted<'_>,
+) -> bool {
+    if p.mixture.has_covolume() {
+        body::<WITH_GAS, true>(limit, limit_fraction, w, p, out)
+    } else {
+        body::<WITH_GAS, false>(limit, limit_fraction, w, p, out)
     }
 }
 
@@ -258,6 +268,7 @@ fn half_again(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::NobleAbelStiffenedGas;
     use crate::state::PrimitiveCell;
 
     #[test]
@@ -329,5 +340,55 @@ mod tests {
             }
         }
         assert!(shares.iter().all(|count| *count > 10), "{shares:?}");
+    }
+    /// Where there is no gas its share is what the scratch of a thread happens to hold.
+    #[test]
+    fn without_gas_its_share_has_no_say() {
+        let (stride, len) = (12, 144);
+        let Mixture { liquid, gas, .. } = Mixture::water_and_air();
+        let mixture = Mixture::new(NobleAbelStiffenedGas { covolume: 6.61e-4, ..liquid }, gas);
+        assert!(mixture.has_covolume());
+        let row = |low: f64, high: f64, rate: f64| -> Vec<f64> {
+            (0..len).map(|k| low + (high - low) * (0.5 + 0.5 * ((k * k) as f64 * rate).sin())).collect()
+        };
+        let w = [
+            row(1000.0, 1010.0, 0.37),
+            row(-9.0, 9.0, 0.21),
+            row(-9.0, 9.0, 0.53),
+            row(1e5, 1e7, 0.71),
+            vec![0.0; len],
+        ];
+        let inverse_r = row(10.0, 30.0, 0.07);
+        let (none, left) = (vec![0.0; len], row(-0.5, 1.0, 0.3));
+        for (name, limiter) in Limiter::NAMES {
+            let found = [&none, &left].map(|gas_shares| {
+                let rows = || -> [Vec<f64>; 5] { std::array::from_fn(|_| vec![0.0; len]) };
+                let (mut s_z, mut s_r, mut half) = (rows(), rows(), rows());
+                let (mut keep, mut sound) = (vec![0.0; len], vec![0.0; len]);
+                let p = Predictor {
+                    limiter,
+                    fraction_limiter: limiter,
+                    stride,
+                    inverse_h: [3e4, 5e4],
+                    inverse_r: &inverse_r,
+                    gas_shares,
+                    half_dt: 1e-8,
+                    mixture,
+                    with_gas: false,
+                    with_mixed: false,
+                };
+                let out = Predicted {
+                    s_z: s_z.each_mut().map(|row| &mut row[..]),
+                    s_r: s_r.each_mut().map(|row| &mut row[..]),
+                    half: half.each_mut().map(|row| &mut row[..]),
+                    keep: &mut keep,
+                    sound: &mut sound,
+                };
+                predict(w.each_ref().map(|row| &row[..]), p, out);
+                (half, sound)
+            });
+            assert_eq!(found[0], found[1], "{name}");
+            assert!(found[0].1[len / 2] > 1000.0, "{name}");
+        }
     }
 }

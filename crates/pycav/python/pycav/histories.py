@@ -20,7 +20,8 @@ def from_columns(columns: Columns) -> xarray.Dataset:
 
     Variables have the paths of the files (`bubble/volume`, `interface/pressure`) and the attributes `units` and
     `description`. Coordinates are the times: `time` of every step, and those of each group that is written less often, as
-    `interface/time`; the radii of the interface are `interface/r`.
+    `interface/time`; the radii of the interface are `interface/r`. While a run goes on, and after one that was killed, some columns
+    have more rows than others: of those on one time the rows that all have count.
     """
     groups: dict[str, dict[str, tuple[Any, str, str]]] = {}
     for path, column in columns.items():
@@ -29,14 +30,18 @@ def from_columns(columns: Columns) -> xarray.Dataset:
     variables: dict[str, Any] = {}
     coordinates: dict[str, Any] = {}
     steps = np.asarray(columns.get("time", columns.get("/time", (np.empty(0), "", "")))[0])
+    times = {group: _time_of(group, members, steps) for group, members in groups.items()}
+    rows: dict[str, int] = {}
     for group, members in groups.items():
-        own = f"{group}/time" if group else "time"
-        # Where it is that of every step, the rows of all groups stand side by side.
-        of_steps = own not in members or np.array_equal(np.asarray(members[own][0]), steps)
-        time = "time" if of_steps else own
+        least = min((len(values) for path, (values, _, _) in members.items() if path != f"{group}/r"), default=0)
+        rows[times[group]] = min(least, rows.get(times[group], least))
+    for group, members in groups.items():
+        own, time = f"{group}/time" if group else "time", times[group]
         radii = f"{group}/r" if f"{group}/r" in members else None
         for path, (values, unit, description) in members.items():
             array = np.asarray(values)
+            if path != radii:
+                array = array[:rows[time]]
             attributes = {"units": unit, "description": description}
             if path == own:
                 coordinates[path] = ((time,), array, attributes)
@@ -48,6 +53,19 @@ def from_columns(columns: Columns) -> xarray.Dataset:
                 across = radii if radii and array.shape[1] == len(members[radii][0]) else f"{path} component"
                 variables[path] = ((time, across), array, attributes)
     return xarray.Dataset(variables, coordinates)
+
+
+def _time_of(group: str, members: Columns, steps: np.ndarray) -> str:
+    """The time that the columns of a group are over: `time` where theirs is that of every step, so that rows of groups stand side by
+    side."""
+    own = f"{group}/time" if group else "time"
+    if own not in members:
+        return "time"
+    times = np.asarray(members[own][0])
+    both = min(len(times), len(steps))
+    # Two rows tell a time of every step from a rarer one.
+    known = len(times) == len(steps) or both > 1
+    return "time" if known and np.array_equal(times[:both], steps[:both]) else own
 
 
 def from_files(paths: Sequence[Path]) -> xarray.Dataset:
