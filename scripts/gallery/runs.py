@@ -35,10 +35,12 @@ class Run:
         return sets + (["--refine", str(self.grids)] if self.grids > 1 else [])
 
     def commands(self, name, *, brief=False):
-        """As a reader types them; `brief` is without the times of snapshots."""
+        """As a reader types them; `brief` is without the times of snapshots, those of a case whose end comes sooner, too."""
         run = self
         if brief:
-            run = replace(self, changes=tuple(change for change in self.changes if not change.startswith("time.snapshots=")))
+            none = ["time.snapshots=[]"] if any(change.startswith("time.end=") for change in self.changes) else []
+            kept = [change for change in self.changes if not change.startswith("time.snapshots=")]
+            run = replace(self, changes=(*none, *kept))
         path = run.case
         lines = []
         if path.startswith("new "):
