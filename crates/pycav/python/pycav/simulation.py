@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from . import _pycav
 from ._native import Native
-from .case import Case
+from .case import Case, checked
 from .cells import Array, Cells
 
 if TYPE_CHECKING:
@@ -50,9 +50,9 @@ class Simulation:
         fluid_initial: InitialState | None = None,
         solid_initial: InitialState | None = None,
     ) -> None:
-        self.case = case
+        self.case = checked(case)
         self._native = _pycav.Simulation(
-            case._native, None if out is None else os.fspath(out), force, threads, fluid_initial, solid_initial
+            self.case._native, None if out is None else os.fspath(out), force, threads, fluid_initial, solid_initial
         )
 
     time: Native[float] = Native("Simulated time, s.")

@@ -12,7 +12,7 @@ import numpy as np
 import xarray
 
 from .._pycav import RunError
-from ..case import Case, Material
+from ..case import Case, Material, checked
 from ..case import materials as library
 from ..result import Result
 from .cost import Cost
@@ -64,7 +64,7 @@ def sweep(
     complete run, 1 for one that failed. Variables carry `units` and `long_name`, the dataset version, revision, case, its hash
     and date; coordinates are the parameters (a table, as a material of its own, by its number in the list).
     """
-    axes, root = Axes(parameters), Path(out)
+    case, axes, root = checked(case), Axes(parameters), Path(out)
     if to is not None and Path(to).suffix not in (".nc", ".zarr"):
         raise ValueError(f"a map is written as .nc or .zarr, not as {Path(to).name}")
     root.mkdir(parents=True, exist_ok=True)
