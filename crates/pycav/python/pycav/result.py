@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _toml
+from ._given import Named, nearest_time
 from .case import Case
 from .mesh import Floats, Mesh
 
@@ -119,8 +120,8 @@ class Snapshots(Sequence[Snapshot]):
         return (Snapshot(self, step) for step in range(len(self)))
 
     def at(self, time: float) -> Snapshot:
-        """The snapshot nearest to `time` in s."""
-        return Snapshot(self, int(np.argmin(np.abs(self.times - time))))
+        """The snapshot nearest to `time` in s; beyond the first or the last one with a warning."""
+        return Snapshot(self, nearest_time(self.times, time))
 
     def export(self, directory: str | os.PathLike[str]) -> Path:
         """Writes all snapshots as `.vtu` files with a collection `MEDIUM.pvd`, for a ParaView before 5.12. Needs meshio."""
@@ -188,8 +189,7 @@ class Result:
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
         """The numbers one asks for first, see docs/reference/output-summary.md."""
-        found: dict[str, Any] = json.loads((self.directory / "summary.json").read_text())
-        return found
+        return Named("the summary has no", json.loads((self.directory / "summary.json").read_text()))
 
     @functools.cached_property
     def case(self) -> Case:

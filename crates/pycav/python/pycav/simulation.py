@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _pycav
+from ._given import Named
 from ._native import Native
 from .case import Case, checked
 from .cells import Array, Cells
@@ -120,8 +121,7 @@ class Simulation:
     @property
     def summary(self) -> dict[str, Any]:
         """The numbers one asks for first, as in `summary.json`, as far as they are known."""
-        found: dict[str, Any] = json.loads(self._native.summary())
-        return found
+        return Named("the summary has no", json.loads(self._native.summary()))
 
     @property
     def result(self) -> Result:
