@@ -178,3 +178,15 @@ def test_a_constant_inflow_needs_two_rows(root):
 
 def test_paths_may_be_of_any_kind(root):
     assert pycav.Case(str(root / COARSE)) == pycav.Case(Path(root / COARSE))
+
+
+@pytest.mark.parametrize("wanted", [
+    pycav.run, pycav.Simulation, pycav.FluidSolver, pycav.SolidSolver, lambda case: pycav.convergence(case, "out"),
+    lambda case: pycav.sweep(case, {"time.cfl": [0.4]}, "out")], ids=["run", "simulation", "fluid", "solid", "convergence", "sweep"])
+def test_a_path_is_no_case_and_the_cure_is_told(wanted, small, result, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for given, told in (("mid.toml", r"a str.*pycav\.Case\('mid\.toml'\)"), (Path("mid.toml"), r"pycav\.Case\('mid\.toml'\)"),
+                        ({"time": {}}, r"a dict.*from_dict"), (result, r"a Result.*\.case"), (None, "NoneType, not a pycav.Case")):
+        with pytest.raises(TypeError, match=told):
+            wanted(given)
+    assert not any(tmp_path.iterdir())

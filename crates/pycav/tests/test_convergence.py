@@ -97,7 +97,7 @@ def test_what_cannot_be_done_is_refused(short, study, tmp_path):
 def test_a_picture_shows_values_richardsons_and_the_band(study):
     figure = study.plot()
     assert 2 <= len(figure.axes) <= 6
-    one = pycav.plot.convergence(study, "wall_pressure_mean_peak")
+    one = pycav.plot.convergence(str(study.directory), "wall_pressure_mean_peak")
     (axes,) = one.axes
     labels = axes.get_legend_handles_labels()[1]
     assert labels == ["grids", "finest ± GCI", "Richardson"] and axes.get_xlabel() == "cells per radius"

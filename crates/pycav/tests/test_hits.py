@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -58,3 +59,29 @@ def test_what_cannot_be_hit_is_refused(tmp_path: Path) -> None:
         pycav.hits(elastic, 0, tmp_path)
     with pytest.raises(FileNotFoundError, match="no run directory"):
         pycav.hits(tmp_path / "nowhere", 1, tmp_path)
+
+
+def test_only_a_finished_run_has_a_load(tmp_path: Path) -> None:
+    place = tmp_path / "stopped"
+    with pycav.Simulation(pycav.Case.from_dict(PULSE), out=place) as simulation:
+        simulation.step()
+        simulation.histories
+        with pytest.raises(ValueError, match=r"stopped is running.*wait"):
+            pycav.hits(place, 1, tmp_path / "hits")
+    with pytest.raises(ValueError, match=r"stopped is interrupted.*--resume"):
+        pycav.hits(place, 1, tmp_path / "hits")
+    with pytest.raises(ValueError, match="interrupted"):
+        pycav.hits(pycav.open(place), 1, tmp_path / "hits")
+    summary = place / "summary.json"
+    summary.write_text(json.dumps(json.loads(summary.read_text()) | {"error": "NaN"}))
+    with pytest.raises(ValueError, match="failed"):
+        pycav.hits(place, 1, tmp_path / "hits")
+
+
+def test_hits_are_run_again_with_their_load(tmp_path: Path) -> None:
+    """The case of a hit names the directory of the load, so it does not tell that there is another run in it."""
+    case = pycav.Case.from_dict(PULSE)
+    short = pycav.hits(case, 2, tmp_path)
+    # Of the same peak, from which the scales of a hit's grid follow: all of the hit's case is the same.
+    longer = pycav.hits(case.with_({"coupling.load.history": [[0.0, 0.0], [0.5e-6, 1.0], [2e-6, 0.0]]}), 2, tmp_path)
+    assert (longer.pit_depth > 1.1 * short.pit_depth).all()

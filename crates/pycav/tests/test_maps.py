@@ -53,7 +53,7 @@ def test_a_map_tells_what_it_costs_how_far_it_is_and_what_failed(short, tmp_path
     assert capsys.readouterr().err == ""
     data = pycav.sweep(short, parameters, tmp_path)
     told = capsys.readouterr().err.splitlines()
-    assert told[0].startswith("sweep: 4 points") and "of one core" in told[0]
+    assert told[0].startswith("sweep: 4 points, 2 of them make no case;") and "of one core" in told[0]
     assert "stand_off 1.6, material structural-steel: done; " in told[1] and told[1].endswith(" left")
     assert told[-4] == "2 of 4 points failed:" and told[-3].split() == ["stand_off", "material", "error"]
     assert "cheese" in told[-1] and "CaseError" in told[-1]
@@ -61,6 +61,8 @@ def test_a_map_tells_what_it_costs_how_far_it_is_and_what_failed(short, tmp_path
     assert list(failed["stand_off"]) == [1.6, 2.0] and set(failed["solid.material"]) == {"cheese"}
     pycav.sweep(short, {"stand_off": [1.6, 2.0], "solid.material": [STEEL]}, tmp_path)
     assert "2 points, 2 of them done before" in capsys.readouterr().err
+    pycav.sweep(short, parameters, tmp_path)
+    assert capsys.readouterr().err.startswith("sweep: 4 points, 2 of them done before, 2 of them make no case\n")
 
 
 def test_on_a_terminal_there_is_a_bar(short, tmp_path, monkeypatch):

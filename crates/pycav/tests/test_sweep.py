@@ -92,3 +92,24 @@ def test_the_map_over_stand_off_and_material(short, tmp_path):
     assert len(panels) == 4 and [line.get_label() for line in panels[0].lines] == MATERIALS
     expected = data["wall_pressure_peak"].sel({"solid.material": "aluminium"})
     assert np.array_equal(panels[0].lines[1].get_ydata(), expected)
+
+
+def test_a_key_that_no_point_can_have_is_refused_before_anything_runs(short, tmp_path):
+    with pytest.raises(pycav.CaseError, match="did you mean `pressure`"):
+        pycav.sweep(short, {"stand_off": [1.5, 2.0], "fluid.ambient.presure": [1e5, 2e5]}, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("parameters", "kind", "told"), [
+    ({"solid.material": "copper"}, TypeError, r"solid\.material = 'copper': give a list of values.*\['copper'\]"),
+    ({"stand_off": 1.5}, TypeError, r"stand_off = 1\.5: give a list"),
+    ({"stand_off": np.array(1.5)}, TypeError, r"stand_off = .*give a list"),
+    ({"solid.material": {"density": 1e3}}, TypeError, r"solid\.material = .*give a list"),
+    ({"stand_off": []}, ValueError, r"stand_off = \[\]: give one value"),
+    ({"stand_off": [1.5, 2, 2.0]}, ValueError, r"stand_off has 2\.0 twice"),
+    ({"solid.material": [{"c1": 1.0}, {"c1": 1.0}]}, ValueError, r"solid\.material has .* twice"),
+    ({}, ValueError, "one key or more"), ([1.5], ValueError, "by key")])
+def test_values_of_an_axis_are_a_list_without_repetitions(parameters, kind, told, short, tmp_path):
+    with pytest.raises(kind, match=told):
+        pycav.sweep(short, parameters, tmp_path / "out")
+    assert not (tmp_path / "out").exists()

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _pycav
 from ._program import PROGRAM
-from .case import Case
+from .case import Case, checked
 from .result import Result
 
 if TYPE_CHECKING:
@@ -75,6 +75,7 @@ def convergence(
     """
     if isinstance(levels, bool) or not isinstance(levels, int) or levels < 0:
         raise ValueError(f"levels is a number of grids, 2 to 5, not {levels!r}")
+    case = checked(case)
     with tempfile.TemporaryDirectory(prefix="pycav-") as place:
         path = Path(place) / f"{case.name}.toml"
         path.write_text(case._native.text)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 import xarray
 
 from ._run import run
+from ._status import status
 from .case import Case
 from .result import Result, open_run
 from .sweeps.work import is_complete
@@ -20,6 +22,9 @@ MEASURES = {
     "work_on_solid": "J", "surface_still": "1",
 }
 """What is kept of a hit, with units; `plastic_work` and `work_on_solid` are of that hit alone."""
+
+ORIGIN = "origin"
+"""Ending of the file beside a hit that says which load and which wall it met: its case names their directories alone."""
 
 
 def hits(
@@ -39,13 +44,15 @@ def hits(
     (`solid.initial`): its stress, plastic strain, temperature and displacement, at rest. After the record the last pressure stays.
 
     - `case`: a case with a wall that yields, which is run once in `out/load`; or a finished run of one.
-    - `out`: a directory; every hit has a run directory of its own in it. What is complete there is not run again.
+    - `out`: a directory; every hit has a run directory of its own in it. What is complete there is not run again, unless the load,
+      or the hit before, has been run again since.
     - `solid`: changes of the `[solid]` table for all hits, with the keys of `Case.with_` below it: `{"plasticity.law": "perfect"}`.
     - `longest`: how long a hit may take to become still, s; without it a hit ends with its record.
     - `threads`: of each run. `progress`: called with the number of the hit and its result.
 
     Returns a dataset over `hit` from 1 to n: pit_depth, pit_radius (m), pit_volume (m³), plastic_strain_peak, plastic_work,
-    work_on_solid (J, of the hit), surface_still, directory. Raises `ValueError` for a run without a wall that yields.
+    work_on_solid (J, of the hit), surface_still, directory. Raises `ValueError` for a run without a wall that yields, and for one
+    that has not reached its end.
     """
     if n < 1:
         raise ValueError(f"n = {n}: give 1 hit or more")
@@ -55,9 +62,12 @@ def hits(
     results: list[Result] = []
     for hit in range(1, n + 1):
         place = root / f"hit-{hit:0{len(str(n))}d}"
-        repeated = _repeated(loading, solid or {}, results[-1].directory if results else None, longest)
-        if not is_complete(place, repeated):
+        before = results[-1].directory if results else None
+        repeated = _repeated(loading, solid or {}, before, longest)
+        origin, note = _origin(loading.directory, before), place.with_name(f"{place.name}.{ORIGIN}")
+        if not (is_complete(place, repeated) and note.is_file() and note.read_text() == origin):
             run(repeated, place, threads=threads, force=True)
+            note.write_text(origin)
         results.append(open_run(place))
         if progress is not None:
             progress(hit, results[-1])
@@ -78,7 +88,18 @@ def _loading(case: Case | Result | str | os.PathLike[str], place: Path, threads:
         if not is_complete(place, case):
             run(case, place, threads=threads, force=True)
         return open_run(place)
-    return case if isinstance(case, Result) else open_run(case)
+    loading = open_run(case)
+    state = status(loading.directory)
+    if state != "finished":
+        cure = "wait for its end" if state == "running" else f"go on with it by cav run --resume {loading.directory}"
+        raise ValueError(f"case: the run in {loading.directory} is {state}, and only a finished one has all of its load; {cure}")
+    return loading
+
+
+def _origin(*directories: Path | None) -> str:
+    """What tells the runs that a hit is made of from later ones in the same places."""
+    summaries = [(directory / "summary.json").read_bytes() for directory in directories if directory is not None]
+    return "\n".join(hashlib.sha256(summary).hexdigest() for summary in summaries)
 
 
 def _repeated(loading: Result, changes: Mapping[str, Any], before: Path | None, longest: float | None) -> Case:

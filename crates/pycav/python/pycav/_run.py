@@ -9,7 +9,7 @@ from pathlib import Path
 
 from . import _pycav
 from ._program import PROGRAM
-from .case import Case
+from .case import Case, checked
 from .result import Result
 from .simulation import Simulation
 
@@ -35,6 +35,7 @@ def run(
 
     Raises `pycav.RunError` or one of its kinds; what was computed is written in any case.
     """
+    case = checked(case)
     if not processes or len(case.media) < 2:
         with Simulation(case, out=_directory(case, out), force=force, threads=threads) as simulation:
             simulation.run(callback, progress)

@@ -108,6 +108,21 @@ class Case:
         return (Case.from_toml, (self.to_toml(), self.name))
 
 
+def checked(given: object) -> Case:
+    """What was given as a case, if it is one; `TypeError` says how to make one of it."""
+    if isinstance(given, Case):
+        return given
+    if isinstance(given, (str, os.PathLike)):
+        cure = f"read the file first, pycav.Case({os.fspath(given)!r})"
+    elif isinstance(given, Mapping):
+        cure = "make one, pycav.Case.from_dict(...)"
+    elif isinstance(getattr(given, "case", None), Case):
+        cure = "give its .case"
+    else:
+        cure = "give a pycav.Case"
+    raise TypeError(f"case is a {type(given).__name__}, not a pycav.Case: {cure}")
+
+
 class Material(NamedTuple):
     """A material of the library."""
 

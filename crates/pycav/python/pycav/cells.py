@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from ._given import among
+
 Array = NDArray[np.float64]
 
 
@@ -32,6 +34,8 @@ class Cells(Mapping[str, Array]):
         self._fields = columns
 
     def __getitem__(self, name: str) -> Array:
+        if name not in self._fields:
+            raise KeyError(f"the cells have no field {name!r}: {among(name, self._fields)}")
         return self._fields[name]
 
     def __iter__(self) -> Iterator[str]:

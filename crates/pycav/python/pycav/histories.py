@@ -10,6 +10,8 @@ import h5py
 import numpy as np
 import xarray
 
+from ._given import Named
+
 Columns = Mapping[str, tuple[Any, str, str]]
 
 PROBES = "probes/"
@@ -95,7 +97,7 @@ def text(value: Any) -> Any:
 def probes(histories: xarray.Dataset) -> dict[str, xarray.Dataset]:
     """Each probe's dataset by its name, with the coordinate `time`; in the solid with `von_mises` besides."""
     names = sorted({str(name).split("/")[1] for name in histories.variables if str(name).startswith(PROBES)})
-    found = {}
+    found: dict[str, xarray.Dataset] = {}
     for name in names:
         prefix = f"{PROBES}{name}/"
         time = histories[f"{prefix}time"]
@@ -105,7 +107,7 @@ def probes(histories: xarray.Dataset) -> dict[str, xarray.Dataset]:
             {"time": (("time",), time.to_numpy(), time.attrs)})
         if "stress_phiphi" in found[name]:
             found[name]["von_mises"] = von_mises(found[name])
-    return found
+    return Named("the run has no probe", found)
 
 
 def von_mises(probe: xarray.Dataset) -> xarray.DataArray:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _toml
+from ._given import Named, nearest_time
 from .case import Case
 from .mesh import Floats, Mesh
 
@@ -90,6 +91,8 @@ class Snapshots(Sequence[Snapshot]):
     def __init__(self, path: Path, medium: str) -> None:
         self.path = path
         self.medium = medium
+        if not path.is_file():
+            raise FileNotFoundError(f"{path.parent} has no {path.name}: the snapshots of the {medium} are missing")
         with h5py.File(path, "r") as file:
             steps = file["VTKHDF/Steps"]
             self.times: NDArray[np.float64] = np.asarray(steps["Values"][: int(steps.attrs["NSteps"])], float)
@@ -119,8 +122,8 @@ class Snapshots(Sequence[Snapshot]):
         return (Snapshot(self, step) for step in range(len(self)))
 
     def at(self, time: float) -> Snapshot:
-        """The snapshot nearest to `time` in s."""
-        return Snapshot(self, int(np.argmin(np.abs(self.times - time))))
+        """The snapshot nearest to `time` in s; beyond the first or the last one with a warning."""
+        return Snapshot(self, nearest_time(self.times, time))
 
     def export(self, directory: str | os.PathLike[str]) -> Path:
         """Writes all snapshots as `.vtu` files with a collection `MEDIUM.pvd`, for a ParaView before 5.12. Needs meshio."""
@@ -183,13 +186,12 @@ class Result:
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = Path(directory)
         if not (self.directory / "summary.json").is_file():
-            raise FileNotFoundError(f"{self.directory} is no run directory: it has no summary.json")
+            raise FileNotFoundError(f"{self.directory} is no run directory: {_grids(self.directory) or 'it has no summary.json'}")
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
         """The numbers one asks for first, see docs/reference/output-summary.md."""
-        found: dict[str, Any] = json.loads((self.directory / "summary.json").read_text())
-        return found
+        return Named("the summary has no", json.loads((self.directory / "summary.json").read_text()))
 
     @functools.cached_property
     def case(self) -> Case:
@@ -206,7 +208,11 @@ class Result:
     @property
     def media(self) -> list[str]:
         """"fluid", "solid", or both."""
-        return [medium for medium in ("fluid", "solid") if (self.directory / f"{medium}.h5").exists()]
+        found = [medium for medium in ("fluid", "solid") if (self.directory / f"{medium}.h5").exists()]
+        if not found:
+            missing = " and ".join(f"{medium}.h5" for medium in ("fluid", "solid") if medium in self.parameters)
+            raise FileNotFoundError(f"{self.directory} has no {missing or 'fluid.h5 or solid.h5'}: the histories of the run are missing")
+        return found
 
     @functools.cached_property
     def histories(self) -> xarray.Dataset:
@@ -321,6 +327,13 @@ class Result:
     def __repr__(self) -> str:
         state = "completed" if self.summary.get("completed") else "not completed"
         return f"<pycav.Result {str(self.directory)!r}, {state}>"
+
+
+def _grids(directory: Path) -> str:
+    """Of the directory of a study of grid convergence: which runs are in it; else nothing."""
+    places = sorted((path.parent for path in directory.glob("grid-*/summary.json")), key=lambda place: (len(place.name), place.name))
+    names = ", ".join(str(place) for place in places)
+    return f"it holds a study of grid convergence; give one of its grids: {names}" if names else ""
 
 
 def open_run(run_dir: str | os.PathLike[str] | Result) -> Result:

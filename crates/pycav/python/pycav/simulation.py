@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _pycav
+from ._given import Named
 from ._native import Native
-from .case import Case
+from .case import Case, checked
 from .cells import Array, Cells
 
 if TYPE_CHECKING:
@@ -50,9 +51,9 @@ class Simulation:
         fluid_initial: InitialState | None = None,
         solid_initial: InitialState | None = None,
     ) -> None:
-        self.case = case
+        self.case = checked(case)
         self._native = _pycav.Simulation(
-            case._native, None if out is None else os.fspath(out), force, threads, fluid_initial, solid_initial
+            self.case._native, None if out is None else os.fspath(out), force, threads, fluid_initial, solid_initial
         )
 
     time: Native[float] = Native("Simulated time, s.")
@@ -120,8 +121,7 @@ class Simulation:
     @property
     def summary(self) -> dict[str, Any]:
         """The numbers one asks for first, as in `summary.json`, as far as they are known."""
-        found: dict[str, Any] = json.loads(self._native.summary())
-        return found
+        return Named("the summary has no", json.loads(self._native.summary()))
 
     @property
     def result(self) -> Result:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from . import _pycav
 from ._native import Native
-from .case import Case
+from .case import Case, checked
 from .cells import Array, Cells
 from .simulation import InitialState
 
@@ -75,7 +75,7 @@ class FluidSolver(_Solver):
     _native: _pycav.FluidSolver
 
     def __init__(self, case: Case, *, initial: InitialState | None = None, threads: int | None = None) -> None:
-        self._native = _pycav.FluidSolver(case._native, initial, threads)
+        self._native = _pycav.FluidSolver(checked(case)._native, initial, threads)
 
     surface_pressure: Native[Array] = Native("Pressure on the surface during the last step, Pa, shape (faces,).")
     equivalent_radius: Native[float] = Native("Radius of the ball of the gas's volume, m.")
@@ -87,6 +87,6 @@ class SolidSolver(_Solver):
     _native: _pycav.SolidSolver
 
     def __init__(self, case: Case, *, initial: InitialState | None = None, threads: int | None = None) -> None:
-        self._native = _pycav.SolidSolver(case._native, initial, threads)
+        self._native = _pycav.SolidSolver(checked(case)._native, initial, threads)
 
     surface_velocity: Native[Array] = Native("Velocity of the surface during the last step along +z, m/s, shape (faces,).")

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray
 
+from .._given import positive
+from .._given import window as checked
 from ..mesh import Floats
 
 if TYPE_CHECKING:
@@ -68,6 +70,10 @@ def _provenance(result: Result) -> dict[str, Any]:
 
 def snapshots(result: Result, fields: Sequence[str], spacing: float | None, window: Window | None) -> xarray.Dataset:
     """Fields of the snapshots at the middles of a regular grid, linear within each cell of the run."""
+    spacing = None if spacing is None else positive("spacing", spacing, "m")
+    if window is not None:
+        meshes = [result.snapshots(medium)[0].mesh for medium in result.media]
+        window = checked(window, np.min([mesh.low for mesh in meshes], 0), np.max([mesh.high for mesh in meshes], 0))
     left, outside = set(fields), ""
     found = xarray.Dataset()
     for medium in result.media:
@@ -98,7 +104,7 @@ def _box(series: Snapshots, window: Window | None) -> tuple[Floats, Floats]:
 def _sampled(series: Snapshots, fields: Sequence[str], spacing: float | None, low: Floats, high: Floats) -> xarray.Dataset:
     step = float((high - low).max()) / POINTS if spacing is None else float(spacing)
     counts = np.maximum(np.floor((high - low) / step + 1e-9).astype(int), 1)
-    if not step > 0 or float(counts.prod()) * len(series) > MOST:
+    if float(counts.prod()) * len(series) > MOST:
         raise ValueError(f"a spacing of {step:g} m gives {counts[0]} x {counts[1]} points in each of {len(series)} snapshots: too many")
     z, r = (low[axis] + (np.arange(counts[axis]) + 0.5) * step for axis in (0, 1))
     points = np.stack(np.meshgrid(z, r, indexing="ij"), -1).reshape(-1, 2)

@@ -10,6 +10,7 @@ from matplotlib.colors import LogNorm, SymLogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
+from .._given import positive
 from ..mesh import Floats
 from ..result import Snapshot
 from .section import Run, Section, Window, bar
@@ -38,7 +39,7 @@ def interface_continuity(
     if not what or not set(what) <= set(PANELS):
         raise ValueError(f'what are "velocity" and "stress", not {what!r}')
     figure, panels = section.canvas(len(what), foot=2.75)
-    near = 0.2 * (section.box[1] - section.box[0]) if reach is None else reach
+    near = 0.2 * (section.box[1] - section.box[0]) if reach is None else positive("reach", reach, "m")
     for name, axes in zip(what, panels):
         PANELS[name](figure, section, axes, near)
         if levels:

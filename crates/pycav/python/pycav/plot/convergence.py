@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+import os
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
+from .._convergence import Convergence
 from .._numbers import number, percent
 from .style import BLUE, INK, ORANGE, WIDTH, legend, styled, ticks
-
-if TYPE_CHECKING:
-    from .._convergence import Convergence
 
 USUAL = ("wall_pressure_peak", "wall_pressure_mean_peak", "wall_impulse", "collapse_time", "min_equivalent_radius", "von_mises_peak")
 """What is drawn unless something else is asked for."""
@@ -22,13 +21,13 @@ PREFIXED = ("Pa", "s", "m", "J", "Pa s", "N", "N s", "m/s")
 
 
 @styled
-def convergence(study: Convergence, *names: str) -> Figure:
+def convergence(study: Convergence | str | os.PathLike[str], *names: str) -> Figure:
     """Values over cells per radius, with Richardson's value and the band of the grid-convergence index about the finest grid's.
 
     Parameters
     ----------
     study
-        What `pycav.convergence` returned.
+        What `pycav.convergence` returned, or the directory of a study.
     *names
         Numbers of `convergence.json`; without any those of the wall's pressure, the collapse and the solid's stress that there are.
 
@@ -41,7 +40,11 @@ def convergence(study: Convergence, *names: str) -> Figure:
     ------
     ValueError
         The study has no such number, or none at all.
+    FileNotFoundError
+        The directory holds no study.
     """
+    if not isinstance(study, Convergence):
+        study = Convergence(study)
     known = study.record["numbers"]
     unknown = [name for name in names if name not in known]
     if unknown:

@@ -10,6 +10,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
+from .._given import positive
 from ..mesh import Floats, Raster
 from ..result import Snapshot, Snapshots, open_run
 from .section import MOST, Run, Section, Window, bar
@@ -25,6 +26,7 @@ def streamlines(
 
     - `density`: of the lines, 1 as a rule.
     """
+    positive("density", density)
     section = Section.of(run, time, window)
     figure, (axes,) = section.canvas()
     parts = dict(section.parts)
@@ -118,7 +120,7 @@ def pathlines(
     last = float(result.snapshots(result.media[0]).times[-1]) if until is None else until
     section = Section.of(result, last, window)
     section.time = last
-    apart = (section.box[1] - section.box[0]) / 30 if spacing is None else spacing
+    apart = (section.box[1] - section.box[0]) / 30 if spacing is None else positive("spacing", spacing, "m")
     figure, (axes,) = section.canvas(foot=1.0)
     foot = ["From $t$ = 0 to the dots."]
     for medium in section.snapshots:

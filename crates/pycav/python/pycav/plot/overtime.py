@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Normalize, PowerNorm, TwoSlopeNorm
 from matplotlib.figure import Figure
 
+from .._given import number, positive
 from ..mesh import Floats
 from ..result import Result, open_run
 from ..theory import Bubble
@@ -93,7 +94,10 @@ def _loads(result: Result, axes: Axes, yield_strength: Sequence[float], probes: 
                   zorder=1.5 if colour == PINK else 2)
         largest = max(largest, float(np.nanmax(values)))
     for name in probes:
-        stress = result.probes[name]["von_mises"]
+        probe = result.probes[name]
+        if "von_mises" not in probe:
+            raise ValueError(f"the probe {name!r} is not in the solid and has no von Mises stress")
+        stress = probe["von_mises"]
         axes.plot(stress["time"], stress, color=GREEN, label=f"von Mises stress at {name}")
     for strength in yield_strength:
         axes.axhline(strength, color=GREY, linewidth=0.6, dashes=(4, 3))
@@ -131,6 +135,8 @@ def space_time(
     - `power`: of its colours; below 1 it lifts what is weak beside the largest pressure.
     """
     result = open_run(run)
+    reach = None if reach is None else positive("reach", reach, "m")
+    since, power = number("since", since, "s"), positive("power", power)
     if what == "wall":
         return _wall(result, reach, since, power)
     if what == "axis":

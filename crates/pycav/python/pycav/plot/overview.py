@@ -12,6 +12,7 @@ from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from .._given import positive
 from ..mesh import Box, Floats, Raster
 from ..result import Snapshot
 from .section import MOST, Run, Section
@@ -36,6 +37,7 @@ def overview(
     - `title`: instead of the time and the largest stress.
     - `depth`: how much of the solid is shown, m; else `reach`.
     """
+    reach, depth = (None if value is None else positive(name, value, "m") for name, value in (("reach", reach), ("depth", depth)))
     section = Section.of(run, time, None)
     boxes = _boxes(section, reach, depth)
     figure, panels = _canvas(section, boxes)

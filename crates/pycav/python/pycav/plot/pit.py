@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter
 
+from .._given import positive
 from ..mesh import Floats, Raster
 from .plastic import LABEL, LINES, colours, strain_of
 from .section import Run, Section, bar
@@ -42,6 +43,7 @@ def pit(
     - `names`: of the run and those beside; else their cells per radius.
     - `strongest`: the depth in m and the plastic strain at the ends of the scales, for pictures that are to be compared.
     """
+    reach = None if reach is None else positive("reach", reach, "m")
     profiles = [Profile.of(one, time) for one in (run, *beside)]
     labels = names or [profile.name for profile in profiles]
     if len(labels) != len(profiles):

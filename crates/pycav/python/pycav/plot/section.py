@@ -13,6 +13,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from .. import _given
 from ..mesh import Box, Floats, Raster
 from ..result import Result, Snapshot, open_run
 from .._numbers import number, prefix, si
@@ -32,6 +33,11 @@ def default_time(run: Run) -> float:
     return next((float(time) for time in times if time is not None), last)
 
 
+def _at_default(result: Result, medium: str) -> Snapshot:
+    series = result.snapshots(medium)
+    return series[int(np.argmin(np.abs(series.times - default_time(result))))]
+
+
 @dataclass
 class Section:
     """What is drawn: the snapshots of all media at one time, in a window."""
@@ -48,15 +54,16 @@ class Section:
     @classmethod
     def of(cls, run: Run, time: float | None, window: Window | None) -> Section:
         result = open_run(run)
-        wanted = default_time(result) if time is None else time
-        snapshots = {medium: result.snapshots(medium).at(wanted) for medium in result.media}
+        # The default is within the run, and where that has no snapshots the title tells the time.
+        snapshots = {medium: _at_default(result, medium) if time is None else result.snapshots(medium).at(time) for medium in result.media}
         meshes = {medium: snapshot.mesh for medium, snapshot in snapshots.items()}
         low = np.min([mesh.low for mesh in meshes.values()], 0)
         high = np.max([mesh.high for mesh in meshes.values()], 0)
         if window is None:
             box = (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
         else:
-            box = (window[0], window[1], float(low[1]), window[2])
+            z_low, z_high, r_high = _given.window(window, low, high)
+            box = (z_low, z_high, float(low[1]), r_high)
         wall = float(meshes["fluid"].low[0]) if "fluid" in meshes else None
         mirrored = result.parameters.get("geometry", "axisymmetric") == "axisymmetric"
         first = next(iter(snapshots.values()))

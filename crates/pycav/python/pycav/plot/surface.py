@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .._given import nearest_time
 from ..mesh import Floats
 from ..result import Result, open_run
 from .section import Run
@@ -52,7 +53,7 @@ class Profile:
             raise ValueError("the run has no displacement of the surface: nothing acted on it, neither a fluid nor a load")
         rows = data[DISPLACEMENT].to_numpy()
         times, r = data["interface/displacement_time"].to_numpy(), data["interface/r"].to_numpy()
-        row = len(times) - 1 if time is None else int(np.argmin(np.abs(times - time)))
+        row = len(times) - 1 if time is None else nearest_time(times, time)
         far = (np.arange(len(r)) + 0.5) >= (1.0 - FAR) * len(r)
         return cls(result, float(times[row]), r, rows[row, far].mean() - rows[row], row == len(times) - 1)
 

@@ -8,6 +8,8 @@ import numpy as np
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
+from .._given import among, positive
+from ..case import materials
 from ..mesh import Floats
 from .section import Run, Section, Window, bar
 from .._numbers import number
@@ -40,7 +42,8 @@ def yield_function(
     - `levels`: outlines of the levels of refinement.
     """
     first = solid_section(run, time, window)
-    panels = [(first, float(strength), names[k] if names else "") for k, strength in enumerate(np.atleast_1d(yield_strength))]
+    panels = [(first, _strength(strength), names[k] if names else "")
+              for k, strength in enumerate([yield_strength] if isinstance(yield_strength, (str, int, float)) else yield_strength)]
     for other in beside:
         section = solid_section(other, first.time, window)
         strength = section.result.summary.get("yield_strength")
@@ -81,6 +84,16 @@ def yield_function(
     return figure
 
 
+def _strength(given: object) -> float:
+    """A yield strength in Pa; of a material's name the error tells that of the material."""
+    if not isinstance(given, str):
+        return positive("yield_strength", given, "Pa")
+    known = {material.name: material.yield_strength for material in materials() if material.yield_strength is not None}
+    if given in known:
+        raise TypeError(f"yield_strength = {given!r}: give a number in Pa; {given} has {known[given]:g}")
+    raise TypeError(f"yield_strength = {given!r}: give a number in Pa, as that of a material of the library; {among(given, known)}")
+
+
 def _scale(excesses: Sequence[float], strengths: Sequence[float]) -> TwoSlopeNorm:
     """Colours of Φ in MPa; `excesses` are nearly the largest Φ of panels in Pa.
 
@@ -91,13 +104,14 @@ def _scale(excesses: Sequence[float], strengths: Sequence[float]) -> TwoSlopeNor
 
 def solid_section(run: Run, time: float | None, window: Window | None) -> Section:
     """The section of a run's solid alone; all of it without a window."""
-    section = Section.of(run, time, None)
+    section = Section.of(run, time, window)
     if "solid" not in section.snapshots:
         raise ValueError("the run has no solid")
     section.snapshots = {"solid": section.snapshots["solid"]}
     mesh = section.snapshots["solid"].mesh
-    (z_low, r_low), (z_high, r_high) = mesh.low.tolist(), mesh.high.tolist()
-    section.box = (z_low, z_high, r_low, r_high) if window is None else (window[0], window[1], r_low, window[2])
+    if window is None:
+        (z_low, r_low), (z_high, r_high) = mesh.low.tolist(), mesh.high.tolist()
+        section.box = (z_low, z_high, r_low, r_high)
     if section.raster("solid") is None:
         raise ValueError(f"the window {window} holds nothing of the solid")
     return section

@@ -31,10 +31,10 @@ class Axes:
     """The values of each parameter, and all their combinations, the last parameter fastest."""
 
     def __init__(self, parameters: Mapping[str, Sequence[Any]]) -> None:
+        if not isinstance(parameters, Mapping) or not parameters:
+            raise ValueError(f"parameters = {parameters!r}: a sweep needs lists of values by key, one key or more")
         self.names = list(parameters)
-        self.lists = [list(parameters[name]) for name in self.names]
-        if not self.names or not all(self.lists):
-            raise ValueError("a sweep needs parameters with one value or more each")
+        self.lists = [_values(name, parameters[name]) for name in self.names]
         self.shape = tuple(len(values) for values in self.lists)
         self.points: list[Point] = [dict(zip(self.names, values)) for values in itertools.product(*self.lists)]
 
@@ -54,6 +54,21 @@ class Axes:
                 attributes |= {"units": unit} if unit else {}
             found[name] = ((name,), plain, attributes)
         return found
+
+
+def _values(name: str, given: Any) -> list[Any]:
+    """The values of an axis: one or more, each once."""
+    # A text and a table could be gone through, too, but not by values.
+    if isinstance(given, (str, bytes, Mapping)) or not np.iterable(given):
+        raise TypeError(f"{name} = {given!r}: give a list of values, for a single one [{given!r}]")
+    values = list(given)
+    if not values:
+        raise ValueError(f"{name} = []: give one value or more")
+    kinds = [value if is_plain(value) else repr(value.tolist() if isinstance(value, np.ndarray) else value) for value in values]
+    again = next((values[number] for number, kind in enumerate(kinds) if kind in kinds[:number]), None)
+    if again is not None:
+        raise ValueError(f"{name} has {again!r} twice: every point is run once, give each value once")
+    return values
 
 
 def is_plain(value: Any) -> bool:

@@ -23,13 +23,15 @@ class Display:
     def __init__(self, work: Mapping[int, float], total: int, believed: float, known: Sequence[tuple[float, float]]) -> None:
         """`work` of each point to run, by its number; `believed` seconds by the check; `known`: work and seconds of runs that are there."""
         self.work, self.total, self.begun = dict(work), total, time.monotonic()
-        self.left, self.done, self.count = sum(work.values()), 0.0, total - len(work)
+        self.left, self.done, self.count = sum(work.values()), 0.0, total - len(work)  # of those over: known, or no case
         self.failed: list[tuple[Point, str]] = []
         self.bar: Any = _bar(total, self.count)
         self._say(self._before(believed, known))
 
     def _before(self, believed: float, known: Sequence[tuple[float, float]]) -> str:
-        said = f"{self.total} points, {self.count} of them done before" if self.count else f"{self.total} points"
+        said, bad = f"{self.total} points", self.count - len(known)
+        said += f", {len(known)} of them done before" if known else ""
+        said += f", {bad} of them make no case" if bad else ""
         if not self.work:
             return f"sweep: {said}"
         spent, made = (sum(column) for column in zip(*known)) if known else (0.0, 0.0)

@@ -12,7 +12,7 @@ import numpy as np
 import xarray
 
 from .._pycav import RunError
-from ..case import Case, Material
+from ..case import Case, Material, checked
 from ..case import materials as library
 from ..result import Result
 from .cost import Cost
@@ -60,20 +60,21 @@ def sweep(
     - `where`: which points count; the others are not run, are NaN, and have the `status` 2.
     - `to`: a file, `.nc` or `.zarr`, that gets the dataset with its provenance, also when the sweep is stopped.
 
-    A point that fails is NaN, and its error is in the variable `error`; the other points are not affected. `status` is 0 for a
+    A point that fails is NaN, and its error is in the variable `error`; the other points are not affected. If not one point makes a
+    case, as with a misspelt key, the first one's error is raised. `status` is 0 for a
     complete run, 1 for one that failed. Variables carry `units` and `long_name`, the dataset version, revision, case, its hash
     and date; coordinates are the parameters (a table, as a material of its own, by its number in the list).
     """
-    axes, root = Axes(parameters), Path(out)
+    case, axes, root = checked(case), Axes(parameters), Path(out)
     if to is not None and Path(to).suffix not in (".nc", ".zarr"):
         raise ValueError(f"a map is written as .nc or .zarr, not as {Path(to).name}")
-    root.mkdir(parents=True, exist_ok=True)
     places = axes.places(root)
     if threads is None and (workers is not None or isinstance(executor, str)):
         threads = 1
     errors: list[str] = [""] * len(axes.points)
     left_out = {number for number, point in enumerate(axes.points) if where is not None and not where(point)}
     cases = _cases(case, axes, change, left_out, errors)
+    root.mkdir(parents=True, exist_ok=True)
     known = {number for number, own in cases.items() if is_complete(places[number], own)}
     jobs = [Job(number, own.to_toml(), own.name, str(places[number]), threads)
             for number, own in cases.items() if number not in known]
@@ -108,8 +109,9 @@ def sweep(
 
 
 def _cases(case: Case, axes: Axes, change: Change | None, left_out: set[int], errors: list[str]) -> dict[int, Case]:
-    """The case of each point that counts; what is wrong with one becomes its error."""
+    """The case of each point that counts; what is wrong with one becomes its error, and is raised if not one makes a case."""
     cases: dict[int, Case] = {}
+    first: Exception | None = None
     for number, point in enumerate(axes.points):
         if number in left_out:
             continue
@@ -117,6 +119,10 @@ def _cases(case: Case, axes: Axes, change: Change | None, left_out: set[int], er
             cases[number] = at_point(case, point, change)
         except (ValueError, TypeError, KeyError) as error:
             errors[number] = f"{type(error).__name__}: {error}"
+            first = first or error
+    # As by a misspelt key: nothing will be run, so nothing is lost.
+    if first is not None and not cases:
+        raise first
     return cases
 
 
