@@ -12,6 +12,7 @@ import pytest
 
 import pycav
 from pycav import theory
+from pycav.histories import from_columns
 from pycav.theory import RAYLEIGH_FACTOR, Bubble
 
 
@@ -28,6 +29,18 @@ def test_histories_have_units_and_coordinates(result):
             np.array_equal(data[name], item[()], equal_nan=True)) if isinstance(item, h5py.Dataset) else None)
     assert len(compared) > 60 and all(compared)
     assert data.sel(time=2e-5, method="nearest")["wall/pressure_axis"] > 0
+
+
+def test_rows_that_only_some_columns_have_do_not_count():
+    def column(*shape):
+        return np.arange(np.prod(shape), dtype=float).reshape(shape), "1", ""
+
+    found = from_columns({
+        "time": column(4), "bubble/volume": column(3), "interface/time": column(2), "interface/r": column(5),
+        "interface/pressure": column(2, 5), "interface/displacement_z": column(3, 5),
+        "probes/a/time": (np.array([0.0, 2.0]), "s", ""), "probes/a/pressure": column(3)})
+    assert dict(found.sizes) == {"time": 2, "interface/r": 5, "probes/a/time": 2}
+    assert found["interface/displacement_z"].values.tolist() == column(3, 5)[0][:2].tolist()
 
 
 def test_snapshots_are_those_that_vtk_reads(result):

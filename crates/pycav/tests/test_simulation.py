@@ -57,6 +57,17 @@ def test_a_run_has_the_command_lines_numbers_to_the_last_bit(processes, small, c
     assert result.summary["completed"] and pycav.open(commanded).summary["steps"] == result.summary["steps"]
 
 
+def test_a_run_that_is_broken_off_goes_on_from_its_checkpoint(cav, small, commanded, tmp_path):
+    with pycav.Simulation(small, out=tmp_path / "run") as simulation:
+        for _ in range(5):
+            simulation.step()
+    kept = [path.name for path in (tmp_path / "run" / "checkpoints").glob("fluid-*.ckpt")]
+    assert kept and simulation.steps == 5 and not simulation.completed
+    done = cav("run", "--resume", tmp_path / "run", "--in-process", "-q")
+    assert done.returncode == 0, done.stderr
+    assert_same_numbers(tmp_path / "run", commanded)
+
+
 def told(directory):
     """The log without what differs between any two runs."""
     text = (directory / "log").read_text().replace(str(directory), "DIR")

@@ -38,7 +38,8 @@ class Simulation:
       `stress_zr`, `stress_rr`, `stress_phiphi`, each zero if left out.
 
     The interpreter is free while steps are made; Ctrl-C stops after the step under way, and the simulation can go on from
-    there. After an exception of the solver (`pycav.NumericalError`) it is closed.
+    there. A run directory gets checkpoints as by `cav run`: every five minutes, and when the run is broken off. After an
+    exception of the solver (`pycav.NumericalError`) it is closed.
     """
 
     def __init__(
@@ -133,7 +134,10 @@ class Simulation:
         return Result(self.directory)
 
     def close(self) -> None:
-        """Ends a run that is not to go on and closes its files; `summary["completed"]` stays `False`."""
+        """Ends a run that is not to go on and closes its files; `summary["completed"]` stays `False`.
+
+        A run directory keeps a checkpoint: `cav run --resume DIR` goes on from it, and not from what Python made of the initial state.
+        """
         self._native.close()
 
     def __enter__(self) -> Simulation:
