@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use hdf5::File;
 use ndarray::Array2;
+use serde_json::Value;
 
-use crate::output::dataset_if_there;
-use crate::output::run_directory::{CASE, HISTORY};
+use crate::output::run_directory::{CASE, HISTORY, SUMMARY};
+use crate::output::{dataset_if_there, summary};
 
 /// `[coupling.load] run = "DIR"`: the pressure that the wall got there, over r and t.
 ///
@@ -17,6 +18,7 @@ use crate::output::run_directory::{CASE, HISTORY};
 #[derive(Clone, Debug)]
 pub struct RecordedLoad {
     run: PathBuf,
+    is_whole: bool,
     record: Arc<Record>,
 }
 
@@ -49,7 +51,7 @@ impl RecordedLoad {
     /// Reads what the wall got in a run.
     ///
     /// # Errors
-    /// In words: there is no such run, it is not finished, or it had no wall.
+    /// In words: there is no such run, or it had no wall.
     pub fn read(run: &Path) -> Result<Self, String> {
         let path = run.join(HISTORY);
         if !path.is_file() {
@@ -63,7 +65,10 @@ impl RecordedLoad {
             File::open(&path).map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
         let record = Record::read(&file, ambient)
             .ok_or_else(|| format!("{} has no pressure on a wall", path.display()))?;
-        Ok(Self { run: run.to_path_buf(), record: Arc::new(record) })
+        // What goes on, or was broken off, says that it is not complete.
+        let summary = summary::read(&run.join(SUMMARY)).unwrap_or_default();
+        let is_whole = summary.get("completed") != Some(&Value::Bool(false));
+        Ok(Self { run: run.to_path_buf(), is_whole, record: Arc::new(record) })
     }
 
     /// The run's directory.
@@ -74,6 +79,11 @@ impl RecordedLoad {
     /// Pressure far away before anything happened, Pa.
     pub fn ambient(&self) -> f64 {
         self.record.ambient
+    }
+
+    /// Whether the run had reached its end when it was read.
+    pub fn is_whole(&self) -> bool {
+        self.is_whole
     }
 
     /// When the record ends, s.

@@ -3,7 +3,7 @@
 use fluid::{Boundary, Phase, Shape};
 use mesh::{Geometry, Side};
 
-use super::{Case, FluidCase};
+use super::{Case, FluidCase, LoadCase};
 
 /// Fewer cells than this along a radius or a width resolve nothing.
 const RESOLVED: f64 = 4.0;
@@ -28,6 +28,15 @@ impl Case {
                 "time.cfl = {:?} is above {SAFE_CFL}: both directions add up in the unsplit step, so with \
                  square cells it is {SAFE_CFL}",
                 self.time.cfl
+            ));
+        }
+        if let Some(LoadCase::Recorded(load)) = self.coupling.load.as_ref().filter(|_| self.fluid.is_none())
+            && !load.is_whole()
+        {
+            warnings.push(format!(
+                "coupling.load.run: the run in {} has not reached its end; its load ends at {:?} s, and the last pressure stays",
+                load.run().display(),
+                load.end()
             ));
         }
         if let Some(fluid) = &self.fluid {

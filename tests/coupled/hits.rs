@@ -80,8 +80,15 @@ fn a_recorded_load_does_what_it_did_and_a_wall_goes_on_from_where_it_was_left() 
     let force = sensor["force_peak"].as_f64().unwrap();
     assert!((force / peak - 1.0).abs() < 0.01, "{force} of {peak}");
 
-    // What the surface got, over again on a fresh wall.
+    // What the surface got, over again on a fresh wall. Of a run that was broken off that is not all.
     let again = case(&steel(&repeating(&at("first")), ""));
+    let summary = std::fs::read_to_string(at("first").join("summary.json")).unwrap();
+    let whole = "\"completed\": true";
+    assert!(summary.contains(whole) && again.warnings().is_empty(), "{:?}", again.warnings());
+    std::fs::write(at("first").join("summary.json"), summary.replace(whole, "\"completed\": false")).unwrap();
+    let warnings = case(&steel(&repeating(&at("first")), "")).warnings();
+    assert!(warnings.len() == 1 && warnings[0].contains("has not reached its end"), "{warnings:?}");
+    std::fs::write(at("first").join("summary.json"), summary).unwrap();
     let alone = run(&again, &at("alone"));
     for (key, tolerance) in
         [("pit_depth", 2e-3), ("plastic_work", 2e-3), ("plastic_strain_peak", 5e-3), ("work_on_solid", 2e-3)]

@@ -87,7 +87,8 @@ def test_a_run_leaves_the_log_that_the_command_line_leaves(small, commanded, cav
     assert sorted(told(pycav.run(small, tmp_path / "both", processes=True).directory)) == sorted(told(tmp_path / "two"))
     with pycav.Simulation(small, out=tmp_path / "stopped") as simulation:
         simulation.step()
-    (_, ended) = told(tmp_path / "stopped")
+    (_, *kept, ended) = told(tmp_path / "stopped")
+    assert len(kept) == 2 and all(line.startswith("INFO checkpoint") for line in kept), "of each side"
     assert ended.startswith("ERROR interrupted")
 
 
