@@ -172,10 +172,13 @@ impl<'a, const N: usize> GasBlock<'a, N> {
                 continue;
             }
             let frame = self.tile.frame::<N>();
-            for along in 0..frame.cells() {
-                let [inner, ghost] = crate::boundary::beside(side, frame, along as isize);
+            // The first ghosts at both ends, too, as the blocks have them that these cells belong to: tension asks for them.
+            for along in -1..=frame.cells() as isize {
+                let [inner, ghost] = crate::boundary::beside(side, frame, along);
                 let id = self.ctx.mesh.first_of(self.tile);
-                let given = self.ctx.model.boundaries.initial_gas_share::<N>(id, side, along);
+                let own = usize::try_from(along).ok().filter(|own| *own < frame.cells());
+                let given =
+                    own.and_then(|own| self.ctx.model.boundaries.initial_gas_share::<N>(id, side, own));
                 shares[ghost] = given.unwrap_or(shares[inner]);
             }
         }
