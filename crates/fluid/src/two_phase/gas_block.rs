@@ -167,18 +167,14 @@ impl<'a, const N: usize> GasBlock<'a, N> {
 
     /// What comes in through an open side is what was there in the beginning; a wall gives back what it got.
     fn impose_outer_shares(&self, shares: &mut [f64]) {
-        for side in Side::ALL {
-            if self.outer(side) != Outer::Given {
-                continue;
-            }
-            let frame = self.tile.frame::<N>();
+        let (frame, boundaries) = (self.tile.frame::<N>(), &self.ctx.model.boundaries);
+        for side in Side::ALL.into_iter().filter(|side| self.outer(*side) == Outer::Given) {
+            let id = self.ctx.mesh.first_of(self.tile);
             // The first ghosts at both ends, too, as the blocks have them that these cells belong to: tension asks for them.
             for along in -1..=frame.cells() as isize {
                 let [inner, ghost] = crate::boundary::beside(side, frame, along);
-                let id = self.ctx.mesh.first_of(self.tile);
                 let own = usize::try_from(along).ok().filter(|own| *own < frame.cells());
-                let given =
-                    own.and_then(|own| self.ctx.model.boundaries.initial_gas_share::<N>(id, side, own));
+                let given = own.and_then(|own| boundaries.initial_gas_share::<N>(id, side, own));
                 shares[ghost] = given.unwrap_or(shares[inner]);
             }
         }
