@@ -45,7 +45,7 @@ mod _pycav {
     #[pymodule_export]
     use super::new::{new_collapse, new_free_bubble, new_laser_bubble, new_shocked_bubble, new_wall_load};
     #[pymodule_export]
-    use super::runs::runs;
+    use super::runs::{run_state, runs};
     #[pymodule_export]
     use super::simulation::Simulation;
 }

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use cav::output::run_directory::SUMMARY;
+use cav::output::{RunState, summary};
 use cav::runs::columns::unit;
 use cav::runs::{Asked, ListError, Listing};
 use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
@@ -34,4 +36,11 @@ pub fn runs(
     let units = columns.iter().map(|key| (key.clone(), unit(key))).filter(|(_, unit)| !unit.is_empty());
     let units = units.collect();
     Ok((text, columns, units, notes))
+}
+
+/// The state of the run in a directory now, by the names that `runs` has.
+#[pyfunction]
+pub fn run_state(directory: PathBuf) -> &'static str {
+    let summary = summary::read(&directory.join(SUMMARY)).unwrap_or_default();
+    RunState::of(&directory, &summary).name()
 }

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import xarray
 
+from . import _pycav
 from ._run import run
-from ._status import status
 from .case import Case
 from .result import Result, open_run
 from .sweeps.work import is_complete
@@ -89,7 +89,7 @@ def _loading(case: Case | Result | str | os.PathLike[str], place: Path, threads:
             run(case, place, threads=threads, force=True)
         return open_run(place)
     loading = open_run(case)
-    state = status(loading.directory)
+    state = _pycav.run_state(loading.directory)
     if state != "finished":
         cure = "wait for its end" if state == "running" else f"go on with it by cav run --resume {loading.directory}"
         raise ValueError(f"case: the run in {loading.directory} is {state}, and only a finished one has all of its load; {cure}")

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Case", "CaseError", "CouplingError", "FluidSolver", "InternalError", "NumericalError", "OutputError", "RunError",
     "Simulation", "SolidSolver", "convergence", "main", "materials", "new_collapse", "new_free_bubble", "new_laser_bubble",
-    "new_shocked_bubble", "new_wall_load", "run_in_processes", "runs",
+    "new_shocked_bubble", "new_wall_load", "run_in_processes", "run_state", "runs",
 ]
 
 _Array = NDArray[np.float64]
@@ -165,6 +165,7 @@ def convergence(
     progress: bool = False,
 ) -> tuple[str, str]: ...
 def main(arguments: list[str], program: list[str], others: list[tuple[str, str]] = ...) -> int: ...
+def run_state(directory: _Path) -> str: ...
 def runs(
     folder: _Path, conditions: list[str], states: list[str], sort: str | None = None, columns: list[str] | None = None
 ) -> tuple[str, list[str], list[tuple[str, str]], list[str]]: ...
