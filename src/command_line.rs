@@ -118,6 +118,7 @@ pub fn main(
             return u8::try_from(error.exit_code()).unwrap_or(2);
         }
     };
+    let is_child = matches!(&cli.command, Some(Commands::Fluid(args) | Commands::Solid(args)) if args.child);
     let result = match cli.command {
         None => print(NEXT),
         Some(Commands::List(args)) => return list::list(&args),
@@ -134,6 +135,8 @@ pub fn main(
     };
     match result {
         Ok(()) => 0,
+        // That it was stopped the launcher says, once for both sides.
+        Err(error @ (RunError::Interrupted | RunError::Terminated)) if is_child => error.exit_code(),
         Err(error) => {
             complain(&error);
             error.exit_code()

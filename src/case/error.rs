@@ -170,4 +170,5 @@ pub(super) fn nearest<'n>(given: &str, allowed: &[&'n str]) -> Option<&'n str> {
         })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
+        .or_else(|| allowed.iter().find(|name| given.len() > 3 && name.contains(&given)).copied())
 }

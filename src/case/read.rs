@@ -157,12 +157,15 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
     let end = end?;
     let mut times = Vec::new();
     if let Some(given) = &snapshots {
-        for (number, &value) in given.value.iter().enumerate() {
-            if !(0.0..=end).contains(&value) {
-                let message =
-                    format!("snapshot {number} at {value:?} s lies outside the run, 0 to {end:?} s");
-                faults.of(given, message, "remove it, or make `end` later");
-            }
+        let mut outside = given.value.iter().enumerate().filter(|(_, time)| !(0.0..=end).contains(*time));
+        if let Some((number, time)) = outside.next() {
+            let others = match outside.count() {
+                0 => "lies".to_owned(),
+                more => format!("and {more} more lie"),
+            };
+            let message = format!("snapshot {number} at {time:?} s {others} outside the run, 0 to {end:?} s");
+            let help = "make `end` later, or leave out what is later: `--set time.snapshots=[]` does without any but the first and last";
+            faults.of(given, message, help);
         }
         times.clone_from(&given.value);
     } else if let Some(given) = &every {

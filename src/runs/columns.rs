@@ -129,7 +129,10 @@ impl Listing {
         if asked.is_some() {
             return self.columns(asked);
         }
-        let numbers = IN_TABLE.iter().filter(|name| self.is_there(name)).map(|name| (*name).to_owned());
+        // Where nothing can yield there is no pit to speak of.
+        let has_pits = self.is_there("plastic_strain_peak");
+        let is_shown = |name: &&&str| self.is_there(name) && (has_pits || **name != "pit_depth");
+        let numbers = IN_TABLE.iter().filter(is_shown).map(|name| (*name).to_owned());
         let first = ["path", "state"].map(str::to_owned).into_iter().chain(self.varied());
         let resolution = Some(RESOLUTION).filter(|name| self.is_there(name)).map(str::to_owned);
         let last = ["started", "version"].map(str::to_owned);

@@ -215,6 +215,8 @@ fn an_interrupt_stops_both_sides(kind: &str, code: i32) {
     assert!(signal(run.id(), kind));
     let output = run.wait_with_output().expect("ends");
     assert_eq!(output.status.code(), Some(code), "{}", text(&output));
+    // Said once, not by each side.
+    assert_eq!(text(&output).matches("error: ").count(), 1, "{}", text(&output));
     assert!(processes_of(&workshop.file("stopped")).is_empty());
     let summary = summary(&workshop.file("stopped"));
     assert_eq!(summary["completed"], false);

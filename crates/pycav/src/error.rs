@@ -62,7 +62,8 @@ impl From<Failure> for PyErr {
 }
 
 fn run_error(error: &cav::run::RunError) -> PyErr {
-    let text = error.to_string();
+    // What the command line calls options are arguments here.
+    let text = error.to_string().replace("--out", "out=").replace("--force", "force=True");
     match (error, error.exit_code()) {
         (cav::run::RunError::Case(errors), _) => case_error(errors),
         (cav::run::RunError::Grid { source, number, levels }, _) => match &**source {

@@ -23,13 +23,14 @@ impl Given {
         let take = |name: &str, array: Option<PyReadonlyArray1<'_, f64>>| -> PyResult<Option<Vec<f64>>> {
             let Some(array) = array else { return Ok(None) };
             let values = array.as_array().to_vec();
-            match values.len() == faces && values.iter().all(|value| value.is_finite()) {
-                true => Ok(Some(values)),
-                false => Err(PyValueError::new_err(format!(
-                    "{name} has to be {faces} finite numbers, one for each face of the surface; it has {}",
-                    values.len()
-                ))),
-            }
+            let what = match values.iter().position(|value| !value.is_finite()) {
+                Some(face) => format!("{name}[{face}] is {}", values[face]),
+                None if values.len() != faces => format!("it has {}", values.len()),
+                None => return Ok(Some(values)),
+            };
+            Err(PyValueError::new_err(format!(
+                "{name} has to be {faces} finite numbers, one for each face of the surface; {what}"
+            )))
         };
         let given = Self {
             pressure: take("pressure", pressure)?,

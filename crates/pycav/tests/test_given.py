@@ -78,3 +78,18 @@ def test_a_yield_strength_is_no_material(result):
         plot.yield_function(result, ["coper"])
     with pytest.raises(TypeError, match="'structural-steel'.*has 2.5e.08"):
         plot.yield_function(result, "structural-steel")
+
+
+@pytest.mark.parametrize("value", [0, -1, 1.5, True, "2"])
+def test_threads_are_a_whole_number_above_0(value, small, tmp_path):
+    for call in (pycav.run, pycav.FluidSolver, pycav.SolidSolver, pycav.Simulation,
+                 lambda case, threads: pycav.sweep(case, {"time.cfl": [0.4]}, tmp_path / "runs", threads=threads),
+                 lambda case, threads: pycav.convergence(case, tmp_path / "grids", threads=threads)):
+        with pytest.raises(ValueError, match=f"threads = {value!r}: give a whole number above 0"):
+            call(small, threads=value)
+    assert not any(tmp_path.iterdir())
+
+
+def test_a_report_is_a_page(result, tmp_path):
+    with pytest.raises(ValueError, match="page.pdf does not say: give a name that ends in .html"):
+        pycav.report(result, tmp_path / "page.pdf")

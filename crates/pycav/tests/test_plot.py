@@ -11,6 +11,7 @@ from PIL import Image
 import pycav
 from pycav._numbers import prefix
 from pycav.plot import flow
+from pycav.plot.overtime import _image, _panel
 
 WINDOW = (-0.04, 0.04, 0.03)
 
@@ -251,6 +252,18 @@ def test_space_time_diagrams(what, result, tmp_path):
     assert 0.1 * largest < np.nanmax(values) and (what == "axis" or np.nanmax(values) == pytest.approx(float(largest)))
     with pytest.raises(ValueError, match="wall"):
         pycav.plot.space_time(result, "nowhere")
+
+
+def test_tension_on_the_wall_has_a_scale_of_its_own():
+    values = np.linspace(-2e6, 6e7, 101)
+    for power in (1.0, 0.5):
+        figure, axes = _panel()
+        _image(figure, axes, np.arange(2.0), np.arange(101.0), np.stack([values, values], axis=1), "p", 100.0, power)
+        norm, bar = axes.collections[0].norm, figure.axes[1]
+        least, top = norm.vmin, norm.vmax
+        assert norm(0.0) == pytest.approx(0.5) and norm(top / 4) == pytest.approx(0.5 + 0.5 * 0.25**power)
+        assert norm(least / 4) == pytest.approx(0.5 - 0.5 * 0.25**power) and norm.inverse(norm(least / 3)) == pytest.approx(least / 3)
+        assert sum(least < mark < 0 for mark in bar.get_yticks()) >= 2 and sum(0 < mark < top for mark in bar.get_yticks()) >= 3
 
 
 def test_the_diagram_of_the_wall_may_begin_late(result):

@@ -65,7 +65,7 @@ def test_snapshots_are_found_by_number_and_time(result):
     assert result.fluid[-1].time == pytest.approx(56e-6) and len(result.fluid[2:5]) == 3
     with pytest.raises(IndexError):
         result.fluid[13]
-    with pytest.raises(KeyError, match="no field wind"):
+    with pytest.raises(KeyError, match="no field 'wind': There are: density.*output.fields"):
         result.fluid[0]["wind"]
     first = result.fluid[0]
     mesh, gas = first.mesh, first["gas_fraction"]

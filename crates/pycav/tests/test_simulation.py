@@ -366,7 +366,7 @@ def test_a_numerical_failure_is_an_exception_and_the_files_are_kept(small, tmp_p
 def test_a_finished_run_is_refused_without_force(small, tmp_path):
     short = small.with_({"time.end": 1e-6, "time.snapshots": []})
     pycav.run(short, tmp_path / "run")
-    with pytest.raises(pycav.RunError, match="force"):
+    with pytest.raises(pycav.RunError, match="directory with out=, or replace it with force=True"):
         pycav.run(short, tmp_path / "run")
     assert pycav.run(short, tmp_path / "run", force=True).summary["completed"]
 

@@ -32,8 +32,9 @@ pub fn look_next(whole: &Map<String, Value>) -> Option<String> {
         .map(|side| format!("{side}.vtkhdf"))
         .collect();
     Some(format!(
-        "Look next: pycav report makes a page of it; {} hold the fields, history.h5 the curves.",
-        files.join(" and ")
+        "Look next: pycav report makes a page of it; {} {} the fields, history.h5 the curves.",
+        files.join(" and "),
+        if files.len() == 1 { "holds" } else { "hold" }
     ))
 }
 
@@ -273,7 +274,13 @@ mod tests {
         assert!(told(&summary).contains(words), "{}", told(&summary));
         summary["wall_pressure_peak_interface"] = json!(4.44e8);
         let whole = summary.as_object().expect("an object");
-        assert!(look_next(whole).is_some_and(|next| next.contains("fluid.vtkhdf and solid.vtkhdf")));
+        assert!(
+            look_next(whole)
+                .is_some_and(|next| next.contains("fluid.vtkhdf and solid.vtkhdf hold the fields"))
+        );
+        let alone = json!({"cells": {"solid": 1}});
+        let next = alone.as_object().and_then(look_next);
+        assert!(next.is_some_and(|next| next.contains("; solid.vtkhdf holds the fields")));
         assert!(text.contains("cav run CASE --refine 3"));
         let text = answer(whole, Some("By a study: all of it.")).join("\n");
         assert!(text.contains("no warning. By a study: all of it.") && !text.contains("--refine"), "{text}");

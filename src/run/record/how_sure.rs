@@ -48,13 +48,15 @@ fn grid_of(record: &Map<String, Value>, hash: &str) -> Option<usize> {
 fn words(record: &Map<String, Value>, grid: usize, whole: &Map<String, Value>) -> Option<String> {
     let count = record.get("grids")?.as_array()?.len();
     let known = |(key, name): &(&str, &str)| {
-        let (value, found) = (whole.get(*key)?.as_f64()?, record.get("numbers")?.get(*key)?);
+        // A solid that stays elastic has a pit of 0.
+        let value = whole.get(*key)?.as_f64().filter(|value| *value != 0.0)?;
+        let found = record.get("numbers")?.get(*key)?;
         // Of another program the numbers of the same case may be others.
         if found["values"][grid].as_f64() != Some(value) {
             return None;
         }
         let how = found["convergence"].as_str()?.replace('-', " ");
-        Some(match found["uncertainties"][grid].as_f64().filter(|_| value != 0.0) {
+        Some(match found["uncertainties"][grid].as_f64() {
             Some(own) if how == "slow" => {
                 format!("{name} within {}, with an order too low to mean much", percent(own / value.abs()))
             }
@@ -99,6 +101,10 @@ mod tests {
             ),
             "the pit is of another program"
         );
+        record["numbers"]["pit_depth"] =
+            json!({"values": [0.0, 0.0], "uncertainties": [0.0, 0.0], "convergence": "unchanged"});
+        let elastic = object(&json!({"wall_impulse": 3.0, "pit_depth": 0.0}));
+        assert_eq!(words(&object(&record), 1, &elastic), None, "there is no pit");
         assert_eq!(grid_of(&object(&record), "c"), None);
         record["grids"][0]["completed"] = json!(false);
         assert_eq!(grid_of(&object(&record), "b"), None, "the study is under way");

@@ -196,8 +196,8 @@ impl SolidRecord {
             let totals = solver.totals();
             let ledger = solver.ledger();
             let energy = totals.kinetic + totals.elastic;
-            let released = solver.plastic_ledger().energy_released;
-            let dissipated = self.initial_energy + ledger.energy.iter().sum::<f64>() - energy - released;
+            let plastic = solver.plastic_ledger().work;
+            let dissipated = self.initial_energy + ledger.energy.iter().sum::<f64>() - energy - plastic;
             let mut row = vec![
                 time,
                 totals.mass,
@@ -211,7 +211,7 @@ impl SolidRecord {
                 row.extend([ledger.momentum[side], ledger.energy[side]]);
             }
             if solver.is_plastic() {
-                row.push(released);
+                row.push(plastic);
             }
             history.push(self.conservation, &row)?;
             if let Some(surface) = &self.surface {
@@ -321,7 +321,7 @@ const CONSERVATION_COLUMNS: [Column<'static>; 7] = [
     column(
         "energy_dissipated",
         "J/rad",
-        "work done on the solid minus the growth of its energy: the scheme's loss",
+        "work done on the solid minus the growth of its energy and the plastic work: the scheme's loss",
     ),
 ];
 

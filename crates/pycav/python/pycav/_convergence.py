@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _pycav
+from ._given import count
 from ._program import PROGRAM
 from .case import Case, checked
 from .result import Result
@@ -75,7 +76,7 @@ def convergence(
     """
     if isinstance(levels, bool) or not isinstance(levels, int) or levels < 0:
         raise ValueError(f"levels is a number of grids, 2 to 5, not {levels!r}")
-    case = checked(case)
+    case, threads = checked(case), count("threads", threads)
     with tempfile.TemporaryDirectory(prefix="pycav-") as place:
         path = Path(place) / f"{case.name}.toml"
         path.write_text(case._native.text)

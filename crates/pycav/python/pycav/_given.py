@@ -38,6 +38,15 @@ def positive(name: str, value: Any, unit: str = "") -> float:
     return found
 
 
+def count(name: str, value: Any) -> int | None:
+    """A whole number above 0, or `None` for all processors."""
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 1:
+        raise ValueError(f"{name} = {value!r}: give a whole number above 0, or None for all processors")
+    return int(value)
+
+
 def window(given: Any, low: Iterable[float], high: Iterable[float]) -> tuple[float, float, float]:
     """A window (z_low, z_high, r_high) in m that holds something of a domain with the corners (z, r) `low` and `high`."""
     if isinstance(given, str) or not np.iterable(given) or len(list(given)) != 3:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from . import _pycav
+from ._given import count
 from ._program import PROGRAM
 from .case import Case, checked
 from .result import Result
@@ -35,7 +36,7 @@ def run(
 
     Raises `pycav.RunError` or one of its kinds; what was computed is written in any case.
     """
-    case = checked(case)
+    case, threads = checked(case), count("threads", threads)
     if not processes or len(case.media) < 2:
         with Simulation(case, out=_directory(case, out), force=force, threads=threads) as simulation:
             simulation.run(callback, progress)

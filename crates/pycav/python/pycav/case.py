@@ -139,5 +139,5 @@ class Material(NamedTuple):
 
 
 def materials() -> list[Material]:
-    """The library of materials."""
+    """The library of materials: name, density in kg/m³, wave speeds c1 and c2 in m/s, yield strength in Pa (or `None`)."""
     return [Material(*row) for row in _pycav.materials()]

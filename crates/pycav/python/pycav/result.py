@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _toml
-from ._given import Named, nearest_time
+from ._given import Named, among, nearest_time
 from .case import Case
 from .mesh import Floats, Mesh
 
@@ -133,8 +133,7 @@ class Snapshots(Sequence[Snapshot]):
 
     def field(self, name: str, step: int) -> Floats:
         if name not in self.fields:
-            raise KeyError(f"{self.path.name} has no field {name}, only {', '.join(self.fields)}: "
-                           "output.fields of the case says which")
+            raise KeyError(f"{self.path.name} has no field {name!r}: {among(name, self.fields)}; output.fields of the case says which")
         with h5py.File(self.path, "r") as file:
             root = file["VTKHDF"]
             start = int(root["Steps/CellDataOffsets"][name][step])

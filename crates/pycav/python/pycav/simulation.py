@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _pycav
-from ._given import Named
+from ._given import Named, count
 from ._native import Native
 from .case import Case, checked
 from .cells import Array, Cells
@@ -54,7 +54,7 @@ class Simulation:
     ) -> None:
         self.case = checked(case)
         self._native = _pycav.Simulation(
-            self.case._native, None if out is None else os.fspath(out), force, threads, fluid_initial, solid_initial
+            self.case._native, None if out is None else os.fspath(out), force, count("threads", threads), fluid_initial, solid_initial
         )
 
     time: Native[float] = Native("Simulated time, s.")

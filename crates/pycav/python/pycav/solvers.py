@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _pycav
+from ._given import count
 from ._native import Native
 from .case import Case, checked
 from .cells import Array, Cells
@@ -75,7 +76,7 @@ class FluidSolver(_Solver):
     _native: _pycav.FluidSolver
 
     def __init__(self, case: Case, *, initial: InitialState | None = None, threads: int | None = None) -> None:
-        self._native = _pycav.FluidSolver(checked(case)._native, initial, threads)
+        self._native = _pycav.FluidSolver(checked(case)._native, initial, count("threads", threads))
 
     surface_pressure: Native[Array] = Native("Pressure on the surface during the last step, Pa, shape (faces,).")
     equivalent_radius: Native[float] = Native("Radius of the ball of the gas's volume, m.")
@@ -87,6 +88,6 @@ class SolidSolver(_Solver):
     _native: _pycav.SolidSolver
 
     def __init__(self, case: Case, *, initial: InitialState | None = None, threads: int | None = None) -> None:
-        self._native = _pycav.SolidSolver(checked(case)._native, initial, threads)
+        self._native = _pycav.SolidSolver(checked(case)._native, initial, count("threads", threads))
 
     surface_velocity: Native[Array] = Native("Velocity of the surface during the last step along +z, m/s, shape (faces,).")

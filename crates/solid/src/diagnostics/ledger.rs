@@ -22,10 +22,8 @@ pub struct PlasticLedger {
     pub returns: u64,
     /// Of these, those that followed a correction along a level jump or a change of the grid, not a step.
     pub after_corrections: u64,
-    /// Plastic work ∫ q dε_p by backward Euler, J: what heats.
+    /// Plastic work ∫ q dε_p by backward Euler, J: what heats, and what a balance of energy has to count.
     pub work: f64,
-    /// Elastic energy that the returns have taken from the cells, J: the work, and the scheme's loss in the returns.
-    pub energy_released: f64,
     /// Largest rate of plastic strain in a step of a cell, 1/s.
     pub rate_peak: f64,
 }

@@ -40,11 +40,10 @@ pub struct Returned {
     pub temperature: f64,
     /// Δε_p ≥ 0.
     pub increment: f64,
-    /// Backward Euler's plastic work q Δε_p, J/m³: what heats.
+    /// Backward Euler's plastic work q Δε_p, J/m³: what heats, and what a balance of energy has to count. The deviator loses
+    /// (q_trial² − q²)/(6μ), which is 3/2 μ Δε_p² more; by about as much the elastic trial gained more than was given, as the stresses
+    /// on the faces are those of a material that flows.
     pub plastic_work: f64,
-    /// The elastic energy that the return takes from the deviator, (q_trial² − q²)/(6μ) = q Δε_p + 3/2 μ Δε_p², J/m³:
-    /// what a balance of energy has to count. The second term, of second order in the step, is the scheme's.
-    pub energy_released: f64,
 }
 
 impl Plasticity {
@@ -239,7 +238,6 @@ impl Plasticity {
             temperature: temperature + self.heating * plastic_work,
             increment,
             plastic_work,
-            energy_released: plastic_work + 1.5 * self.mu * increment * increment,
         }
     }
 

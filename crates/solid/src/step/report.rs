@@ -29,8 +29,6 @@ pub struct PlasticReport {
     pub(crate) corrected: u32,
     /// Plastic work q Δε_p, J.
     pub(crate) work: f64,
-    /// Elastic energy taken from the cells, J.
-    pub(crate) released: f64,
     /// Largest rate of plastic strain, 1/s.
     pub(crate) rate: f64,
     /// Largest plastic strain after the step.
@@ -42,7 +40,7 @@ pub struct PlasticReport {
 impl PlasticReport {
     /// Whether anything flowed in the step.
     pub(crate) fn has_flow(&self) -> bool {
-        self.returned + self.corrected > 0 || [self.work, self.released, self.rate] != [0.0; 3]
+        self.returned + self.corrected > 0 || [self.work, self.rate] != [0.0; 2]
     }
 }
 
@@ -156,7 +154,6 @@ impl PlasticLedger {
         self.returns += u64::from(report.returned) + u64::from(report.corrected);
         self.after_corrections += u64::from(report.corrected);
         self.work += report.work;
-        self.energy_released += report.released;
         self.rate_peak = self.rate_peak.max(report.rate);
     }
 }

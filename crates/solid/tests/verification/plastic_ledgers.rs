@@ -49,6 +49,13 @@ fn beyond(solid: &SolidSolver<8>, hardening: &Hardening) -> f64 {
     largest
 }
 
+/// What was given less the energy in the domain and the plastic work, J/rad.
+fn dissipated(solid: &SolidSolver<8>) -> f64 {
+    let totals = solid.totals();
+    let given: f64 = solid.ledger().energy.iter().sum();
+    given - totals.kinetic - totals.elastic - solid.plastic_ledger().work
+}
+
 #[test]
 fn no_cell_is_ever_outside_its_yield_surface_and_all_plastic_work_is_counted() {
     for modulus in [0.0, 8e9] {
@@ -58,9 +65,12 @@ fn no_cell_is_ever_outside_its_yield_surface_and_all_plastic_work_is_counted() {
             Hardening::linear(STRENGTH, modulus).unwrap()
         };
         let mut solid = dented(Some(hardening.clone()), true);
-        let (mut worst, mut meshes) = (0.0_f64, vec![]);
+        let (mut worst, mut meshes, mut lost) = (0.0_f64, vec![], vec![]);
         press(&mut solid, 2e9, 40, |solid| {
             worst = worst.max(beyond(solid, &hardening));
+            if solid.clock().is_over() {
+                lost.push((solid.mesh().generation(), dissipated(solid)));
+            }
             if meshes.last() != Some(&solid.mesh().generation()) {
                 meshes.push(solid.mesh().generation());
             }
@@ -82,16 +92,16 @@ fn no_cell_is_ever_outside_its_yield_surface_and_all_plastic_work_is_counted() {
             eprintln!("plastic work off by {off:.1e}");
             assert!(off.abs() < 1e-12, "{off}");
         }
-        let totals = solid.totals();
-        let energy = totals.kinetic + totals.elastic;
-        let given: f64 = solid.ledger().energy.iter().sum();
-        let lost = given - energy - ledger.energy_released;
+        // The scheme itself takes energy in every step, and not much; slopes in finer cells give some.
+        let (given, last) = (solid.ledger().energy[1], lost[lost.len() - 1].1);
+        let on_one_grid = lost.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        let grown = on_one_grid.map(|pair| pair[1].1 - pair[0].1).fold(f64::INFINITY, f64::min);
         eprintln!(
-            "given {given:e}, kept {energy:e}, released {:e}, lost {:.2} %",
-            ledger.energy_released,
-            100.0 * lost / given
+            "given {given:e}, plastic work {:e}, lost {last:e}, in a step at least {grown:e}",
+            ledger.work
         );
-        assert!(ledger.energy_released > ledger.work && lost > 0.0 && lost < 0.1 * solid.ledger().energy[1]);
+        assert!(lost.len() > 20 && ledger.work > 0.1 * given && last < 0.1 * given);
+        assert!(grown > -1e-9 * given, "{grown:e} of {given:e}");
     }
 }
 

@@ -15,11 +15,8 @@ pub const STEP_COLUMNS: [Column<'static>; 2] = [
 ];
 
 /// Beside those of `/conservation/solid`.
-pub const CONSERVATION_COLUMN: Column<'static> = column(
-    "energy_plastic",
-    "J/rad",
-    "elastic energy that plastic flow has taken so far: the plastic work, and the returns' loss of second order",
-);
+pub const CONSERVATION_COLUMN: Column<'static> =
+    column("energy_plastic", "J/rad", "plastic work so far, which does not count as dissipated");
 
 /// Plastic strains from which on a cell belongs to the plastic zone.
 const THRESHOLDS: [(&str, f64); 2] = [("", 1e-4), ("_2e-3", 2e-3)];

@@ -23,6 +23,8 @@ def report(run: Run, out: str | os.PathLike[str] | None = None, *, csv: str | os
     """
     result = open_run(run)
     path = result.directory / "report.html" if out is None else Path(out)
+    if path.suffix.lower() not in ("", ".html", ".htm"):
+        raise ValueError(f"a report is an HTML page, which {path.name} does not say: give a name that ends in .html (a browser prints it to PDF)")
     path.write_text(page(result), encoding="utf-8")
     if csv is not None:
         write_csv([*charts(result), *profile(result)], Path(csv))

@@ -6,8 +6,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import Normalize, PowerNorm, TwoSlopeNorm
+from matplotlib.colors import FuncNorm, Normalize, PowerNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from .._given import number, positive
 from ..mesh import Floats
@@ -15,7 +16,7 @@ from ..result import Result, open_run
 from ..theory import Bubble
 from .across import along
 from .section import Run
-from .._numbers import prefix
+from .._numbers import prefix, si
 from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, styled, ticks
 
 
@@ -167,9 +168,7 @@ def _wall(result: Result, reach: float | None, since: float, power: float) -> Fi
     row, column = np.unravel_index(int(np.argmax(pressure)), pressure.shape)
     for colour, width in ((WHITE, 2.6), (INK, 1.0)):  # seen on bright and on dark
         axes.plot(r[shown][column], time[row], marker="+", color=colour, markersize=8, markeredgewidth=width, clip_on=False)
-    scale, letter = prefix(float(pressure.max()))
-    axes.set_title(f"Pressure on the wall; the largest (+) {pressure.max() * scale:.0f} {letter}Pa", loc="left",
-                   fontsize=9)
+    axes.set_title(f"Pressure on the wall; the largest (+) {si(pressure.max(), 'Pa')}", loc="left", fontsize=9)
     return figure
 
 
@@ -210,8 +209,24 @@ def _image(figure: Figure, axes: Axes, x: Floats, time: Floats, values: Floats, 
     scale, letter = prefix(max(abs(top), abs(least)))
     tension = least < -0.02 * top
     norm: Normalize = PowerNorm(power, least * scale, top * scale)
+    marks = None
     if tension and top > 0:
-        norm = TwoSlopeNorm(0, least * scale, top * scale)
+        norm = _about_zero(least * scale, top * scale, power)
+        # Either side has a scale of its own.
+        marks = [*MaxNLocator(3).tick_values(least * scale, 0)[:-1], *MaxNLocator(5).tick_values(0, top * scale)]
     drawn = axes.pcolormesh(x, time, values * scale, cmap="RdBu_r" if tension else "inferno", norm=norm,
                             shading="nearest", rasterized=True)
-    figure.colorbar(drawn, ax=axes, label=f"{symbol} / {letter}Pa", extend="both", pad=0.02, aspect=30)
+    figure.colorbar(drawn, ax=axes, label=f"{symbol} / {letter}Pa", extend="both", pad=0.02, aspect=30, ticks=marks)
+
+
+def _about_zero(least: float, top: float, power: float) -> Normalize:
+    """Colours from `least` < 0 to `top` > 0 with 0 in their middle; a power below one lifts what is weak on either side."""
+    ends = np.array([-least, top])
+
+    def forward(value: Floats) -> Floats:
+        return np.asarray(np.sign(value) * (np.abs(value) / np.where(value < 0, *ends)) ** power)
+
+    def inverse(share: Floats) -> Floats:
+        return np.asarray(np.sign(share) * np.abs(share) ** (1 / power) * np.where(share < 0, *ends))
+
+    return FuncNorm((forward, inverse), least, top)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray
 
+from .._given import count
 from .._pycav import RunError
 from ..case import Case, Material, checked
 from ..case import materials as library
@@ -68,7 +69,7 @@ def sweep(
     case, axes, root = checked(case), Axes(parameters), Path(out)
     if to is not None and Path(to).suffix not in (".nc", ".zarr"):
         raise ValueError(f"a map is written as .nc or .zarr, not as {Path(to).name}")
-    places = axes.places(root)
+    places, threads, workers = axes.places(root), count("threads", threads), count("workers", workers)
     if threads is None and (workers is not None or isinstance(executor, str)):
         threads = 1
     errors: list[str] = [""] * len(axes.points)

@@ -41,8 +41,7 @@ fn any_state_returns_to_the_yield_surface_and_dissipates() {
             assert!(numbers.iter().all(|number| number.is_finite()), "{said}");
             assert!(returned.temperature.is_finite() && returned.temperature >= temperature, "{said}");
             assert!(returned.increment >= 0.0 && returned.strain == strain + returned.increment, "{said}");
-            assert!(returned.plastic_work >= 0.0 && returned.energy_released >= 0.0, "{said}");
-            assert!(returned.energy_released >= returned.plastic_work * (1.0 - 1e-12), "{said}");
+            assert!(returned.plastic_work >= 0.0, "{said}");
 
             let size = trial.zz.abs().max(trial.rr.abs()).max(trial.phiphi.abs());
             assert!((returned.stress.mean() - trial.mean()).abs() <= 4.0 * f64::EPSILON * size, "{said}");
@@ -70,7 +69,7 @@ fn any_state_returns_to_the_yield_surface_and_dissipates() {
 }
 
 #[test]
-fn energy_that_the_deviator_loses_is_the_energy_released() {
+fn the_deviator_loses_the_plastic_work_and_what_the_trial_was_beyond() {
     let mut dice = Dice::new(5);
     for (_, plasticity) in in_steel() {
         for _ in 0..1000 {
@@ -80,14 +79,9 @@ fn energy_that_the_deviator_loses_is_the_energy_released() {
             let lost = trial.deviatoric_energy(mu) - returned.stress.deviatoric_energy(mu);
             let size = trial.zz.abs().max(trial.rr.abs()).max(trial.phiphi.abs());
             let rounding = size * trial.von_mises_squared().sqrt() / mu;
-            assert!(
-                (lost - returned.energy_released).abs() <= 16.0 * f64::EPSILON * rounding,
-                "{returned:?}"
-            );
-            // What it is more than backward Euler's work is of second order in the increment.
-            let more = 1.5 * mu * returned.increment * returned.increment;
-            let apart = returned.energy_released - returned.plastic_work - more;
-            assert!(apart.abs() <= 1e-12 * trial.deviatoric_energy(mu), "{returned:?}");
+            let beyond = 1.5 * mu * returned.increment * returned.increment;
+            let apart = lost - returned.plastic_work - beyond;
+            assert!(apart.abs() <= 16.0 * f64::EPSILON * rounding, "{returned:?}");
         }
     }
 }
