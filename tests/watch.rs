@@ -198,6 +198,19 @@ fn what_is_no_run_is_refused_with_code_2_and_what_there_is_is_told() {
 }
 
 #[test]
+fn of_a_run_without_gas_no_radius_is_drawn() {
+    let place = tempfile::tempdir().expect("a directory");
+    let domain = fixture::grid([0.0, 0.01], 0.01, [16, 16]);
+    let text = format!("[time]\nend = 1e-6\n{}{}", fixture::water(&domain, 1e5), fixture::pulse(3e-3));
+    let text = text + "[coupling]\nscheme = \"rigid\"\n";
+    fs::write(place.path().join("case.toml"), text).expect("the case is written");
+    assert!(cav(place.path(), &["run", "case.toml", "--out", "run", "-q"]).status.success());
+    let seen = Reader::new(&place.path().join("run")).look().expect("a run");
+    let titles: Vec<&str> = seen.curves.iter().map(|titled| titled.title).collect();
+    assert_eq!((seen.state, titles), (RunState::Finished, vec!["wall pressure on the axis"]));
+}
+
+#[test]
 fn of_a_study_the_grid_under_way_is_seen_and_a_failed_run_says_why() {
     let place = tempfile::tempdir().expect("a directory");
     let place = place.path();

@@ -100,12 +100,13 @@ impl Reader {
             curve.last()?;
             Some(Titled { title, unit, is_least_wanted: path == RADIUS, curve })
         };
+        let is_there = |titled: &Titled| titled.curve.largest().is_some_and(|[_, value]| value > 0.0);
         // Where the solid can yield, how far it has is what is asked for; until it does, how near it is.
-        let strain = titled(&self.solid, PLASTIC, "largest plastic strain", "")
-            .filter(|strain| strain.curve.largest().is_some_and(|[_, value]| value > 0.0));
+        let strain = titled(&self.solid, PLASTIC, "largest plastic strain", "").filter(is_there);
         let solid = strain.or_else(|| titled(&self.solid, VON_MISES, "largest von Mises stress", "Pa"));
         let bubble = [
-            titled(&self.fluid, RADIUS, "equivalent radius R(t)", "m"),
+            // Without gas there is no radius.
+            titled(&self.fluid, RADIUS, "equivalent radius R(t)", "m").filter(is_there),
             titled(&self.fluid, PRESSURE, "wall pressure on the axis", "Pa"),
         ];
         bubble.into_iter().flatten().chain(solid).collect()
