@@ -6,6 +6,8 @@ mod spread;
 mod stress;
 mod velocities;
 
+use mesh::{Frame, Side};
+
 use super::diffusion::{BY_STAGES, ThinGas, most_diffusivity, step_limit};
 use super::super_stepping::{Spreading, View};
 use super::{FinishedCells, GasMass, Term, TermBlock, WallCell, for_cells_without_mid_step};
@@ -70,7 +72,7 @@ impl Viscosity {
         work.resize(ROWS * len, 0.0);
         let mut rows = work.chunks_exact_mut(len);
         let mut next = || rows.next().expect("resized to that many");
-        let [v_z, v_r, shear, bulk, spared] = std::array::from_fn(|_| next());
+        let [v_z, v_r, shear, bulk, spared, density, phi] = std::array::from_fn(|_| next());
         Velocities { v_z: &mut *v_z, v_r: &mut *v_r }.gather(block);
         for (k, phi) in block.state[PHI].iter().enumerate() {
             [shear[k], bulk[k]] = self.at(*phi);
@@ -78,13 +80,16 @@ impl Viscosity {
         // What kernels left of mixed cells differs from block to block.
         for_cells_without_mid_step(block, |k| [shear[k], bulk[k]] = self.at(block.before[PHI][k]));
         let is_layered = spared_dilatation(block, spared);
+        density.copy_from_slice(block.before[RHO]);
+        phi.copy_from_slice(block.before[PHI]);
+        mirror_beyond_sides(block, [&mut *shear, &mut *bulk, &mut *spared, &mut *density, &mut *phi]);
         let [z, r] = std::array::from_fn(|_| FaceStress { normal: next(), shear: next(), hoop: next() });
         let metric = block.metric;
         let motion = Motion {
             velocity: [&*v_z, &*v_r],
             shear: &*shear,
             bulk: &*bulk,
-            density: block.before[RHO],
+            density: &*density,
             stride: metric.stride,
             inverse_h: metric.inverse_h,
             inverse_r: block.inverse_r,
@@ -97,7 +102,7 @@ impl Viscosity {
         stresses(&motion, 0, z_first..end + 1, &mut stresses_of.z);
         stresses(&motion, 1, r_first..end + 1, &mut stresses_of.r);
         if is_layered {
-            let layers = self.layers(block.before[PHI], spared);
+            let layers = self.layers(phi, spared);
             take_for_layers(&motion, &layers, 0, z_first..end + 1, &mut stresses_of.z);
             take_for_layers(&motion, &layers, 1, r_first..end + 1, &mut stresses_of.r);
         }
@@ -131,9 +136,24 @@ fn spared_dilatation(block: &TermBlock<'_>, spared: &mut [f64]) -> bool {
     is_any
 }
 
-/// Rows that the stresses of a block take: two velocities, two viscosities, what the liquid is spared, three numbers on the faces of either
-/// direction.
-const ROWS: usize = 11;
+/// Gives the ghosts beyond the domain what the cells in front of its sides have.
+///
+/// Where gas is at a side and liquid behind it, what is continued beyond is no state: a density below 0 would turn friction round.
+fn mirror_beyond_sides<const K: usize>(block: &TermBlock<'_>, rows: [&mut [f64]; K]) {
+    let frame = Frame::of(block.cells);
+    for row in rows {
+        // r first, as where ghosts are filled: the z sides complete the corners.
+        for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+            if block.sides[side as usize].is_some() {
+                frame.reflect(row, side, 1.0);
+            }
+        }
+    }
+}
+
+/// Rows that the stresses of a block take: two velocities, two viscosities, what the liquid is spared, density, gas fraction, three numbers
+/// on the faces of either direction.
+const ROWS: usize = 13;
 
 /// The rows as [`Viscosity::stresses`] has left them.
 fn rows_of(work: &[f64], len: usize) -> [&[f64]; ROWS] {
@@ -219,7 +239,7 @@ impl Term for Viscosity {
     /// (τ_rr − τ_φφ)/r. The flux of τ_rr has no weight, as the pressure's: see `update.rs`.
     fn add_sources(&self, block: &TermBlock<'_>, _: [&FaceRows; 2], work: &[f64], block_rows: &mut [f64]) {
         let TermBlock { cells: n, metric, inverse_r, .. } = *block;
-        let [_, _, shear, bulk, _, _, _, _, normal, _, hoop] = rows_of(work, block.state[RHO].len());
+        let [_, _, shear, bulk, _, _, _, _, _, _, normal, _, hoop] = rows_of(work, block.state[RHO].len());
         let parts = Parts { shear, bulk };
         for j in 0..n {
             for i in 0..n {

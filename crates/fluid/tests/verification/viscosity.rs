@@ -263,3 +263,38 @@ fn the_step_is_limited_by_what_a_block_holds() {
     approx::assert_relative_eq!(limit(of(ThinGas::Resolved), gas), expected(10.0), max_relative = 1e-9);
     assert_eq!(limit(of(ThinGas::Bounded), gas), limit(None, gas), "the sound of the gas limits it");
 }
+
+/// A drop comes towards a wall and presses out gas that is too viscous for the step: the wall to the solid, kept at rest, does as a wall does.
+#[test]
+fn thin_gas_between_a_drop_and_the_wall_to_the_solid_is_as_at_any_wall() {
+    let largest = |kind: Boundary, thin_gas: ThinGas| {
+        let sides = [kind, Boundary::NonReflecting, Boundary::Axis, Boundary::Wall];
+        let [liquid, gas] = [1.0, 100.0].map(|shear| PhaseViscosity { shear, bulk: 0.0 });
+        let viscosity = Some(Viscosity { liquid, gas, thin_gas });
+        let setup = FluidSetup { viscosity, ..setup_of(SHARP, AXIAL, [32, 32], sides) };
+        let mut initial = ball_of_gas(([0.3, 0.0], 0.2), 1e5, [1.0, 1e5], 0.0);
+        std::mem::swap(&mut initial.ambient, &mut initial.regions[0].state);
+        initial.regions[0].state.velocity = [-200.0, 0.0];
+        let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
+        let (mut traces, mut largest) = (vec![], 0.0_f64);
+        for _ in 0..300 {
+            let dt = fluid.time_step_limit(CFL);
+            fluid.traces_at_mid_step(dt, &mut traces);
+            let shear = if traces.is_empty() { vec![] } else { shear_on_wall(&fluid, dt) };
+            fluid.interface_mut().set_all(|face| {
+                let trace = traces[face];
+                let impedance = (trace.gamma * (trace.pressure + trace.pi) * trace.density).sqrt();
+                let pressure = trace.pressure - impedance * trace.velocity;
+                FaceState { shear: shear[face], ..[pressure, 0.0, 0.0].into() }
+            });
+            fluid.step(dt).unwrap();
+            each_cell(&fluid, |_, _, w| largest = largest.max(w.pressure));
+        }
+        largest
+    };
+    for thin_gas in [ThinGas::Bounded, ThinGas::SuperTimeStepping] {
+        let [wall, interface] = [Boundary::Wall, Boundary::Interface].map(|kind| largest(kind, thin_gas));
+        eprintln!("{thin_gas:?}: {wall:.4e} Pa at a wall, {interface:.4e} at the wall to the solid");
+        assert!(wall > 1e7 && (interface / wall - 1.0).abs() < 0.3, "{thin_gas:?} {wall:e} {interface:e}");
+    }
+}

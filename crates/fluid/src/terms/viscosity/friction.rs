@@ -35,7 +35,7 @@ impl Viscosity {
 /// - `work`: as the fluxes have left it; `k`, `j`: the cell's padded place, and its row.
 fn friction(cells: &FinishedCells<'_>, work: &[f64], (k, j): (usize, usize)) -> f64 {
     let (metric, stride) = (cells.metric, cells.metric.stride);
-    let [v_z, v_r, shear, bulk, _, z_normal, z_shear, _, r_normal, r_shear, hoop] =
+    let [v_z, v_r, shear, bulk, _, _, _, z_normal, z_shear, _, r_normal, r_shear, hoop] =
         rows_of(work, cells.phi.len());
     let parts = Parts { shear, bulk };
     let of = |face: usize, step: usize, stresses: [(&[f64], &[f64]); 2]| -> f64 {

@@ -3,7 +3,7 @@
 use super::layered::{SHEET, take_for_layers};
 use super::stress::{FaceStress, Motion, Parts, stresses};
 use super::velocities::{Sides, Velocities};
-use super::{PhaseViscosity, Viscosity, longitudinal, spared_dilatation};
+use super::{PhaseViscosity, Viscosity, longitudinal, mirror_beyond_sides, spared_dilatation};
 use crate::state::primitive::{PHI, RHO};
 use crate::terms::super_stepping::{Frame, Shape, Spreading, View};
 use crate::terms::{TermBlock, for_cells_without_mid_step};
@@ -52,6 +52,9 @@ impl Spreading for Viscosity {
             [constants[k], constants[len + k]] = self.at(block.before[PHI][k]);
             constants[2 * len + k] = block.before[RHO][k];
         });
+        for row in constants.chunks_exact_mut(len) {
+            mirror_beyond_sides(block, [row]);
+        }
         let (metric, stride) = (block.metric, block.metric.stride);
         let across: f64 = metric.inverse_h.iter().map(|inverse| inverse * inverse).sum();
         let mut fastest = 0.0_f64;
