@@ -7,7 +7,6 @@ use std::fmt::Write as _;
 use coupler::Scheme;
 use fluid::{PhaseState, PulseShape, Shape};
 use mesh::{LevelBound, Side, Zone};
-use sha2::{Digest, Sha256};
 use solid::plasticity::Hardening;
 
 use super::{Case, FluidCase, GridCase, LoadCase, SolidCase};
@@ -41,18 +40,8 @@ impl Case {
         table.0
     }
 
-    /// SHA-256 of what the case computes: of [`Case::effective_toml`] without `[output]` and the waiting times.
-    pub fn hash(&self) -> [u8; 32] {
-        Sha256::digest(self.write(false).as_bytes()).into()
-    }
-
-    /// SHA-256 of [`Case::effective_toml`]: of all that a run computes and writes.
-    pub fn fingerprint(&self) -> [u8; 32] {
-        Sha256::digest(self.effective_toml().as_bytes()).into()
-    }
-
     /// The effective case without `[output]`, and without the waiting times unless asked for.
-    fn write(&self, waiting: bool) -> String {
+    pub(super) fn write(&self, waiting: bool) -> String {
         let mut text = Lines(String::new());
         text.name("geometry", &mesh::Geometry::NAMES, self.geometry);
         text.head("[time]");

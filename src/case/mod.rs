@@ -10,6 +10,7 @@ mod far_field;
 #[cfg(test)]
 mod fixture;
 pub(crate) mod format;
+mod identity;
 mod initial_pressure;
 mod keys;
 mod load;
@@ -71,7 +72,7 @@ pub use materials::materials_table;
 pub use memory::{Memory, available_memory};
 pub use read_adaptation::DEFAULT_ERROR;
 pub use read_terms::TermsCase;
-pub use recorded_load::RecordedLoad;
+pub use recorded_load::{RecordedLoad, from_where};
 pub use steps::SMALLEST_STEP;
 
 /// A case: everything that says what a run computes, checked and with all defaults filled in.

@@ -56,8 +56,9 @@ impl RecordedLoad {
         let path = run.join(HISTORY);
         if !path.is_file() {
             return Err(format!(
-                "there is no {HISTORY} in {}: not the directory of a finished run",
-                run.display()
+                "there is no {HISTORY} in {}: not the directory of a finished run{}",
+                run.display(),
+                from_where(run)
             ));
         }
         let ambient = ambient_of(run)?;
@@ -94,6 +95,16 @@ impl RecordedLoad {
     /// The largest difference from the ambient pressure, Pa.
     pub fn largest(&self) -> f64 {
         self.record.pressure.iter().fold(0.0, |most: f64, p| most.max((p - self.record.ambient).abs()))
+    }
+
+    /// All that it is made of: what makes it another one.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> {
+        let Record { ambient, edges, times, end, pressure } = &*self.record;
+        [*ambient, *end]
+            .into_iter()
+            .chain(edges.iter().copied())
+            .chain(times.iter().copied())
+            .chain(pressure.iter().copied())
     }
 
     /// Outer radii of the cells that the pressure is given on, ascending, m.
@@ -151,6 +162,16 @@ impl Record {
         let pressure = Array2::from_shape_vec((times.len(), cells), rows).ok()?;
         let is_finite = pressure.iter().chain(&times).all(|value| value.is_finite());
         (last > 0 && is_finite).then_some(Self { ambient, edges, end: ends[last], times, pressure })
+    }
+}
+
+/// What a path is relative to, in words for an error; nothing of one that is not.
+pub fn from_where(path: &Path) -> String {
+    match std::env::current_dir() {
+        Ok(here) if path.is_relative() => {
+            format!(" (the path counts from the working directory, {})", here.display())
+        }
+        _ => String::new(),
     }
 }
 

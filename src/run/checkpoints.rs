@@ -162,8 +162,8 @@ impl Checkpoints {
         }
         if head.case != self.case {
             let reason = format!(
-                "it is of another case than case.toml beside it, or written by another version ({}); put the case back as \
-                 it was, or run the changed one in another directory",
+                "it is of another case than case.toml beside it, or of another wall or load that this begins from, or written by \
+                 another version ({}); put these back as they were, or run the changed case in another directory",
                 head.program
             );
             return Err(RunError::Resume { path: path.to_path_buf(), reason });

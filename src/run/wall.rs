@@ -8,7 +8,7 @@ use mesh::{BLOCK, BlockId, Field};
 use serde::{Deserialize, Serialize};
 use solid::{ElasticState, InitialStress, SolidSetup, SolidSolver};
 
-use crate::case::{Case, SolidCase};
+use crate::case::{Case, SolidCase, from_where};
 use crate::output::checkpoint::{self, Head};
 use crate::output::run_directory::WALL;
 use crate::output::{OutputError, RunDirectory};
@@ -166,7 +166,8 @@ impl Wall<'static> {
         let path = run.join(WALL);
         if !path.is_file() {
             return Err(format!(
-                "there is no {WALL} in it; a run leaves one when it is finished and has [solid.plasticity]"
+                "there is no {WALL} in it; a run leaves one when it is finished and has [solid.plasticity]{}",
+                from_where(run)
             ));
         }
         checkpoint::read(&path).map(|(_, wall)| wall).map_err(|fault| fault.to_string())

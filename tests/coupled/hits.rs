@@ -164,6 +164,7 @@ fn a_wall_of_another_kind_is_refused() {
         ("levels = 3", "levels = 2", "solid.levels is 3 there and 2 here"),
         ("levels = 3", "levels = 3\ngravity = -9.81", "solid.gravity is [0.0] there and [-9.81] here"),
         ("left", "nowhere", "there is no wall.state in it"),
+        (&left.display().to_string(), "nowhere", "(the path counts from the working directory, "),
     ] {
         let error = refusal(&with(old, new));
         assert!(
@@ -200,4 +201,26 @@ fn a_wall_of_another_kind_is_refused() {
     let text = steel(&repeating(&place.path().join("nowhere")), "");
     let error = Case::from_toml(&text, "hits", &[]).expect_err("there is no such run");
     assert!(error.to_string().contains("coupling.load.run"), "{error}");
+}
+
+#[test]
+fn a_case_is_another_one_when_what_it_begins_from_was_run_anew() {
+    let place = tempfile::tempdir().unwrap();
+    let left = place.path().join("left");
+    let made = |amplitude: &str| {
+        let text = steel(&PULSE.replace("1.2e9", amplitude), "adapt = false\n");
+        if left.exists() {
+            std::fs::remove_dir_all(&left).unwrap();
+        }
+        run(&case(&text.replace("end = 5e-6", "end = 1e-7")), &left);
+        [(repeating(&left), String::new()), (PULSE.to_owned(), from(&left))].map(|(load, begun)| {
+            let case = case(&steel(&load, &(begun + "adapt = false\n")));
+            [case.hash(), case.fingerprint()]
+        })
+    };
+    let [first, again, other] = ["1.2e9", "1.2e9", "1.3e9"].map(made);
+    assert_eq!(first, again, "the same run made once more");
+    for (first, other) in first.iter().flatten().zip(other.iter().flatten()) {
+        assert_ne!(first, other);
+    }
 }

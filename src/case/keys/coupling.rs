@@ -140,7 +140,7 @@ pub(super) static COUPLING: [Section; 2] = [
                 about: "Its pressure over r and t acts; beyond its radius the ambient pressure, after its end the last one. \
                         The solid begins with that run's pressure at t = 0. Between two rows the pressure is the mean that \
                         the impulse says, so none is lost if `output.interface_every` was long. Short peaks need short \
-                        intervals.",
+                        intervals. A relative path counts from the working directory.",
             },
         ],
     },

@@ -41,7 +41,8 @@ pub(super) static SOLID: [Section; 3] = [
                 default: Preset::Words("a fresh wall"),
                 about: "The wall begins with the stress, plastic strain, temperature and displacement that stayed in that \
                         run, at rest: [many hits][hits]. `z`, `r`, `cells`, `gravity`, density and wave speeds are the \
-                        same, `levels` at least as many; the laws may differ. It is not the run's own directory.",
+                        same, `levels` at least as many; the laws may differ. It is not the run's own directory. A relative path counts \
+                        from the working directory.",
             },
             LIMITER,
             Key {
