@@ -42,6 +42,7 @@ impl Case {
         if let Some(fluid) = &self.fluid {
             fluid_warnings(fluid, self.geometry, &mut warnings);
             near_sides(fluid, self.geometry, &mut warnings);
+            across_periodic_sides(fluid, &mut warnings);
         }
         if let Some(solid) = &self.solid {
             let [h_z, h_r] = solid.grid.cell_size();
@@ -75,6 +76,32 @@ fn fluid_warnings(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<Stri
     }
     if geometry == Geometry::Axisymmetric && initial.ambient.velocity[1] != 0.0 {
         warnings.push("fluid.ambient.velocity has a radial part, which is singular at the axis".to_owned());
+    }
+}
+
+/// Regions that reach across a periodic side: nothing of them comes in at the other one.
+fn across_periodic_sides(fluid: &FluidCase, warnings: &mut Vec<String>) {
+    for (number, region) in fluid.initial.regions.iter().enumerate() {
+        let reach = match region.shape {
+            Shape::Sphere { centre, radius } => centre.map(|middle| [middle - radius, middle + radius]),
+            Shape::Box { z, r } => [z, r],
+        };
+        for (key, side) in Side::NAMES {
+            let (low, high, axis) = match side {
+                Side::ZMin | Side::ZMax => (Side::ZMin, Side::ZMax, 0),
+                Side::RMin | Side::RMax => (Side::RMin, Side::RMax, 1),
+            };
+            let [begin, end] = [fluid.grid.z, fluid.grid.r][axis];
+            let across = |side: Side| if side == low { reach[axis][0] < begin } else { reach[axis][1] > end };
+            let other = if side == low { high } else { low };
+            if fluid.boundary[side as usize] == Boundary::Periodic && across(side) && !across(other) {
+                let period = end - begin;
+                warnings.push(format!(
+                    "fluid.region.{number} reaches across fluid.boundary.{key}, which is periodic, and is cut off there: give it again as \
+                     another region, {period:?} m away, for what comes in on the other side"
+                ));
+            }
+        }
     }
 }
 
@@ -130,5 +157,38 @@ fn near_sides(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>)
 fn unresolved(what: &str, length: &str, cells: f64, warnings: &mut Vec<String>) {
     if cells < RESOLVED {
         warnings.push(format!("{what}: only {cells:.1} cells per {length}; raise `levels` or `cells`"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_reaches_across_a_periodic_side_is_warned_of_unless_it_fills_the_width() {
+        let case = |region: &str| {
+            let text = format!(
+                "geometry = \"planar\"\n[time]\nend = 1e-7\n[fluid]\nz = [0.0, 1e-3]\nr = [-5e-4, 5e-4]\ncells = [32, 32]\n\
+                 [fluid.liquid]\ngamma = 7.15\npi = 3e8\n[fluid.gas]\ngamma = 1.4\npi = 0.0\n\
+                 [fluid.ambient]\ndensity = 1000.0\npressure = 1e5\n\
+                 [fluid.boundary]\nr_min = \"periodic\"\nr_max = \"periodic\"\n\
+                 [[fluid.region]]\nphase = \"gas\"\ndensity = 1.2\npressure = 1e5\n{region}\n"
+            );
+            Case::from_toml(&text, "periodic", &[]).unwrap_or_else(|errors| panic!("{errors}")).warnings()
+        };
+        let said = |warnings: Vec<String>| {
+            warnings.iter().filter(|words| words.contains("is cut off there")).count()
+        };
+        let across = case("shape = \"sphere\"\ncentre = [5e-4, 4e-4]\nradius = 2e-4");
+        assert!(
+            across
+                .iter()
+                .any(|words| words.contains("fluid.boundary.r_max") && words.contains("0.001 m away")),
+            "{across:?}"
+        );
+        assert_eq!(said(across), 1);
+        assert_eq!(said(case("shape = \"sphere\"\ncentre = [5e-4, 1e-4]\nradius = 2e-4")), 0);
+        assert_eq!(said(case("shape = \"box\"\nz = [5e-4, 1e-3]\nr = [-1.0, 1.0]")), 0);
+        assert_eq!(said(case("shape = \"box\"\nz = [5e-4, 1e-3]\nr = [-1.0, 0.0]")), 1);
     }
 }

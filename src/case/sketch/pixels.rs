@@ -159,9 +159,9 @@ fn marks(picture: &mut Picture, place: &Place<'_>) {
     if let Some(wall) = scene.wall() {
         let [left, right] = scene.r.map(|r| place.x(r));
         picture.bar([left, place.y(wall) - 1], [right - left, 2], INK);
-        for radius in scene.discs() {
-            let from = place.x(scene.r[0].max(-radius));
-            picture.bar([from, place.y(wall) - 3], [place.x(radius) - from, 6], WALL);
+        for disc in scene.discs() {
+            let [from, to] = disc.map(|r| place.x(r));
+            picture.bar([from, place.y(wall) - 3], [to - from, 6], WALL);
         }
     }
     for [z, r] in scene.probes() {

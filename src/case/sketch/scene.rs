@@ -81,9 +81,14 @@ impl<'a> Scene<'a> {
         fluid.filter(|_| !none).or(solid)
     }
 
-    /// Radii of the discs that record the wall's pressure, m.
-    pub fn discs(&self) -> impl Iterator<Item = f64> {
-        self.case.sensors.iter().map(|sensor| sensor.radius)
+    /// Where the discs that record the wall's pressure begin and end, m; in planar geometry they are strips from r_min on.
+    pub fn discs(&self) -> impl Iterator<Item = [f64; 2]> {
+        let is_planar = self.case.geometry == Geometry::Planar;
+        let begin = self.r[0];
+        self.case
+            .sensors
+            .iter()
+            .map(move |sensor| [if is_planar { begin } else { begin.max(-sensor.radius) }, sensor.radius])
     }
 
     /// A line on what is drawn.

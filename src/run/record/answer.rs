@@ -143,8 +143,9 @@ fn solid(summary: Summary<'_>) -> Option<String> {
     let stress = summary.number("von_mises_peak")?;
     let (said, time) = (si(stress, "Pa"), summary.said("von_mises_peak_time", "s")?);
     if let Some(strain) = summary.number("plastic_strain_peak").filter(|strain| *strain > 0.0) {
-        let deep =
-            summary.said("plastic_zone_depth", "m").map_or(String::new(), |deep| format!(", down to {deep}"));
+        // A strain below that of the zone's bound has no zone.
+        let deep = summary.number("plastic_zone_depth").filter(|deep| *deep > 0.0);
+        let deep = deep.map_or(String::new(), |deep| format!(", down to {}", si(deep, "m")));
         return Some(format!(
             "The solid yields{deep}: plastic strain up to {}. {}",
             percent(strain),

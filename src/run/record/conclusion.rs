@@ -131,7 +131,7 @@ fn warnings(whole: &Map<String, Value>) -> Vec<String> {
     let floor = share.filter(|share| *share > FLOOR_BUDGET).map(|share| {
         format!(
             "the pressure floor added {:.2} % of the energy of the collapse (p V of the gas at the start); more than \
-             {:.0} % is too much to trust what follows the collapse: refine, or use model = \"five-equation\"",
+             {:.0} % is too much to trust what follows the collapse: refine, or use model = \"five-equation\" where it is another",
             100.0 * share,
             100.0 * FLOOR_BUDGET
         )
