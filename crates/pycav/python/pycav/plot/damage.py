@@ -132,7 +132,8 @@ def _ticks(axes: Axes, data: xarray.Dataset, x: str, y: str) -> None:
         values = data[name].to_numpy()
         limits(0, len(values))
         scale, letter, unit = _scale(data, name)
-        axis.set_ticks(np.arange(len(values)) + 0.5, [number(float(f"{value * scale:.4g}")) for value in values])
+        shown = [str(value) if isinstance(value, (str, bool)) else number(float(f"{value * scale:.4g}")) for value in values.tolist()]
+        axis.set_ticks(np.arange(len(values)) + 0.5, shown)
         axis.set_label_text(f"{_label(name)} / {letter}{unit}" if unit else _label(name))
 
 
@@ -202,6 +203,8 @@ def sweep_lines_on(axes: Axes, data: xarray.Dataset, quantity: str, x: str, by: 
     axes.set_ylim(0.0, 1.25 * top or None)
     scale, letter, unit = _scale(data, x)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: number(value * scale)))
+    if data[x].dtype == bool:
+        axes.set_xticks(place, map(str, data[x].to_numpy().tolist()))
     axes.set_xlabel(f"{_label(x)} / {letter}{unit}" if unit else _label(x))
 
 
@@ -212,7 +215,7 @@ def _off(data: xarray.Dataset, quantity: str) -> Floats:
 
 def _name(row: xarray.Dataset, by: str, data: xarray.Dataset) -> str:
     value = row[by].item()
-    if isinstance(value, str):
-        return value
+    if isinstance(value, (str, bool)):
+        return str(value)
     scale, letter, unit = _scale(data, by)
     return f"{number(float(f'{value * scale:.4g}'))} {letter}{unit}".strip()

@@ -18,7 +18,7 @@ from ..case import Case
 from ..histories import text as plain
 from ..result import Result
 from .measures import words
-from .points import Axes, is_plain
+from .points import Axes, is_plain, labels
 
 COMPLETE, FAILED, LEFT_OUT = 0, 1, 2
 FLAGS = {"flag_values": np.array([0, 1, 2], np.int8), "flag_meanings": "complete failed not_run", "long_name": "state of the run"}
@@ -77,10 +77,22 @@ def _json(value: Any) -> Any:
 
 
 def parameters(data: xarray.Dataset) -> dict[str, list[Any]]:
-    """The values of a sweep's parameters, tables of one's own included."""
+    """The values of a sweep's parameters that a dataset has, tables of one's own included, in the order of its coordinates."""
     if "parameters" in data.attrs:
-        return {str(name): list(values) for name, values in json.loads(data.attrs["parameters"]).items()}
-    return {str(name): [value.item() for value in data[name].to_numpy()] for name in data["error"].dims}
+        given = json.loads(data.attrs["parameters"])
+        return {str(name): values_along(data, name) or list(values) for name, values in given.items()}
+    return {str(name): [value.item() for value in data[name].to_numpy()] for name in data["status"].dims}
+
+
+def values_along(data: xarray.Dataset, name: str) -> list[Any]:
+    """A parameter's values in the order of its labels; none where it has labels that `sweep` did not give, as names of one's own."""
+    values = json.loads(data.attrs.get("parameters", "{}")).get(name)
+    if values is None or name not in data.coords:
+        return []
+    here, named = np.atleast_1d(data[name].to_numpy()), np.asarray(labels(values))
+    # Maps from before truth values were labels have their numbers in the list.
+    of_label = dict(zip(named.tolist() if here.dtype == bool or named.dtype != bool else range(len(values)), values))
+    return [of_label[label] for label in here.tolist()] if all(label in of_label for label in here.tolist()) else []
 
 
 def save_map(data: xarray.Dataset, path: str | os.PathLike[str]) -> Path:

@@ -40,20 +40,30 @@ class Axes:
 
     def places(self, root: Path) -> list[Path]:
         """The run directory of each point: a name that people can read and no two points share."""
-        numbers = itertools.product(*(range(len(values)) for values in self.lists))
-        return [root / _slug(point, own) for point, own in zip(self.points, numbers)]
+        return [root / ",".join(words) for words in itertools.product(*map(_slugs, self.names, self.lists))]
 
     def coordinates(self) -> dict[str, Any]:
-        """The parameters as coordinates; what is no number or text, as a material of one's own, by its number in the list."""
+        """The parameters as coordinates, by `labels`."""
         found: dict[str, Any] = {}
         for name, values in zip(self.names, self.lists):
-            plain = [value if is_plain(value) else number for number, value in enumerate(values)]
             attributes = {"long_name": "stand-off d/R" if name == STAND_OFF else name}
-            if all(isinstance(value, (int, float, np.number)) for value in values):
+            if all(is_plain(value) and not isinstance(value, str) for value in values):
                 unit = UNITS.get(name.rpartition(".")[2])
                 attributes |= {"units": unit} if unit else {}
-            found[name] = ((name,), plain, attributes)
+            found[name] = ((name,), labels(values), attributes)
         return found
+
+
+def labels(values: Sequence[Any]) -> list[Any]:
+    """What values are called along an axis: themselves; what is no number, text or truth value, as a table, by its number in the list.
+
+    Truth values beside others are the words of a case file, "true" and "false".
+    """
+    if all(isinstance(value, bool) for value in values):
+        return list(values)
+    found = [_word(value) if isinstance(value, bool) else value if is_plain(value) else number for number, value in enumerate(values)]
+    # As text if one is, as an array has one type.
+    return [str(label) for label in found] if any(isinstance(label, str) for label in found) else found
 
 
 def _values(name: str, given: Any) -> list[Any]:
@@ -61,10 +71,13 @@ def _values(name: str, given: Any) -> list[Any]:
     # A text and a table could be gone through, too, but not by values.
     if isinstance(given, (str, bytes, Mapping)) or not np.iterable(given):
         raise TypeError(f"{name} = {given!r}: give a list of values, for a single one [{given!r}]")
-    values = list(given)
+    values = [bool(value) if isinstance(value, np.bool_) else value for value in given]
     if not values:
         raise ValueError(f"{name} = []: give one value or more")
-    kinds = [value if is_plain(value) else repr(value.tolist() if isinstance(value, np.ndarray) else value) for value in values]
+    if any(value is None for value in values):
+        raise TypeError(f"{name} has None, which has no place in a case file: give numbers, texts, truth values, lists or dictionaries")
+    kinds = [_word(value) if isinstance(value, bool) else value if is_plain(value)
+             else repr(value.tolist() if isinstance(value, np.ndarray) else value) for value in values]
     again = next((values[number] for number, kind in enumerate(kinds) if kind in kinds[:number]), None)
     if again is not None:
         raise ValueError(f"{name} has {again!r} twice: every point is run once, give each value once")
@@ -75,12 +88,17 @@ def is_plain(value: Any) -> bool:
     return isinstance(value, (str, int, float, np.number)) and not isinstance(value, bool)
 
 
-def _slug(point: Point, numbers: Sequence[int]) -> str:
-    words = []
-    for (name, value), number in zip(point.items(), numbers):
-        shown = re.sub(r"[^A-Za-z0-9.+-]+", "-", str(value)) if is_plain(value) else str(number)
-        words.append(f"{name.rpartition('.')[2]}={shown}")
-    return ",".join(words)
+def _word(value: bool) -> str:
+    """A truth value as a case file has it."""
+    return "true" if value else "false"
+
+
+def _slugs(name: str, values: Sequence[Any]) -> list[str]:
+    """The part of a directory's name that each value of an axis has; of those that would have the same, with the number in the list."""
+    words = [_word(value) if isinstance(value, bool) else re.sub(r"[^A-Za-z0-9.+-]+", "-", str(value)) if is_plain(value) else str(number)
+             for number, value in enumerate(values)]
+    # No word has an underscore of its own.
+    return [f"{name.rpartition('.')[2]}={word}" + f"_{number}" * (words.count(word) > 1) for number, word in enumerate(words)]
 
 
 def at_point(case: Case, point: Mapping[str, Any], change: Change | None = None) -> Case:

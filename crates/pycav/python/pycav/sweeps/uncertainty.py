@@ -10,7 +10,8 @@ import numpy as np
 import xarray
 
 from ..mesh import Floats
-from .dataset import numeric, opened
+from .dataset import numeric, opened, values_along
+from .points import is_plain
 
 KINDS = ("interpolated", "monotone", "oscillatory", "divergent", "oscillatory-divergent", "coincident", "unchanged", "two-grids", "unknown")
 """What the values of a point on several grids do; the words of docs/verification/convergence.md, and `interpolated` between such points."""
@@ -43,31 +44,40 @@ def with_uncertainty(
     Each gets `NAME_uncertainty`, in its unit, and `NAME_convergence`, flags as of CF. NaN where nothing is known: at failed points, and
     where all shares are of a value of 0.
     """
-    maps = [opened(data), *(opened(other) for other in others)]
-    if len(maps) < 2:
+    own = opened(data)
+    if not others:
         raise ValueError("an uncertainty needs the map on two grids or more")
-    for other in maps[1:]:
-        _same_axes(maps[0], other)
-    result = maps[0].copy()
+    maps = [own, *(_paired(own, opened(other)) for other in others)]
+    result = own.copy()
     for name in quantities:
         if all(name in own for own in maps):
             _add(result, name, maps)
     return result
 
 
-def _same_axes(data: xarray.Dataset, other: xarray.Dataset) -> None:
-    names = list(data["status"].dims)
+def _paired(data: xarray.Dataset, other: xarray.Dataset) -> xarray.Dataset:
+    """The other map with the labels of this one: what is labelled by its number in a list, as a table, is told by its value."""
+    names = [str(name) for name in data["status"].dims]
     if set(other["status"].dims) != set(names):
-        raise ValueError(f"the maps are over other parameters: {', '.join(map(str, names))} and {', '.join(map(str, other['status'].dims))}")
-    if any(not set(other[name].to_numpy()) & set(data[name].to_numpy()) for name in names):
-        raise ValueError("the maps have no point in common")
+        raise ValueError(f"the maps are over other parameters: {', '.join(names)} and {', '.join(map(str, other['status'].dims))}")
+    for name in names:
+        own, theirs = values_along(data, name), values_along(other, name)
+        if own and theirs and not all(is_plain(value) for value in [*own, *theirs]):
+            pairs = [(k, own.index(value)) for k, value in enumerate(theirs) if value in own]
+            other = other.isel({name: [k for k, _ in pairs]}).assign_coords({name: data[name].to_numpy()[[place for _, place in pairs]]})
+        if not set(other[name].to_numpy()) & set(data[name].to_numpy()):
+            one, another = (", ".join(map(str, values)) for values in (own or data[name].to_numpy(), theirs or other[name].to_numpy()))
+            raise ValueError(f"the maps have no point in common: {name} is {one} in the one and {another} in the other")
+    return other
 
 
 def _add(result: xarray.Dataset, name: str, maps: Sequence[xarray.Dataset]) -> None:
     axes = [str(axis) for axis in maps[0][name].dims]
     common = {axis: [value for value in maps[0][axis].to_numpy() if all(value in own[axis].to_numpy() for own in maps[1:])]
               for axis in axes}
-    parts = [own[[name, "cells_per_radius"]].sel(common).transpose(*axes) for own in maps]
+    # By places: a list of truth values would choose as a mask does.
+    places = [{axis: [own[axis].to_numpy().tolist().index(value) for value in values] for axis, values in common.items()} for own in maps]
+    parts = [own[[name, "cells_per_radius"]].isel(at).transpose(*axes) for own, at in zip(maps, places)]
     values = np.array([part[name].to_numpy() for part in parts])
     cells = np.array([part["cells_per_radius"].to_numpy() for part in parts])
     shape = values.shape[1:]
@@ -82,8 +92,8 @@ def _add(result: xarray.Dataset, name: str, maps: Sequence[xarray.Dataset]) -> N
     whole = _spread_out(result, common, axes, share)
     uncertainty: xarray.DataArray = abs(result[name].transpose(*axes)) * whole
     flags = xarray.zeros_like(uncertainty, dtype=np.int8)
-    uncertainty.loc[common] = absolute
-    flags.loc[common] = kinds
+    uncertainty[places[0]] = absolute
+    flags[places[0]] = kinds
     label = result[name].attrs.get("long_name", name)
     uncertainty.attrs = {"units": result[name].attrs.get("units", "1"), "long_name": f"uncertainty of {label}, by other grids"}
     flags.attrs = {"flag_values": np.arange(len(KINDS), dtype=np.int8), "flag_meanings": " ".join(kind.replace("-", "_") for kind in KINDS),
