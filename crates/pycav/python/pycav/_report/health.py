@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from .._convergence import study_of
 from ..mesh import Floats
 from .._numbers import percent, rounded, si
 from ..plot.surface import STILL, has_pit
-from ..result import Result
+from ..result import Result, Snapshots
 from .scales import RAISED
 
 ROUND_OFF = 1e-9
@@ -142,12 +141,16 @@ def _continuity(result: Result) -> Iterable[Verdict]:
     needed = {"fluid": ("velocity", "pressure"), "solid": ("velocity", "stress_zz")}
     if len(result.media) < 2 or any(name not in result.snapshots(medium).fields for medium, names in needed.items() for name in names):
         return
+    times = common_times(result)
+    # At the first one nothing has happened yet.
+    if len(times) < 2:
+        return
     rows = mismatch(result)
     worst = int(np.argmax(rows["pressure"]))
     share = rows["pressure_share"][worst]
     yield Verdict(bool(share <= JUMP), f"The grid {'resolves' if share <= JUMP else 'does not resolve'} the pressure at the wall.", percent(share),
                   f"of its change: by so much (ε_d = {rounded(rows['pressure'][worst], 'Pa')}, rms) fluid and solid differ at most, at "
-                  f"{si(float(result.fluid.times[worst]), 's')}; velocities by {rounded(float(max(rows['velocity'])), 'm/s')} (ε_k) at most")
+                  f"{si(float(times[worst]), 's')}; velocities by {rounded(float(max(rows['velocity'])), 'm/s')} (ε_k) at most")
 
 
 def mismatch(result: Result) -> dict[str, list[float]]:
@@ -165,8 +168,13 @@ def mismatch(result: Result) -> dict[str, list[float]]:
     return {"pressure": gap.tolist(), "velocity": rms(velocity[..., 0] - velocity[..., 1]).tolist(), "pressure_share": share.tolist()}
 
 
+def common_times(result: Result) -> Floats:
+    """The times of snapshots that both media have, s: a side that failed may have a last one that the other has not."""
+    return np.intersect1d(result.fluid.times, result.solid.times)
+
+
 def jumps(result: Result) -> tuple[Floats, Floats, Floats]:
-    """What jumps at the interface though it should not, the paper's Eq. (33), at the snapshots of a run of two media.
+    """What jumps at the interface though it should not, the paper's Eq. (33), at the snapshots that both media of a run have.
 
     Returns radii (m, the fluid's finest faces, shape (faces,)) and two arrays of shape (snapshots, faces, 2): v_z of the fluid
     and of the solid in m/s, whose difference is ε_k, and p and −σ_zz in Pa, whose difference is ε_d; each side's own values,
@@ -177,9 +185,11 @@ def jumps(result: Result) -> tuple[Floats, Floats, Floats]:
     wall, count = float(mesh.low[0]), round(float((mesh.high[1] - mesh.low[1]) / mesh.finest[1]))
     r = mesh.low[1] + (np.arange(count) + 0.5) * mesh.finest[1]
 
-    def on_wall(snapshots: Any, name: str) -> Floats:
+    times = common_times(result)
+
+    def on_wall(snapshots: Snapshots, name: str) -> Floats:
         rows = []
-        for snapshot in snapshots:
+        for snapshot in map(snapshots.at, times):
             values = snapshot[name]
             side = 1e-6 * snapshot.mesh.finest[0] * (1 if snapshots is fluid else -1)
             points = np.column_stack([np.full(count, wall + side), r])

@@ -51,6 +51,8 @@ class Profile:
         data = result.histories
         if DISPLACEMENT not in data:
             raise ValueError("the run has no displacement of the surface: nothing acted on it, neither a fluid nor a load")
+        if "interface/r" not in data:
+            raise ValueError("the run has no radii of the surface: its fluid has left no histories")
         rows = data[DISPLACEMENT].to_numpy()
         times, r = data["interface/displacement_time"].to_numpy(), data["interface/r"].to_numpy()
         row = len(times) - 1 if time is None else nearest_time(times, time)
