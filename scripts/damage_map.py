@@ -40,7 +40,8 @@ def study(options, grid, parameters):
     case = pycav.Case(ROOT / "cases/pit-near-steel.toml").with_({
         "fluid.levels": fluid, "solid.levels": solid, "time.snapshots": [], "solid.plasticity": {"law": "johnson-cook"},
         "solid.material": MATERIALS[0], "sensor": [DISC]})
-    return pycav.sweep(case, parameters, options.out / grid, workers=options.workers, threads=1, change=end)
+    # Apart, so that a try is not in the way of the map.
+    return pycav.sweep(case, parameters, options.out / (grid + "-quick" * options.quick), workers=options.workers, threads=1, change=end)
 
 
 def small(data):

@@ -64,11 +64,35 @@ def test_any_executor_will_do_and_a_sweep_goes_on_where_it_was(pool, short, tmp_
         assert np.array_equal(data[name].sel(stand_off=[2.0]), first[name])
 
 
-def test_another_case_in_the_same_place_is_run_again(short, tmp_path):
+def test_a_finished_run_of_another_case_is_replaced_by_force_alone(short, tmp_path):
+    told, parameters, other = [], {"stand_off": [1.6, 2.0]}, short.with_({"time.cfl": 0.4})
     pycav.sweep(short, {"stand_off": [2.0]}, tmp_path)
+    with pytest.raises(pycav.RunError, match=r"stand_off=2\.0 holds a finished run of another case: .*force=True"):
+        pycav.sweep(other, parameters, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["stand_off=2.0"], "nothing has run"
+    assert pycav.open(tmp_path / "stand_off=2.0").parameters["time"]["cfl"] != 0.4
+    pycav.sweep(other, parameters, tmp_path, force=True, progress=lambda _, how: told.append(how))
+    assert told == ["done", "done"] and pycav.open(tmp_path / "stand_off=2.0").parameters["time"]["cfl"] == 0.4
+    with pytest.raises(pycav.RunError, match=r"stand_off=1\.6 and 1 more hold finished runs of other cases"):
+        pycav.sweep(short, parameters, tmp_path)
+
+
+def test_a_run_of_another_case_that_is_not_finished_is_replaced(short, tmp_path):
+    with pycav.Simulation(at_point(short, {"stand_off": 2.0}), out=tmp_path / "stand_off=2.0") as simulation:
+        simulation.advance_to(1e-6)
     told = []
     pycav.sweep(short.with_({"time.cfl": 0.4}), {"stand_off": [2.0]}, tmp_path, progress=lambda _, how: told.append(how))
     assert told == ["done"]
+
+
+@pytest.mark.parametrize(("given", "told"), [
+    (1.5, r"returned 1\.5 of .*stand_off=1\.6: .*\{name: \(value, unit\)\}"), ({"depth": 1.5}, r"returned 'depth': 1\.5 of"),
+    ({"depth": (None, "m")}, r"returned 'depth': \(None, 'm'\) of"), ({"depth": ("m", 1.5)}, r"returned 'depth': \('m', 1\.5\)"), ({1: (1.5, "m")}, "returned 1: ")])
+def test_what_is_measured_is_looked_at_with_the_first_point(given, told, short, tmp_path):
+    for _ in ("a run that is made", "one that is there"):
+        with pytest.raises(TypeError, match=f"measure {told}"):
+            pycav.sweep(short, {"stand_off": [1.6, 2.0]}, tmp_path, measure=lambda run: given)
+        assert [path.name for path in tmp_path.iterdir()] == ["stand_off=1.6"]
 
 
 def test_a_cluster_of_dask_is_an_executor(short, tmp_path):

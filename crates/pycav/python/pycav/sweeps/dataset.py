@@ -6,7 +6,7 @@ import datetime
 import json
 import os
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,6 @@ import xarray
 
 from ..case import Case
 from ..histories import text as plain
-from ..result import Result
 from .measures import words
 from .points import Axes, is_plain, labels
 
@@ -26,13 +25,12 @@ FLAGS = {"flag_values": np.array([0, 1, 2], np.int8), "flag_meanings": "complete
 SMALL = 1 << 15
 """Bytes up to which a variable of a file is not packed."""
 
-Measure = Callable[[Result], Mapping[str, tuple[float, str]]]
 
-
-def gather(axes: Axes, places: Sequence[Path], errors: Sequence[str], left_out: set[int], measure: Measure) -> xarray.Dataset:
-    """The numbers of all points, over the parameters."""
-    found = [{} if error or number in left_out else dict(measure(Result(place)))
-             for number, (error, place) in enumerate(zip(errors, places))]
+def gather(
+    axes: Axes, places: Sequence[Path], errors: Sequence[str], left_out: set[int], known: Mapping[int, Mapping[str, tuple[float, str]]],
+) -> xarray.Dataset:
+    """The numbers of all points, over the parameters; `known`: what was measured, by the point's number."""
+    found = [known.get(number, {}) for number in range(len(places))]
     units: dict[str, str] = {}
     for numbers in found:
         units |= {name: unit for name, (_, unit) in numbers.items()}

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
+import reprlib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
 from ..result import Result
+
+Measure = Callable[[Result], Mapping[str, tuple[float, str]]]
+"""What is kept of a run: value and unit by name."""
 
 SUMMARY = [
     ("wall_pressure_peak", "Pa"), ("wall_pressure_peak_time", "s"), ("wall_pressure_peak_anywhere", "Pa"),
@@ -40,6 +48,29 @@ def measures(result: Result) -> dict[str, tuple[float, str]]:
     for sensor, numbers in (summary.get("sensors") or {}).items():
         found |= {f"sensors.{sensor}.{name}": (_number(numbers.get(name)), unit) for name, unit in SENSOR}
     return found
+
+
+def measured(measure: Measure, place: Path) -> dict[str, tuple[float, str]]:
+    """What a function measures of a run; `TypeError` where that is no value and unit by name."""
+    given: Any = measure(Result(place))
+    if not isinstance(given, Mapping):
+        raise TypeError(f"measure returned {reprlib.repr(given)} of {place}: {WANTED}")
+    for name, pair in given.items():
+        if not isinstance(name, str) or not isinstance(pair, (tuple, list)) or len(pair) != 2 or not _is_value(pair[0]) or not isinstance(pair[1], str):
+            raise TypeError(f"measure returned {reprlib.repr(name)}: {reprlib.repr(pair)} of {place}: {WANTED}")
+    return dict(given)
+
+
+WANTED = 'it has to return {name: (value, unit)}, as {"depth": (1e-5, "m")}, with NaN for what a run has not'
+
+
+def _is_value(given: Any) -> bool:
+    """Whether something is a number: of Python, of NumPy, or one in an array."""
+    try:
+        float(given)
+    except (TypeError, ValueError):
+        return False
+    return not isinstance(given, str)
 
 
 def words(name: str) -> str:

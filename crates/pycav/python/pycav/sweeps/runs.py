@@ -17,12 +17,12 @@ from ..case import Case, Material, checked
 from ..case import materials as library
 from ..result import Result
 from .cost import Cost
-from .dataset import FAILED, Measure, gather, opened, provenance, save_map
+from .dataset import FAILED, gather, opened, provenance, save_map
 from .executors import opened as executor_of
-from .measures import measures
+from .measures import Measure, measured, measures
 from .points import STAND_OFF, Axes, Change, Point, at_point
 from .progress import DONE, KNOWN, Display
-from .work import Ended, Job, do, is_complete
+from .work import Ended, Job, do, is_complete, is_finished
 
 if TYPE_CHECKING:
     import pandas
@@ -43,6 +43,7 @@ def sweep(
     change: Change | None = None,
     where: Callable[[Point], bool] | None = None,
     to: str | os.PathLike[str] | None = None,
+    force: bool = False,
 ) -> xarray.Dataset:
     """Runs a case at every combination of parameters and returns what was measured, over the parameters.
 
@@ -54,17 +55,21 @@ def sweep(
       `concurrent.futures.Executor`. Without one the points are run one after the other, here.
     - `workers`: how many points at a time, of an executor that is made here; all processors if left out.
     - `threads`: of each run. All processors if left out, 1 with an executor that is made here.
-    - `measure`: what is kept of a run; the summary's numbers and those of the discs if left out.
+    - `measure`: a function of a point's `Result` that returns what is kept of it, value and unit by name:
+      `lambda run: {"depth": (run.summary["pit_depth"], "m")}`. The summary's numbers and those of the discs if left out.
     - `progress`: on standard error a bar, or lines where there is no terminal, with the cost, the time left and what failed;
       nothing with `False`. A function is called with every point and "known", "done" or the error, instead.
     - `change`: a function of a point that returns what else changes with it: `lambda point: {"time.end": ...}`.
     - `where`: which points count; the others are not run, are NaN, and have the `status` 2.
     - `to`: a file, `.nc` or `.zarr`, that gets the dataset with its provenance, also when the sweep is stopped.
+    - `force`: replace finished runs of other cases in the points' directories. Without it they are refused by a `pycav.RunError`
+      before anything runs. Runs of other cases that are not finished are replaced in any case.
 
     A point that fails is NaN, and its error is in the variable `error`; the other points are not affected. If not one point makes a
     case, as with a misspelt key, the first one's error is raised. `status` is 0 for a
     complete run, 1 for one that failed. Variables carry `units` and `long_name`, the dataset version, revision, case, its hash
-    and date; coordinates are the parameters (a table, as a material of its own, by its number in the list).
+    and date; coordinates are the parameters (a table, as a material of its own, by its number in the list). Truth values are found by
+    themselves, `data.sel({"time.local_steps": True})`, and beside other values as "true" and "false".
     """
     case, axes, root = checked(case), Axes(parameters), Path(out)
     if to is not None and Path(to).suffix not in (".nc", ".zarr"):
@@ -75,8 +80,13 @@ def sweep(
     errors: list[str] = [""] * len(axes.points)
     left_out = {number for number, point in enumerate(axes.points) if where is not None and not where(point)}
     cases = _cases(case, axes, change, left_out, errors)
-    root.mkdir(parents=True, exist_ok=True)
     known = {number for number, own in cases.items() if is_complete(places[number], own)}
+    others = [places[number] for number in cases if number not in known and is_finished(places[number])]
+    if others and not force:
+        held = "holds a finished run of another case" if len(others) == 1 else f"and {len(others) - 1} more hold finished runs of other cases"
+        raise RunError(f"{others[0]} {held}: give another out, or replace what is there with force=True")
+    root.mkdir(parents=True, exist_ok=True)
+    found = {number: measured(measure, places[number]) for number in sorted(known)}
     jobs = [Job(number, own.to_toml(), own.name, str(places[number]), threads)
             for number, own in cases.items() if number not in known]
     display = None if callable(progress) or progress is False else _display(axes, cases, known, places, left_out)
@@ -96,13 +106,15 @@ def sweep(
         with executor_of(executor, workers) as pool:
             for number, result in _run_all(jobs, pool):
                 errors[number] = result.error
+                if not result.error:
+                    found[number] = measured(measure, places[number])
                 ended(number, DONE)
     finally:
         if display is not None:
             display.close()
         # Also of a sweep that was stopped: what is there is worth keeping.
         unrun = {number for number, error in enumerate(errors) if error == NOT_RUN}
-        data = gather(axes, places, errors, left_out | unrun, measure)
+        data = gather(axes, places, errors, left_out | unrun, found)
         data.attrs = provenance(case, axes, root, places)
         if to is not None:
             save_map(data, to)

@@ -54,8 +54,15 @@ def do(job: Job) -> Ended:
 def is_complete(place: Path, case: Case) -> bool:
     """Whether the run of just this case is there and reached its end."""
     try:
-        summary = json.loads((place / "summary.json").read_text())
-        return bool(summary.get("completed")) and _hash(place) == case.hash
+        return is_finished(place) and _hash(place) == case.hash
+    except (OSError, StopIteration):
+        return False
+
+
+def is_finished(place: Path) -> bool:
+    """Whether a run, of whatever case, is there and reached its end."""
+    try:
+        return bool(json.loads((place / "summary.json").read_text()).get("completed"))
     except (OSError, ValueError, AttributeError):
         return False
 
