@@ -181,6 +181,16 @@ def test_what_grows_by_factors_is_halved_by_factors():
         pycav.bends(data, "pit_deep")
 
 
+def test_of_whole_numbers_new_ones_are_whole(short, tmp_path):
+    found = {bend.low: bend.middle for bend in pycav.bends(bent([0.0, 0.0, 1.0, 5.0], [1, 2, 6, 9], "coupling.step_ratio"))}
+    assert found == {1: 1, 2: 3, 6: 7} and all(isinstance(middle, int) for middle in found.values())
+    assert [bend.middle for bend in pycav.bends(bent([0.0, 1.0], [1, 2], "stand_off"))] == [1.5]
+    data = pycav.sweep(short, {"coupling.step_ratio": [1, 2, 4]}, tmp_path, progress=False, to=tmp_path / "map.nc")
+    finer = pycav.refine(tmp_path / "map.nc", "wall_pressure_peak", values=5, tolerance=-1.0, progress=False)
+    assert list(finer["coupling.step_ratio"].values) == [1, 2, 3, 4] and list(finer["status"].values) == [0] * 4, "there is none between 1 and 2"
+    assert data["coupling.step_ratio"].dtype == finer["coupling.step_ratio"].dtype
+
+
 def test_a_refined_map_runs_what_is_new_alone(line):
     data, root = line
     told = []

@@ -11,7 +11,7 @@ import xarray
 
 from ..mesh import Floats
 from .dataset import COMPLETE, FAILED, LEFT_OUT, case_of, numeric, opened, parameters
-from .points import Point
+from .points import STAND_OFF, Point
 from .runs import sweep
 
 DIGITS = 4
@@ -28,7 +28,7 @@ class Bend(NamedTuple):
     high: float
     """Where it ends."""
     middle: float
-    """The value in between that `refine` runs."""
+    """The value in between that `refine` runs; of whole numbers a whole one, which is one of the ends where there is none in between."""
     error: float
     """Of linear interpolation, over the quantity's range in the map."""
 
@@ -45,7 +45,8 @@ def bends(
     Within an interval of length h linear interpolation is off by at most h² max|f''|/8. f'' is the second divided difference at the
     interval's ends, the larger one of the two; at the edge of the map there is one. The error is the largest over all other
     parameters, divided by the range of f. With two values only, half of the change counts. Parameters whose values
-    grow by factors are taken in their logarithm.
+    grow by factors are taken in their logarithm. Where all values of a parameter are whole numbers (`int`) new ones are, too; a
+    `stand_off` is a real number however it is written.
 
     - `logarithmic`: f is the logarithm of the quantity, for one that spans decades; values that are not positive are left out.
     """
@@ -142,13 +143,15 @@ def _along(data: xarray.Dataset, quantity: str, axis: str, logarithmic: bool) ->
         f = np.log(np.where(f > 0, f, np.nan))
     geometric = _grows_by_factors(x)
     place = np.log(x) if geometric else x
+    whole = axis != STAND_OFF and own[axis].dtype.kind in "iu"
     spread = float(np.nanmax(f) - np.nanmin(f)) if np.isfinite(f).any() else 0.0
     errors = _errors(place, f) / spread if spread > 0 else np.zeros((len(x) - 1, *f.shape[1:]))
     rows = []
     for k, error in enumerate(errors):
         middle = float(np.exp(0.5 * (place[k] + place[k + 1]))) if geometric else 0.5 * float(x[k] + x[k + 1])
+        middle = float(f"{middle:.{DIGITS}g}")
         largest = float(np.nanmax(error)) if np.isfinite(error).any() else 0.0
-        rows.append((Bend(axis, float(x[k]), float(x[k + 1]), float(f"{middle:.{DIGITS}g}"), largest), np.asarray(np.nan_to_num(error))))
+        rows.append((Bend(axis, float(x[k]), float(x[k + 1]), round(middle) if whole else middle, largest), np.asarray(np.nan_to_num(error))))
     return rows
 
 
