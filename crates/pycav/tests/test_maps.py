@@ -278,6 +278,24 @@ def test_the_damage_map_shows_values_marks_and_what_is_unsure():
         pycav.plot.damage_map(data.isel({"solid.material": 0}))
 
 
+def test_pictures_take_a_file_and_say_what_they_need(line):
+    data, root = line
+    numbers = pycav.plot.sweep_lines(root / "map.nc", "wall_impulse", "fluid.ambient.pressure").axes[0].lines[0].get_ydata()
+    assert np.array_equal(numbers, data["wall_impulse"].values[:, 0])
+    over = r"not over fluid\.ambient\.pressure, solid\.material"
+    for draw, told in ((lambda own: pycav.plot.sweep_lines(own, "wall_impulse"), f"lines over stand_off need a sweep over it and .*{over}"),
+                       (lambda own: pycav.plot.sweep_lines(own, "wall_impuls"), "has no wall_impuls: did you mean wall_impulse"),
+                       (pycav.plot.stand_off_map, f"needs a sweep over stand_off and solid.material, {over}"),
+                       (pycav.plot.pit_map, f"needs a sweep over stand_off and solid.material, {over}"),
+                       (pycav.plot.damage_map, "needs a sweep over stand_off, fluid.ambient.pressure and solid.material")):
+        for own in (data, root / "map.nc"):
+            with pytest.raises(ValueError, match=told):
+                draw(own)
+    other = data.rename({"fluid.ambient.pressure": "stand_off"})[["wall_impulse"]]
+    with pytest.raises(ValueError, match="a map of pits needs pit_depth, pit_radius"):
+        pycav.plot.pit_map(other)
+
+
 def test_the_maps_of_before_show_what_is_unsure():
     kinds = ("solid.material", "stand_off")
     numbers = {"pit_depth": [[2e-4, 4e-5]], "pit_radius": [[9e-3, 9e-3]], "plastic_strain_peak": [[0.1, 0.1]], "surface_still": [[0.0, 0.0]],

@@ -68,6 +68,15 @@ def test_a_wall_that_is_held_is_a_rigid_wall(small, root):
     assert held.equivalent_radius == pytest.approx(float(rigid.histories["bubble/equivalent_radius"][-1]), rel=1e-4)
 
 
+def test_where_there_is_no_surface_nothing_can_move_it(small):
+    rigid = pycav.FluidSolver(small.with_({"coupling.scheme": "rigid"}))
+    for given in ({"velocity": 1.0}, {"pressure": np.ones(3)}, {"power": [1.0]}):
+        with pytest.raises(ValueError, match=f"{next(iter(given))} = .*no surface; give dt alone"):
+            rigid.step(1e-9, **given)
+    rigid.step(rigid.time_step_limit(), **{name: rigid.trace(1e-9)[name] for name in ("pressure", "velocity")})
+    assert rigid.steps == 1
+
+
 def test_a_wall_that_moves_sends_the_sound_of_it(root):
     """p − p₀ = ρ c v before any wave is back, for a slow wall in liquid at rest."""
     case = pycav.Case(root / "cases/dickopp2012-coarse.toml").with_({"fluid.levels": 3, "solid.levels": 1})

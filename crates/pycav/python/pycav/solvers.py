@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import reprlib
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -55,6 +57,10 @@ class _Solver:
         - `power`: mean of pressure times velocity, W/m²; their product if left out.
         """
         count = len(self.surface_edges)
+        for name, values in {"pressure": pressure, "velocity": velocity, "power": power}.items():
+            if count == 0 and values is not None and np.size(values):
+                raise ValueError(f"{name} = {reprlib.repr(values)}: the case couples its fluid to no solid (a rigid wall is none), "
+                                 "so it has no surface; give dt alone")
         self._native.step(dt, *(_faces(values, count) for values in (pressure, velocity, power)))
 
     def fields(self) -> Cells:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from textwrap import fill
 from typing import Any
@@ -14,8 +15,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
+from .._given import among
 from ..mesh import Floats
 from .._numbers import number, prefix, rounded
+from ..sweeps.dataset import opened
 from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, legend, part_of, styled, ticks
 
 STEEP, MOVES = 0.05, 0.1
@@ -29,7 +32,7 @@ LABELS = {"stand_off": "stand-off $d/R$", "fluid.ambient.pressure": "driving pre
 
 @styled
 def damage_map(
-    data: xarray.Dataset,
+    data: xarray.Dataset | str | os.PathLike[str],
     quantity: str = "pit_depth",
     *,
     x: str = "stand_off",
@@ -44,9 +47,10 @@ def damage_map(
     have marks: * deeper than a twentieth of their radius, which is much for small strains; ≈ the surface still moves by more than a tenth
     of the depth. A field without a pit, one that failed and one that was not run say so.
 
-    - `data`: a sweep over these three parameters; others have to be chosen before (`sel`).
+    - `data`: a sweep over these three parameters, or its file; others have to be chosen before (`sel`).
     - `below`: quantities drawn below as lines over x, one for each y, of the last panel's value, with bands of their uncertainty.
     """
+    data = opened(data)
     if quantity not in data or set(data[quantity].dims) != {x, y, panels}:
         have = ", ".join(map(str, data[quantity].dims)) if quantity in data else f"none of {quantity}"
         raise ValueError(f"this map needs a sweep over {x}, {y} and {panels}; the dataset has {have}")
@@ -165,16 +169,21 @@ def _notes(axes: Axes, marks: set[str], sure: float) -> None:
 
 
 @styled
-def sweep_lines(data: xarray.Dataset, quantity: str, x: str = "stand_off", lines: str | None = None) -> Figure:
+def sweep_lines(data: xarray.Dataset | str | os.PathLike[str], quantity: str, x: str = "stand_off", lines: str | None = None) -> Figure:
     """A quantity of a map over a parameter, a line for every value of another, with bands of their uncertainty.
 
-    - `data`: a sweep over one or two parameters; others have to be chosen before (`sel`).
+    - `data`: a sweep over one or two parameters, or its file; others have to be chosen before (`sel`).
     """
+    data = opened(data)
+    if quantity not in data:
+        raise ValueError(f"the map has no {quantity}: {among(quantity, data.data_vars)}")
+    others = [str(name) for name in data[quantity].dims if name != x]
+    if x not in data[quantity].dims or len(others) > 1 or (lines is not None and others != [lines]):
+        have = ", ".join(map(str, data[quantity].dims))
+        raise ValueError(f"lines over {x} need a sweep over it and {lines or 'at most one more parameter'}, not over {have}: "
+                         "x and lines say over which, and sel chooses of more")
     figure = Figure(figsize=(4.4, 3.2), layout="constrained")
     axes = figure.subplots()
-    others = [str(name) for name in data[quantity].dims if name != x]
-    if len(others) > 1 or (lines is not None and others != [lines]):
-        raise ValueError(f"lines over {x} need a map over it and one more parameter, not over {', '.join([x, *others])}: choose with sel")
     sweep_lines_on(axes, data, quantity, x, others[0] if others else None)
     if others:
         legend(axes, title=_label(others[0]), title_fontsize=8)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
+
 import numpy as np
 import xarray
 from matplotlib.colors import LogNorm
@@ -9,8 +12,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
+from .._given import among
 from ..mesh import Floats
 from .._numbers import number, prefix, rounded
+from ..sweeps.dataset import opened
 from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, part_of, styled, ticks
 
 SHOWN = [
@@ -26,11 +31,13 @@ COLOURS, MARKS = (BLUE, ORANGE, GREEN, PINK, INK, GREY), "osD^vP"
 
 
 @styled
-def stand_off_map(data: xarray.Dataset) -> Figure:
+def stand_off_map(data: xarray.Dataset | str | os.PathLike[str]) -> Figure:
     """Wall-pressure peak, impulse, von Mises peak and yielded volume over the stand-off, a line for every material.
 
-    - `data`: what `pycav.stand_off_map` returned; with error bars where `pycav.with_uncertainty` has said how sure it is.
+    - `data`: what `pycav.stand_off_map` returned, or its file; with error bars where `pycav.with_uncertainty` has said how sure it is.
     """
+    data = opened(data)
+    _over_both("a map over the stand-off", data, [name for name, *_ in SHOWN])
     distance = data["stand_off"].to_numpy()
     figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True).ravel()
@@ -57,7 +64,7 @@ def stand_off_map(data: xarray.Dataset) -> Figure:
 
 
 @styled
-def pit_map(data: xarray.Dataset, quantity: str = "pit_depth") -> Figure:
+def pit_map(data: xarray.Dataset | str | os.PathLike[str], quantity: str = "pit_depth") -> Figure:
     """A length of the pit over stand-off and material, written into every field.
 
     Materials are rows, the one of the largest value on top; columns reach half way to the next stand-off. A field where nothing
@@ -65,15 +72,13 @@ def pit_map(data: xarray.Dataset, quantity: str = "pit_depth") -> Figure:
     * where the pit is deeper than a twentieth of its radius, which is much for the small strains of the model; hatched where the
     uncertainty of `pycav.with_uncertainty` is more than half of the value.
 
-    - `data`: a sweep over `stand_off` and `solid.material` with a law of hardening, as of `pycav.stand_off_map`.
+    - `data`: a sweep over `stand_off` and `solid.material` with a law of hardening, as of `pycav.stand_off_map`, or its file.
     - `quantity`: `pit_depth`, `pit_radius`, or `pit_rim`.
     """
     if quantity not in LENGTHS:
         raise ValueError(f"a map is drawn of {', '.join(LENGTHS)}, not of {quantity!r}")
-    needed = {quantity, "pit_depth", "pit_radius", "plastic_strain_peak", "surface_still"}
-    if not needed <= set(data) or set(data[quantity].dims) != {"stand_off", "solid.material"}:
-        raise ValueError("a map of pits needs a sweep over stand_off and solid.material, not over "
-                         f"{', '.join(map(str, data.dims))}")
+    data = opened(data)
+    _over_both("a map of pits", data, [quantity, "pit_depth", "pit_radius", "plastic_strain_peak", "surface_still"])
     if np.isnan(data["plastic_strain_peak"]).all() and not np.isnan(data["von_mises_peak"]).all():
         raise ValueError("the solids are elastic and keep no pit: [solid.plasticity] of the case makes them yield")
     data = data.sortby("stand_off").transpose("solid.material", "stand_off")
@@ -114,6 +119,14 @@ def pit_map(data: xarray.Dataset, quantity: str = "pit_depth") -> Figure:
                      major_formatter=FuncFormatter(lambda value, _: number(value * scale)))
     bar.set_label(f"{LENGTHS[quantity]} / {letter}m")
     return figure
+
+
+def _over_both(what: str, data: xarray.Dataset, needed: Sequence[str]) -> None:
+    """Refuses what is no map over stand-off and material, and one that lacks a quantity."""
+    if set(data.dims) != {"stand_off", "solid.material"}:
+        raise ValueError(f"{what} needs a sweep over stand_off and solid.material, not over {', '.join(map(str, data.dims)) or 'nothing'}")
+    if missing := [name for name in dict.fromkeys(needed) if name not in data]:
+        raise ValueError(f"{what} needs {', '.join(missing)}: {among(missing[0], data.data_vars)}")
 
 
 def _edges(middles: Floats) -> Floats:
