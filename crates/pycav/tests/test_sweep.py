@@ -87,7 +87,8 @@ def test_a_run_of_another_case_that_is_not_finished_is_replaced(short, tmp_path)
 
 @pytest.mark.parametrize(("given", "told"), [
     (1.5, r"returned 1\.5 of .*stand_off=1\.6: .*\{name: \(value, unit\)\}"), ({"depth": 1.5}, r"returned 'depth': 1\.5 of"),
-    ({"depth": (None, "m")}, r"returned 'depth': \(None, 'm'\) of"), ({"depth": ("m", 1.5)}, r"returned 'depth': \('m', 1\.5\)"), ({1: (1.5, "m")}, "returned 1: ")])
+    ({"depth": (None, "m")}, r"returned 'depth': \(None, 'm'\) of"),
+    ({"depth": ("m", 1.5)}, r"returned 'depth': \('m', 1\.5\)"), ({1: (1.5, "m")}, "returned 1: ")])
 def test_what_is_measured_is_looked_at_with_the_first_point(given, told, short, tmp_path):
     for _ in ("a run that is made", "one that is there"):
         with pytest.raises(TypeError, match=f"measure {told}"):

@@ -56,7 +56,8 @@ def measured(measure: Measure, place: Path) -> dict[str, tuple[float, str]]:
     if not isinstance(given, Mapping):
         raise TypeError(f"measure returned {reprlib.repr(given)} of {place}: {WANTED}")
     for name, pair in given.items():
-        if not isinstance(name, str) or not isinstance(pair, (tuple, list)) or len(pair) != 2 or not _is_value(pair[0]) or not isinstance(pair[1], str):
+        is_pair = isinstance(pair, (tuple, list)) and len(pair) == 2
+        if not (isinstance(name, str) and is_pair and _is_value(pair[0]) and isinstance(pair[1], str)):
             raise TypeError(f"measure returned {reprlib.repr(name)}: {reprlib.repr(pair)} of {place}: {WANTED}")
     return dict(given)
 
