@@ -47,8 +47,9 @@ impl Readable for solid::SolidSolver<BLOCK> {
     fn scalars(&self) -> Vec<(&'static str, Vec<f64>)> {
         let snapshot = self.snapshot();
         let [velocity_z, velocity_r] = components(&snapshot.velocity);
+        let [displacement_z, displacement_r] = components(&snapshot.displacement);
         let von_mises = (0..snapshot.cells()).map(|cell| snapshot.von_mises(cell)).collect();
-        vec![
+        let mut scalars = vec![
             ("velocity_z", velocity_z),
             ("velocity_r", velocity_r),
             ("stress_zz", snapshot.stress_zz),
@@ -56,7 +57,19 @@ impl Readable for solid::SolidSolver<BLOCK> {
             ("stress_rr", snapshot.stress_rr),
             ("stress_phiphi", snapshot.stress_phiphi),
             ("von_mises", von_mises),
-        ]
+        ];
+        if self.is_plastic() {
+            scalars.extend([
+                ("plastic_strain", snapshot.plastic_strain),
+                ("plastic_strain_rate", snapshot.plastic_strain_rate),
+                ("displacement_z", displacement_z),
+                ("displacement_r", displacement_r),
+            ]);
+        }
+        if self.has_heat() {
+            scalars.push(("temperature", snapshot.temperature));
+        }
+        scalars
     }
 
     fn at(&self, point: [f64; 2]) -> Option<Vec<f64>> {

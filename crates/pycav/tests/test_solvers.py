@@ -134,3 +134,14 @@ def test_what_makes_no_sense_is_refused(small, root):
     with pytest.raises(ValueError, match="no solid"):
         pycav.SolidSolver(pycav.Case(root / "cases/shock-tube.toml"))
     assert fluid.steps == solid.steps == 0
+
+
+def test_a_solid_that_yields_has_the_fields_of_its_flow(small):
+    solid = pycav.SolidSolver(small.with_({"solid.material": "al-1100-o", "solid.plasticity": {"law": "johnson-cook"}}))
+    for _ in range(20):
+        solid.step(0.9 * solid.time_step_limit(), pressure=2e9)
+    cells = solid.fields()
+    flown = cells["plastic_strain"] > 0
+    assert flown.any() and (cells["plastic_strain_rate"][~flown] == 0).all() and cells["plastic_strain_rate"].max() > 0
+    assert (cells["temperature"][flown] > 293).all() and cells["displacement_z"].min() < 0 and np.isfinite(cells["displacement_r"]).all()
+    assert "plastic_strain" not in pycav.SolidSolver(small).fields()

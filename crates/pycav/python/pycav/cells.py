@@ -18,7 +18,8 @@ class Cells(Mapping[str, Array]):
     Attributes, all of shape (cells,): `z`, `r` (centres, m), `width_z`, `width_r` (m), `area` (in the section, m²),
     `level` (of refinement). As a mapping: the fields by name. Fluid: `density` (kg/m³), `pressure` (Pa), `velocity_z`,
     `velocity_r` (m/s), `gas_fraction`, `schlieren` (kg/m⁴). Solid: `velocity_z`, `velocity_r`, `stress_zz`, `stress_zr`,
-    `stress_rr`, `stress_phiphi`, `von_mises` (Pa).
+    `stress_rr`, `stress_phiphi`, `von_mises` (Pa); where it can yield `plastic_strain`, `plastic_strain_rate` (1/s), `displacement_z`,
+    `displacement_r` (m), and with a law that has heat `temperature` (K).
     """
 
     def __init__(self, columns: dict[str, Array], time: float) -> None:
