@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import multiprocessing
+import subprocess
+import sys
+import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from pathlib import Path
 
 import distributed
 import numpy as np
@@ -138,3 +142,18 @@ def test_values_of_an_axis_are_a_list_without_repetitions(parameters, kind, told
     with pytest.raises(kind, match=told):
         pycav.sweep(short, parameters, tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def test_processes_end_with_what_has_started_them(tmp_path):
+    script = tmp_path / "sweeping.py"
+    script.write_text("import os, time\nfrom pycav.sweeps.executors import opened\n"
+                      "if __name__ == '__main__':\n    with opened('processes', 1) as pool:\n"
+                      "        print(pool.submit(os.getpid).result(), flush=True)\n        time.sleep(600)\n")
+    with subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True) as sweeping:
+        worker = Path("/proc") / sweeping.stdout.readline().strip()
+        assert worker.is_dir()
+        sweeping.terminate()
+    until = time.monotonic() + 30
+    while worker.is_dir() and time.monotonic() < until:
+        time.sleep(0.05)
+    assert not worker.is_dir()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import threading
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -23,7 +24,7 @@ def opened(given: Any, workers: int | None) -> Iterator[Executor | None]:
             yield pool
     elif given == "processes":
         # Spawned, not forked: a fork of a process with threads may hang.
-        with ProcessPoolExecutor(many, mp_context=multiprocessing.get_context("spawn")) as pool:
+        with ProcessPoolExecutor(many, multiprocessing.get_context("spawn"), _end_with_parent) as pool:
             yield pool
     elif given == "dask":
         with _local(many) as cluster, cluster.get_client() as client:
@@ -38,6 +39,16 @@ def opened(given: Any, workers: int | None) -> Iterator[Executor | None]:
     else:
         raise ValueError(f"executor is one of {', '.join(NAMES)}, a concurrent.futures.Executor, a Dask client or cluster, "
                          f"not {given!r}")
+
+
+def _end_with_parent() -> None:
+    """Workers whose parent was killed would wait for more for ever."""
+    def wait() -> None:
+        if (parent := multiprocessing.parent_process()) is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=wait, daemon=True).start()
 
 
 def _local(workers: int) -> Any:
