@@ -219,6 +219,11 @@ fn of_a_study_the_grid_under_way_is_seen_and_a_failed_run_says_why() {
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
     let seen = Reader::new(&place.join("study")).look().expect("a study");
     assert_eq!((seen.grid, seen.state), (Some([1, 2]), RunState::Finished));
+    // Before the second one has begun.
+    fs::rename(place.join("study/grid-1"), place.join("later")).expect("it is there");
+    let seen = Reader::new(&place.join("study")).look().expect("a study");
+    assert_eq!((seen.grid, seen.state), (Some([0, 2]), RunState::Finished));
+    fs::rename(place.join("later"), place.join("study/grid-1")).expect("it is there");
     // As a failed run leaves it.
     let summary = place.join("study/grid-0/summary.json");
     fs::write(&summary, "{\"completed\": false, \"error\": \"the time step collapsed\"}").expect("a summary");

@@ -168,7 +168,7 @@ mod tests {
     fn what_reaches_across_a_periodic_side_is_warned_of_unless_it_fills_the_width() {
         let case = |region: &str| {
             let text = format!(
-                "geometry = \"planar\"\n[time]\nend = 1e-7\n[fluid]\nz = [0.0, 1e-3]\nr = [-5e-4, 5e-4]\ncells = [32, 32]\n\
+                "geometry = \"planar\"\n[time]\nend = 1e-7\n[coupling]\nscheme = \"none\"\n[fluid]\nz = [0.0, 1e-3]\nr = [-5e-4, 5e-4]\ncells = [32, 32]\n\
                  [fluid.liquid]\ngamma = 7.15\npi = 3e8\n[fluid.gas]\ngamma = 1.4\npi = 0.0\n\
                  [fluid.ambient]\ndensity = 1000.0\npressure = 1e5\n\
                  [fluid.boundary]\nr_min = \"periodic\"\nr_max = \"periodic\"\n\

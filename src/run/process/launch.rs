@@ -135,6 +135,7 @@ pub fn run_side(
     // Before anything is made.
     coupler::check_run_id(&joining.run_id)?;
     if !is_side(case, joining.participant) {
+        RunError::unless_whole(case)?;
         return Err(RunError::NoPeer { side: joining.participant.name() });
     }
     if !child {
