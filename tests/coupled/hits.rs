@@ -8,6 +8,7 @@ use cav::run::process::drive::{Keeping, in_process};
 use cav::run::process::stop::Stop;
 use cav::run::record::conclusion::conclude;
 use cav::run::wall::{check, keep_apart};
+use cav::run::{Options, resume};
 use ndarray::Array2;
 use serde_json::{Map, Value};
 
@@ -174,6 +175,14 @@ fn a_wall_of_another_kind_is_refused() {
         assert_eq!(error.exit_code(), 2);
     }
     assert!(check(&with("", "")).is_ok());
+    // To go on takes that wall, too.
+    let gone = place.path().join("gone");
+    let own = RunDirectory::prepare(&gone, false).unwrap();
+    let text = with(&left.display().to_string(), "nowhere").effective_toml();
+    own.write_atomic("case.toml", text.as_bytes()).unwrap();
+    drop(own);
+    let error = resume(&gone, &Options::default(), &Stop::default(), |_| ()).expect_err("no wall");
+    assert!(error.to_string().contains("the path counts from the working directory"), "{error}");
     // A file that is damaged.
     let file = left.join("wall.state");
     let mut bytes = std::fs::read(&file).unwrap();

@@ -9,11 +9,11 @@ use serde_json::json;
 use crate::case::{Case, CaseErrors, available_memory};
 use crate::output::run_directory::{CASE, FLUID_HISTORY, SOLID_HISTORY, SUMMARY};
 use crate::output::{Join, OutputError, Progress, RunDirectory, history, join_histories, summary};
-use crate::run::RunError;
 use crate::run::checkpoints::Checkpoints;
 use crate::run::process::launch::carry_out;
 use crate::run::process::launch_options::Options;
 use crate::run::process::stop::Stop;
+use crate::run::{RunError, wall};
 
 /// How long to wait for what is left of a killed run to end: its sides finish the step under way.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -43,6 +43,8 @@ pub fn resume(
         return Ok(directory.path().to_path_buf());
     }
     let case = case_of(&directory)?;
+    // What it begins from is needed again, and has a say in which case it is.
+    wall::check(&case)?;
     case.fits_memory([true; 2])?;
     directory.tidy()?;
     let from = Checkpoints::of(&case, &directory).newest(|warning| {
