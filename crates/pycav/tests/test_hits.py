@@ -79,7 +79,7 @@ def test_only_a_finished_run_has_a_load(tmp_path: Path) -> None:
 
 
 def test_hits_are_run_again_with_their_load(tmp_path: Path) -> None:
-    """The case of a hit names the directory of the load, so it does not tell that there is another run in it."""
+    """The case of a hit names the directory of the load; its hash tells that there is another run in it."""
     case = pycav.Case.from_dict(PULSE)
     short = pycav.hits(case, 2, tmp_path)
     # Of the same peak, from which the scales of a hit's grid follow: all of the hit's case is the same.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -23,9 +22,6 @@ MEASURES = {
 }
 """What is kept of a hit, with units; `plastic_work` and `work_on_solid` are of that hit alone."""
 
-ORIGIN = "origin"
-"""Ending of the file beside a hit that says which load and which wall it met: its case names their directories alone."""
-
 
 def hits(
     case: Case | Result | str | os.PathLike[str],
@@ -44,8 +40,8 @@ def hits(
     (`solid.initial`): its stress, plastic strain, temperature and displacement, at rest. After the record the last pressure stays.
 
     - `case`: a case with a wall that yields, which is run once in `out/load`; or a finished run of one.
-    - `out`: a directory; every hit has a run directory of its own in it. What is complete there is not run again, unless the load,
-      or the hit before, has been run again since.
+    - `out`: a directory; every hit has a run directory of its own in it. What is complete there is not run again, unless the load
+      or the hit before has changed since.
     - `solid`: changes of the `[solid]` table for all hits, with the keys of `Case.with_` below it: `{"plasticity.law": "perfect"}`.
     - `longest`: how long a hit may take to become still, s; without it a hit ends with its record.
     - `threads`: of each run. `progress`: called with the number of the hit and its result.
@@ -64,10 +60,8 @@ def hits(
         place = root / f"hit-{hit:0{len(str(n))}d}"
         before = results[-1].directory if results else None
         repeated = _repeated(loading, solid or {}, before, longest)
-        origin, note = _origin(loading.directory, before), place.with_name(f"{place.name}.{ORIGIN}")
-        if not (is_complete(place, repeated) and note.is_file() and note.read_text() == origin):
+        if not is_complete(place, repeated):
             run(repeated, place, threads=threads, force=True)
-            note.write_text(origin)
         results.append(open_run(place))
         if progress is not None:
             progress(hit, results[-1])
@@ -94,12 +88,6 @@ def _loading(case: Case | Result | str | os.PathLike[str], place: Path, threads:
         cure = "wait for its end" if state == "running" else f"go on with it by cav run --resume {loading.directory}"
         raise ValueError(f"case: the run in {loading.directory} is {state}, and only a finished one has all of its load; {cure}")
     return loading
-
-
-def _origin(*directories: Path | None) -> str:
-    """What tells the runs that a hit is made of from later ones in the same places."""
-    summaries = [(directory / "summary.json").read_bytes() for directory in directories if directory is not None]
-    return "\n".join(hashlib.sha256(summary).hexdigest() for summary in summaries)
 
 
 def _repeated(loading: Result, changes: Mapping[str, Any], before: Path | None, longest: float | None) -> Case:
