@@ -87,18 +87,16 @@ fn across_periodic_sides(fluid: &FluidCase, warnings: &mut Vec<String>) {
             Shape::Box { z, r } => [z, r],
         };
         for (key, side) in Side::NAMES {
-            let (low, high, axis) = match side {
-                Side::ZMin | Side::ZMax => (Side::ZMin, Side::ZMax, 0),
-                Side::RMin | Side::RMax => (Side::RMin, Side::RMax, 1),
-            };
+            let axis = side.axis_across();
             let [begin, end] = [fluid.grid.z, fluid.grid.r][axis];
-            let across = |side: Side| if side == low { reach[axis][0] < begin } else { reach[axis][1] > end };
-            let other = if side == low { high } else { low };
-            if fluid.boundary[side as usize] == Boundary::Periodic && across(side) && !across(other) {
-                let period = end - begin;
+            let across = [reach[axis][0] < begin, reach[axis][1] > end];
+            let here = usize::from(matches!(side, Side::ZMax | Side::RMax));
+            // What reaches across both fills the width.
+            if fluid.boundary[side as usize] == Boundary::Periodic && across[here] && !across[1 - here] {
                 warnings.push(format!(
                     "fluid.region.{number} reaches across fluid.boundary.{key}, which is periodic, and is cut off there: give it again as \
-                     another region, {period:?} m away, for what comes in on the other side"
+                     another region, {:?} m away, for what comes in on the other side",
+                    end - begin
                 ));
             }
         }

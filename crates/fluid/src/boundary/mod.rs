@@ -114,7 +114,7 @@ impl Boundaries {
         cells: &mut TileRows<N>,
     ) {
         // r first: the z sides then find the ghosts beyond r filled and complete the corners.
-        for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+        for side in Side::FOR_GHOSTS {
             if !mesh.tile_touches(tile, side) {
                 continue;
             }

@@ -139,14 +139,11 @@ fn spared_dilatation(block: &TermBlock<'_>, spared: &mut [f64]) -> bool {
 /// Gives the ghosts beyond the domain what the cells in front of its sides have.
 ///
 /// Where gas is at a side and liquid behind it, what is continued beyond is no state: a density below 0 would turn friction round.
-fn mirror_beyond_sides<const K: usize>(block: &TermBlock<'_>, rows: [&mut [f64]; K]) {
+fn mirror_beyond_sides<'r>(block: &TermBlock<'_>, rows: impl IntoIterator<Item = &'r mut [f64]>) {
     let frame = Frame::of(block.cells);
     for row in rows {
-        // r first, as where ghosts are filled: the z sides complete the corners.
-        for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
-            if block.sides[side as usize].is_some() {
-                frame.reflect(row, side, 1.0);
-            }
+        for side in Side::FOR_GHOSTS.into_iter().filter(|side| block.sides[*side as usize].is_some()) {
+            frame.reflect(row, side, 1.0);
         }
     }
 }

@@ -56,8 +56,7 @@ fn move_wall(fluid: &mut FluidSolver<8>, dt: f64) {
         let far = edges[face];
         let (velocity, sliding) = (0.5 * phase * (-far * far).exp(), 2.0 * phase * far);
         let trace = traces[face];
-        let impedance = (trace.gamma * (trace.pressure + trace.pi) * trace.density).sqrt();
-        let pressure = trace.pressure + impedance * (velocity - trace.velocity);
+        let pressure = trace.pressure + impedance(&trace) * (velocity - trace.velocity);
         FaceState {
             pressure,
             velocity,

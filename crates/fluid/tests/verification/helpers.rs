@@ -92,6 +92,19 @@ pub fn run_to<const N: usize>(fluid: &mut FluidSolver<N>, end: f64) {
     }
 }
 
+/// A drop of water of 200 m/s towards z = 0, in gas of 1 kg/m³, at 1 bar.
+pub fn drop_in_gas(place: ([f64; 2], f64)) -> InitialCondition {
+    let mut initial = ball_of_gas(place, 1e5, [1.0, 1e5], 0.0);
+    std::mem::swap(&mut initial.ambient, &mut initial.regions[0].state);
+    initial.regions[0].state.velocity = [-200.0, 0.0];
+    initial
+}
+
+/// ρc of a fluid at a wall, Pa s/m.
+pub fn impedance(trace: &coupler::FluidTrace) -> f64 {
+    (trace.gamma * (trace.pressure + trace.pi) * trace.density).sqrt()
+}
+
 /// The shear stresses that a fluid shows on the faces of its wall in a step of length `dt`, Pa.
 pub fn shear_on_wall(fluid: &FluidSolver<8>, dt: f64) -> Vec<f64> {
     let mut shear = vec![0.0; fluid.interface().faces()];

@@ -180,7 +180,7 @@ pub(crate) fn continue_beyond(
     is_boundary: impl Fn(Side) -> bool,
 ) {
     // r first: the z sides then find the ghosts beyond r filled and complete the corners.
-    for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+    for side in Side::FOR_GHOSTS {
         if is_boundary(side) {
             let along = ghost_range(frame.cells());
             continue_within(row, frame, side, along, rule.parity(side, component));

@@ -38,6 +38,9 @@ impl Side {
     /// All four, in the order in which arrays over sides are laid out.
     pub const ALL: [Self; 4] = [Self::ZMin, Self::ZMax, Self::RMin, Self::RMax];
 
+    /// All four, in the order in which ghosts beyond them are filled: r first, the z sides then complete the corners.
+    pub const FOR_GHOSTS: [Self; 4] = [Self::RMin, Self::RMax, Self::ZMin, Self::ZMax];
+
     /// The axis that crosses it: 0 z, 1 r.
     pub fn axis_across(self) -> usize {
         usize::from(matches!(self, Self::RMin | Self::RMax))

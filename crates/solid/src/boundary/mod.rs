@@ -44,7 +44,7 @@ impl Boundaries {
     ) {
         let frame = cells.frame();
         // r first: the z sides then find the ghosts beyond r filled and complete the corners.
-        for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+        for side in Side::FOR_GHOSTS {
             if !mesh.tile_touches(tile, side) {
                 continue;
             }

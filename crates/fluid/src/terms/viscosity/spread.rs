@@ -52,9 +52,7 @@ impl Spreading for Viscosity {
             [constants[k], constants[len + k]] = self.at(block.before[PHI][k]);
             constants[2 * len + k] = block.before[RHO][k];
         });
-        for row in constants.chunks_exact_mut(len) {
-            mirror_beyond_sides(block, [row]);
-        }
+        mirror_beyond_sides(block, constants.chunks_exact_mut(len));
         let (metric, stride) = (block.metric, block.metric.stride);
         let across: f64 = metric.inverse_h.iter().map(|inverse| inverse * inverse).sum();
         let mut fastest = 0.0_f64;

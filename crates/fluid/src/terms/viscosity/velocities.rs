@@ -50,7 +50,7 @@ impl Velocities<'_> {
     /// Makes the velocities beyond the sides of the domain.
     pub fn complete_all(&mut self, sides: &Sides<'_>) {
         // r first, as where ghosts are filled: the z sides complete the corners.
-        for side in [Side::RMin, Side::RMax, Side::ZMin, Side::ZMax] {
+        for side in Side::FOR_GHOSTS {
             if let Some(kind) = sides.kinds[side as usize] {
                 self.complete(side, kind, sides);
             }
