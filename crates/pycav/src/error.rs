@@ -62,8 +62,9 @@ impl From<Failure> for PyErr {
 }
 
 fn run_error(error: &cav::run::RunError) -> PyErr {
-    // What the command line calls options are arguments here.
-    let text = error.to_string().replace("--out", "out=").replace("--force", "force=True");
+    // What the command line calls options are arguments here. With the word before, so that no path is touched.
+    let text =
+        error.to_string().replace("with --out", "with out=").replace("with --force", "with force=True");
     match (error, error.exit_code()) {
         (cav::run::RunError::Case(errors), _) => case_error(errors),
         (cav::run::RunError::Grid { source, number, levels }, _) => match &**source {

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import h5py
 
+from .. import _pycav
 from .._program import PROGRAM
 from .._run import run
 from ..case import Case
@@ -61,10 +62,7 @@ def is_complete(place: Path, case: Case) -> bool:
 
 def is_finished(place: Path) -> bool:
     """Whether a run, of whatever case, is there and reached its end."""
-    try:
-        return bool(json.loads((place / "summary.json").read_text()).get("completed"))
-    except (OSError, ValueError, AttributeError):
-        return False
+    return _pycav.run_state(place) == "finished"
 
 
 def _hash(place: Path) -> str:
