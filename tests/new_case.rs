@@ -178,6 +178,10 @@ fn kinds_are_listed_and_cases_drawn() {
     let nowhere = directory.path().join("no/mine.png");
     let refused = cav(&["check", &case.to_string_lossy(), "--png", &nowhere.to_string_lossy()]);
     assert_eq!(refused.status.code(), Some(5), "{}", text(&refused.stderr));
+    let other = directory.path().join("mine.jpg");
+    let refused = cav(&["check", &case.to_string_lossy(), "--png", &other.to_string_lossy()]);
+    let told = text(&refused.stderr);
+    assert!(refused.status.code() == Some(2) && told.contains("ends in .png") && !other.exists(), "{told}");
 }
 
 /// A small run with `--report`, where the path leads to no pycav, to one that works, and to one that fails.

@@ -19,8 +19,15 @@ pub(super) struct CheckArgs {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<String>,
     /// Draw the start of the case, with the blocks of its grids, into a file.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = png_file)]
     png: Option<PathBuf>,
+}
+
+/// A name that says what is in the file.
+fn png_file(name: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(name);
+    let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+    if is_png { Ok(path) } else { Err("what is drawn is a PNG: give a name that ends in .png".to_owned()) }
 }
 
 /// What a case means, drawn and in numbers.

@@ -167,6 +167,8 @@ fn an_absent_peer_is_named() {
     let output = workshop.side("fluid", "absent", &id, &more).output().expect("starts");
     assert_eq!(output.status.code(), Some(4));
     assert!(text(&output).contains("solid"), "{}", text(&output));
+    let summary = summary(&workshop.file("absent"));
+    assert!(summary["error"].as_str().unwrap().contains("no solid joined"), "{summary}");
 }
 
 fn a_killed_side_ends_the_other(victim: &str) {
@@ -185,7 +187,9 @@ fn a_killed_side_ends_the_other(victim: &str) {
     let history = datasets(&workshop.file("killed/history.h5"));
     assert!(!history["/time"].1.is_empty());
     hdf5::File::open(workshop.file("killed/fluid.vtkhdf")).expect("the snapshots open");
-    assert_eq!(summary(&workshop.file("killed"))["completed"], false);
+    let summary = summary(&workshop.file("killed"));
+    assert_eq!(summary["completed"], false);
+    assert!(summary["error"].as_str().unwrap().contains(&format!("the {victim} (process")), "{summary}");
     // The same command runs again at once; the unfinished run is kept aside.
     let again = workshop.cav("killed", &["-q"]).output().unwrap();
     assert!(again.status.success(), "{}", text(&again));
@@ -241,7 +245,9 @@ fn a_numerical_failure_is_told() {
         "{}",
         text(&output)
     );
-    assert_eq!(summary(&workshop.file("failed"))["completed"], false);
+    let summary = summary(&workshop.file("failed"));
+    assert_eq!((&summary["completed"], &summary["exit_code"]), (&false.into(), &3.into()));
+    assert!(!summary["error"].as_str().unwrap().contains("gave up"), "the cause: {}", summary["error"]);
 }
 
 fn nothing_is_left_in_shared_memory() {

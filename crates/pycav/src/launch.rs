@@ -10,6 +10,7 @@ use cav::run::RunError;
 use cav::run::checkpoints::DEFAULT_INTERVAL;
 use cav::run::process::launch::run;
 use cav::run::process::launch_options::Options;
+use cav::run::process::resume::resume as go_on;
 use cav::run::process::stop::Stop;
 use pyo3::prelude::*;
 
@@ -51,6 +52,27 @@ pub fn run_in_processes(
         let mut guard = None;
         let on_directory = |path: &Path| guard = Some(Log::of(Some(path)).until_dropped());
         run(case, options, stop, on_directory).inspect_err(log::failed)
+    })
+}
+
+/// Goes on with the run in a directory; returns the directory.
+///
+/// - `program`, `processes`: as of [`convergence`].
+#[pyfunction]
+#[pyo3(signature = (directory, program, processes=false, threads=None, progress=false))]
+pub fn resume(
+    py: Python<'_>,
+    directory: PathBuf,
+    program: Vec<OsString>,
+    processes: bool,
+    threads: Option<usize>,
+    progress: bool,
+) -> PyResult<PathBuf> {
+    let options = &Options { in_process: !processes, threads, program, quiet: !progress, ..options() };
+    interruptible(py, |stop| {
+        let mut guard = None;
+        let on_directory = |path: &Path| guard = Some(Log::of(Some(path)).until_dropped());
+        go_on(&directory, options, stop, on_directory).inspect_err(log::failed)
     })
 }
 

@@ -41,7 +41,7 @@ mod _pycav {
     #[pymodule_export]
     use super::error::{CaseError, CouplingError, InternalError, NumericalError, OutputError, RunError};
     #[pymodule_export]
-    use super::launch::{convergence, main, run_in_processes};
+    use super::launch::{convergence, main, resume, run_in_processes};
     #[pymodule_export]
     use super::new::{new_collapse, new_free_bubble, new_laser_bubble, new_shocked_bubble, new_wall_load};
     #[pymodule_export]

@@ -88,7 +88,7 @@ impl Run {
         let ended = guarded(|| {
             let ended = pool.install(|| log.during(|| session.end(directory.as_ref(), result)));
             if let Some(directory) = directory.as_ref() {
-                let whole = log.during(|| conclude(directory))?;
+                let whole = log.during(|| conclude(directory, ended.as_ref().err()))?;
                 match &ended {
                     Ok(()) => log.done(&closing_words(&whole, directory.path())),
                     Err(error) => log.failed(error),

@@ -57,15 +57,25 @@ def test_a_run_has_the_command_lines_numbers_to_the_last_bit(processes, small, c
     assert result.summary["completed"] and pycav.open(commanded).summary["steps"] == result.summary["steps"]
 
 
-def test_a_run_that_is_broken_off_goes_on_from_its_checkpoint(cav, small, commanded, tmp_path):
+@pytest.mark.parametrize("who", ["cav", "python", "two processes"])
+def test_a_run_that_is_broken_off_goes_on_from_its_checkpoint(cav, small, commanded, tmp_path, who):
     with pycav.Simulation(small, out=tmp_path / "run") as simulation:
         for _ in range(5):
             simulation.step()
     kept = [path.name for path in (tmp_path / "run" / "checkpoints").glob("fluid-*.ckpt")]
     assert kept and simulation.steps == 5 and not simulation.completed
-    done = cav("run", "--resume", tmp_path / "run", "--in-process", "-q")
-    assert done.returncode == 0, done.stderr
+    if who == "cav":
+        done = cav("run", "--resume", tmp_path / "run", "--in-process", "-q")
+        assert done.returncode == 0, done.stderr
+    else:
+        done = pycav.resume(tmp_path / "run", processes=who == "two processes", threads=1)
+        assert done.summary["completed"] and done.directory == tmp_path / "run"
     assert_same_numbers(tmp_path / "run", commanded)
+    steps = pycav.resume(tmp_path / "run").summary["steps"]
+    assert steps == pycav.open(commanded).summary["steps"], "what is finished stays as it is"
+    (tmp_path / "none").mkdir()
+    with pytest.raises(pycav.RunError, match=r"no case\.toml"):
+        pycav.resume(tmp_path / "none")
 
 
 def told(directory):

@@ -14,7 +14,12 @@ use crate::run::record::how_sure::how_sure;
 use crate::run::record::{equivalent_load, two_collapses};
 
 /// Joins the histories and the parts of the summary.
-pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError> {
+///
+/// - `failure`: what the run ended with, as far as whoever concludes knows.
+pub fn conclude(
+    directory: &RunDirectory,
+    failure: Option<&RunError>,
+) -> Result<Map<String, Value>, RunError> {
     let differing = join_histories(directory.path(), &[FLUID_HISTORY, SOLID_HISTORY], Join::Copy)?;
     if !differing.is_empty() {
         tracing::warn!(?differing, "both sides wrote these, and not the same");
@@ -28,6 +33,7 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
     let completed = !parts.is_empty() && parts.iter().all(|part| part["completed"] == json!(true));
     let mut whole = summary::merge(&parts);
     whole.insert("completed".to_owned(), json!(completed));
+    whole.extend(failed_by(&parts, failure));
     whole.extend(summary::origin());
     if let Some(seconds) = compute_seconds(&whole) {
         whole.insert("compute_seconds".to_owned(), seconds);
@@ -58,6 +64,27 @@ pub fn conclude(directory: &RunDirectory) -> Result<Map<String, Value>, RunError
         directory.remove_progress()?;
     }
     Ok(whole)
+}
+
+/// Why a run failed: the cause, where the sides and whoever started them tell of different ends.
+///
+/// A side that lost the other one says more than nothing, but less than anybody else.
+fn failed_by(parts: &[Map<String, Value>], failure: Option<&RunError>) -> Map<String, Value> {
+    let of = |part: &Map<String, Value>| {
+        let [error, code] = ["error", "exit_code"].map(|key| part.get(key).cloned());
+        error.zip(code)
+    };
+    let stopped = |error: &&RunError| matches!(error, RunError::Interrupted | RunError::Terminated);
+    let own = failure
+        .filter(|error| !stopped(error))
+        .map(|error| (json!(error.to_string()), json!(error.exit_code())));
+    let of_sides = || parts.iter().filter_map(of);
+    let cause = of_sides().find(|(_, code)| *code != json!(PEER_LOST)).or(own).or_else(|| of_sides().next());
+    Map::from_iter(
+        cause
+            .into_iter()
+            .flat_map(|(error, code)| [("error".to_owned(), error), ("exit_code".to_owned(), code)]),
+    )
 }
 
 /// Makes the answer, from the other keys of a summary and a study beside the run.
@@ -118,6 +145,9 @@ fn exchange_wait_share(whole: &Map<String, Value>) -> Option<f64> {
     let waited = |side: &str| whole.get("coupling")?.get(side)?.get("seconds_exchanging")?.as_f64();
     Some((waited("fluid")? + waited("solid")?) / wall)
 }
+
+/// The exit code of a side that lost the other one.
+const PEER_LOST: u8 = 4;
 
 /// Share of the collapse's energy above which what the pressure floor added is worth a warning.
 const FLOOR_BUDGET: f64 = 0.01;
@@ -202,6 +232,39 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A side's part, or the whole, of a run that failed.
+    fn failed(error: &str, code: u8) -> Map<String, Value> {
+        Map::from_iter([("error".to_owned(), json!(error)), ("exit_code".to_owned(), json!(code))])
+    }
+
+    #[test]
+    fn a_failure_is_told_by_its_cause_and_not_by_what_it_did_to_the_other_side() {
+        let child = |what: &str, code| RunError::Child {
+            side: "solid",
+            pid: 7,
+            what: what.to_owned(),
+            log: "log",
+            code,
+        };
+        let [lost, bad] = [failed("the solid has gone", 4), failed("density below zero", 3)];
+        let fine = Map::new();
+        let ended = child("ended with exit code 3", 3);
+        for sides in [[lost.clone(), bad.clone()], [bad.clone(), lost.clone()], [fine.clone(), bad.clone()]] {
+            assert_eq!(failed_by(&sides, Some(&ended)), bad);
+            assert_eq!(failed_by(&sides, None), bad);
+        }
+        // A process that is killed leaves no part of its own.
+        let killed = child("was killed by signal 9", 4);
+        assert_eq!(failed_by(std::slice::from_ref(&lost), Some(&killed)), failed(&killed.to_string(), 4));
+        assert_eq!(failed_by(std::slice::from_ref(&lost), None), lost);
+        // Nothing was made yet.
+        let unmet = RunError::NoPeer { side: "fluid" };
+        assert_eq!(failed_by(&[], Some(&unmet)), failed(&unmet.to_string(), 2));
+        // To be stopped is no failure.
+        assert_eq!(failed_by(&[fine.clone(), fine], Some(&RunError::Interrupted)), Map::new());
+        assert_eq!(failed_by(&[], Some(&RunError::Terminated)), Map::new());
+    }
 
     #[test]
     fn what_sides_wait_for_frames_that_are_ready_is_no_less_than_nothing_also_where_they_compute_at_the_same_time()

@@ -349,6 +349,7 @@ fn progress_part<S: RunSide>(
     part.insert("coupling".to_owned(), coupling);
     if let Err(error) = result {
         part.insert("error".to_owned(), json!(error.to_string()));
+        part.insert("exit_code".to_owned(), json!(error.exit_code()));
     }
     part
 }

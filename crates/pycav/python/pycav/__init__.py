@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .new import collapse, free_bubble, laser_bubble, shocked_bubble, wall_load
     from .result import Result, Snapshot
     from .result import open_run as open
-    from ._run import run
+    from ._run import resume, run
     from ._runs import runs
     from .simulation import Simulation
     from .solvers import FluidSolver, SolidSolver
@@ -41,8 +41,8 @@ __all__ = [
     "Case", "CaseError", "Cells", "Convergence", "CouplingError", "FluidSolver", "InternalError", "Material", "NumericalError",
     "OutputError", "Result", "RunError", "Simulation", "Snapshot", "SolidSolver", "animate", "bends", "collapse",
     "consistent_runs", "convergence", "failures", "free_bubble", "hits", "laser_bubble", "materials", "open", "paraview_state",
-    "plot", "refine", "report", "run", "runs", "save_map", "shocked_bubble", "stand_off_map", "sweep", "theory", "units",
-    "wall_load", "with_uncertainty",
+    "plot", "refine", "report", "resume", "run", "runs", "save_map", "shocked_bubble", "stand_off_map", "sweep", "theory",
+    "units", "wall_load", "with_uncertainty",
 ]
 
 # Where names live. They are fetched when they are first used: the processes of a run need none of them.
@@ -51,8 +51,8 @@ _PLACES = {
     "Simulation": "simulation", "Snapshot": "result", "SolidSolver": "solvers", "animate": "_animate",
     "bends": "sweeps", "collapse": "new", "consistent_runs": "sweeps", "convergence": "_convergence",
     "failures": "sweeps", "free_bubble": "new", "hits": "_hits", "laser_bubble": "new", "materials": "case", "open": "result",
-    "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "run": "_run", "runs": "_runs", "save_map": "sweeps",
-    "shocked_bubble": "new", "stand_off_map": "sweeps", "sweep": "sweeps", "units": "exchange", "wall_load": "new",
+    "paraview_state": "paraview", "refine": "sweeps", "report": "_report", "resume": "_run", "run": "_run", "runs": "_runs",
+    "save_map": "sweeps", "shocked_bubble": "new", "stand_off_map": "sweeps", "sweep": "sweeps", "units": "exchange", "wall_load": "new",
     "with_uncertainty": "sweeps",
 }
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Case", "CaseError", "CouplingError", "FluidSolver", "InternalError", "NumericalError", "OutputError", "RunError",
     "Simulation", "SolidSolver", "convergence", "main", "materials", "new_collapse", "new_free_bubble", "new_laser_bubble",
-    "new_shocked_bubble", "new_wall_load", "run_in_processes", "run_state", "runs",
+    "new_shocked_bubble", "new_wall_load", "resume", "run_in_processes", "run_state", "runs",
 ]
 
 _Array = NDArray[np.float64]
@@ -144,6 +144,9 @@ def new_shocked_bubble(
 ) -> Case: ...
 def new_wall_load(amplitude: float, radius: float, duration: float, wall_name: str, cells_per_radius: float) -> Case: ...
 def materials() -> list[tuple[str, float, float, float, float | None]]: ...
+def resume(
+    directory: _Path, program: list[str], processes: bool = False, threads: int | None = None, progress: bool = False
+) -> _Path: ...
 def run_in_processes(
     case: Case,
     case_path: _Path,

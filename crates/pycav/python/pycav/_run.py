@@ -50,5 +50,21 @@ def run(
             case._native, str(path), PROGRAM, None if out is None else os.fspath(out), force, threads, progress)))
 
 
+def resume(
+    directory: str | os.PathLike[str], *, processes: bool = False, threads: int | None = None, progress: bool = False
+) -> Result:
+    """Goes on with a run that was stopped or killed, from its newest checkpoint, and returns what it left.
+
+    What `cav run --resume` does: the numbers are those of a run that nothing has happened to, bit for bit. Without a checkpoint yet it
+    begins again; one that is finished stays as it is.
+
+    - `directory`: of the run; its case is there.
+    - `processes`, `threads`, `progress`: as in `pycav.run`; they need not be those that the run began with.
+
+    Raises `pycav.RunError` if it is no run's directory, if its case was changed, or if no checkpoint can be used; else as `pycav.run`.
+    """
+    return Result(Path(_pycav.resume(os.fspath(directory), PROGRAM, processes, count("threads", threads), progress)))
+
+
 def _directory(case: Case, out: str | os.PathLike[str] | None) -> str:
     return os.fspath(out) if out is not None else case._native.directory

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -11,8 +10,8 @@ from typing import NamedTuple
 import h5py
 
 from .. import _pycav
-from .._program import PROGRAM
-from .._run import run
+from .._pycav import RunError
+from .._run import resume, run
 from ..case import Case
 from ..histories import text as plain
 
@@ -92,10 +91,9 @@ def _ended_well(place: Path) -> bool:
 
 
 def _resume(place: Path, threads: int | None) -> bool:
-    """Goes on in a process of its own; whether that has reached the end."""
-    many = [] if threads is None else ["--threads", str(threads)]
-    done = subprocess.run([*PROGRAM, "run", "--resume", str(place), "--in-process", "-q", *many],
-                          stdin=subprocess.DEVNULL, capture_output=True, check=False)
-    return done.returncode == 0
-
-
+    """Goes on with a run; whether that has reached the end."""
+    try:
+        resume(place, threads=threads)
+    except RunError:
+        return False
+    return True
