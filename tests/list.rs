@@ -97,6 +97,9 @@ fn runs_are_listed_with_what_was_varied_their_numbers_and_states() {
     assert_eq!(lines[1], "a-2,finished,\"It hits, at 5 µs. Nothing yields.\",2.5e8");
     assert_eq!(lines[4], "failed,failed,,");
     assert_eq!(json_of(place, &["--columns", "all"])[0]["time.end"], json!(1e-6));
+    // Also where no run has one.
+    let failed = &json_of(place, &["--columns", "error,exit_code"])[3];
+    assert_eq!((&failed["error"], &failed["exit_code"]), (&json!("it collapsed"), &Value::Null));
     assert_eq!(
         json_of(place, &["--columns", "answer"])[0]["answer"],
         json!(["It hits, at 5 µs.", "Nothing yields."])

@@ -11,6 +11,7 @@ mod far_field;
 mod fixture;
 pub(crate) mod format;
 mod identity;
+mod implausible;
 mod initial_pressure;
 mod keys;
 mod load;

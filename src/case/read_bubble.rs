@@ -35,6 +35,15 @@ pub(super) struct Described {
     named: Option<Given<usize>>,
 }
 
+impl Described {
+    /// The vapour's part of the pressure in the bubble, where its content is described.
+    ///
+    /// Gas and vapour have one law, so that it is the part of the mass, too.
+    pub fn vapour_share(&self) -> Option<f64> {
+        self.region.map(|region| self.case.vapour_pressure / region.state.pressure)
+    }
+}
+
 /// The numbers that the content is described by.
 struct Numbers {
     centre: Option<Given<[f64; 2]>>,

@@ -70,9 +70,15 @@ pub(super) fn fluid(
         geometry: context.geometry,
     };
     let acting = (table.path_of("terms"), table.place("terms").map_or(0..0, |place| place.span));
-    let (terms, pending) = terms(&mut table, faults);
+    let (mut terms, mut pending) = terms(&mut table, faults);
     let pressure = table.choice("initial_pressure", &InitialPressure::NAMES, faults);
     let (mut initial, bubble) = initial(&mut table, pressure.as_ref(), &terms, &mut setting, faults);
+    if let (Some(change), Some(share), false) =
+        (&mut pending.phase_change, bubble.as_ref().and_then(Described::vapour_share), pending.is_share_given)
+    {
+        change.value.vapour_fraction = share;
+        terms.phase_change = Some(change.value);
+    }
     let gravity = match &initial {
         Some(initial) => gravity(&mut table, initial, &setting, faults),
         None => table.number("gravity", faults).and(None),

@@ -14,7 +14,9 @@ const LAWS: [(&str, bool); 2] = [("hertz-knudsen", true), ("ptg", false)];
 pub(super) type Asked = Given<PhaseChange>;
 
 /// Reads both tables of `[fluid.terms]`.
-pub(super) fn phase_change(terms: &mut Table<'_>, faults: &mut Faults) -> Option<Asked> {
+///
+/// - returns: besides whether it is said how much of the gas is vapour.
+pub(super) fn phase_change(terms: &mut Table<'_>, faults: &mut Faults) -> Option<(Asked, bool)> {
     let place = terms.place("phase_change");
     let change = terms.table("phase_change", faults).and_then(|table| of_law(table, faults));
     let opens = terms.place("cavitation");
@@ -23,11 +25,12 @@ pub(super) fn phase_change(terms: &mut Table<'_>, faults: &mut Faults) -> Option
         let message = "opens liquid that cannot close again: there is no phase_change".to_owned();
         faults.of(given, message, "give fluid.terms.phase_change = { law = \"ptg\" } besides, or remove it");
     }
-    let place = place?;
-    Some(Given { value: PhaseChange { cavitation, ..change? }, path: place.path, span: place.span })
+    let (place, (change, is_share_given)) = (place?, change?);
+    let value = PhaseChange { cavitation, ..change };
+    Some((Given { value, path: place.path, span: place.span }, is_share_given))
 }
 
-fn of_law(mut table: Table<'_>, faults: &mut Faults) -> Option<PhaseChange> {
+fn of_law(mut table: Table<'_>, faults: &mut Faults) -> Option<(PhaseChange, bool)> {
     let law = table.choice("law", &LAWS, faults);
     if !table.has("law") {
         table.missing("law", "write law = \"ptg\", or \"hertz-knudsen\" with accommodation = 0.04", faults);
@@ -51,7 +54,9 @@ fn of_law(mut table: Table<'_>, faults: &mut Faults) -> Option<PhaseChange> {
         None if has_rate => return None,
         None => EvaporationLaw::Equilibrium,
     };
-    Some(PhaseChange { law, vapour_fraction: part.map_or(1.0, |given| given.value), cavitation: None })
+    let is_share_given = part.is_some();
+    let vapour_fraction = part.map_or(1.0, |given| given.value);
+    Some((PhaseChange { law, vapour_fraction, cavitation: None }, is_share_given))
 }
 
 fn threshold(mut table: Table<'_>, faults: &mut Faults) -> Option<f64> {

@@ -26,6 +26,8 @@ pub struct TermsCase {
 #[derive(Default)]
 pub(super) struct Pending {
     pub phase_change: Option<read_phase_change::Asked>,
+    /// Whether it is said how much of the gas is vapour.
+    pub is_share_given: bool,
     pub conduction: Option<read_conduction::Asked>,
 }
 
@@ -37,7 +39,7 @@ pub(super) fn terms(table: &mut Table<'_>, faults: &mut Faults) -> (TermsCase, P
     let surface_tension = surface_tension.filter(|sigma| *sigma > 0.0);
     let contact_angle = contact_angle(&mut table, surface_tension, faults);
     let conduction = conduction(&mut table, faults);
-    let change = phase_change(&mut table, faults);
+    let (change, is_share_given) = phase_change(&mut table, faults).unzip();
     table.finish(faults);
     let terms = TermsCase {
         viscosity,
@@ -46,7 +48,7 @@ pub(super) fn terms(table: &mut Table<'_>, faults: &mut Faults) -> (TermsCase, P
         contact_angle,
         phase_change: change.as_ref().map(|change| change.value),
     };
-    (terms, Pending { phase_change: change, conduction })
+    (terms, Pending { phase_change: change, is_share_given: is_share_given.unwrap_or(false), conduction })
 }
 
 /// The contact angle, of which there is one.

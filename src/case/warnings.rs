@@ -3,7 +3,7 @@
 use fluid::{Boundary, Phase, Shape};
 use mesh::{Geometry, Side};
 
-use super::{Case, FluidCase, LoadCase};
+use super::{Case, FluidCase, LoadCase, implausible};
 
 /// Fewer cells than this along a radius or a width resolve nothing.
 const RESOLVED: f64 = 4.0;
@@ -43,8 +43,10 @@ impl Case {
             fluid_warnings(fluid, self.geometry, &mut warnings);
             near_sides(fluid, self.geometry, &mut warnings);
             across_periodic_sides(fluid, &mut warnings);
+            implausible::fluid(fluid, &mut warnings);
         }
         if let Some(solid) = &self.solid {
+            implausible::solid(solid, &mut warnings);
             let [h_z, h_r] = solid.grid.cell_size();
             for (number, pulse) in solid.pulses.iter().enumerate() {
                 unresolved(
@@ -135,9 +137,12 @@ fn near_sides(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>)
                     let held = sound / (driving / ambient.density).sqrt() / (radii * radii);
                     if held > HELD_UP {
                         let enough = radii * (held / HELD_UP).sqrt();
+                        // A far field knows of no gravity.
                         let otherwise = match geometry {
-                            Geometry::Axisymmetric => "make it \"far-field\", or move it",
-                            Geometry::Planar => "move it",
+                            Geometry::Axisymmetric if fluid.gravity.is_none() => {
+                                "make it \"far-field\", or move it"
+                            }
+                            _ => "move it",
                         };
                         warnings.push(format!(
                             "{where_it_is} and \"non-reflecting\": it holds the flow to the bubble up, which collapses \

@@ -25,17 +25,24 @@ pub struct Schedule {
     next: usize,
     /// A time at which a step has to end besides, without a snapshot.
     landing: Option<f64>,
+    /// The same, once a step to it is planned.
+    planned: Option<f64>,
 }
 
 impl Schedule {
     /// From ascending times, the last of which is the end of the run. Times at or before 0 are taken as done.
     pub fn new(times: &[f64]) -> Self {
-        Self { times: times.to_vec(), next: times.partition_point(|t| *t <= 0.0), landing: None }
+        Self {
+            times: times.to_vec(),
+            next: times.partition_point(|t| *t <= 0.0),
+            landing: None,
+            planned: None,
+        }
     }
 
     /// How far it is.
     pub fn saved(&self) -> Progressed {
-        let Self { times: _, next, landing } = self;
+        let Self { times: _, next, landing, planned: _ } = self;
         Progressed { next: *next, landing: *landing }
     }
 
@@ -70,11 +77,13 @@ impl Schedule {
     pub fn plan(&mut self, time: f64, limit: f64) -> Option<Plan> {
         let snapshot_due = *self.times.get(self.next)?;
         self.landing = self.landing.filter(|landing| *landing > time);
+        self.planned = None;
         let due = self.landing.map_or(snapshot_due, |landing| landing.min(snapshot_due));
         let left = due - time;
         if left <= limit * (1.0 + 1e-10) {
             let snapshot = due == snapshot_due;
             self.next += usize::from(snapshot);
+            self.planned = self.landing.filter(|landing| *landing <= due);
             self.landing = self.landing.filter(|landing| *landing > due);
             Some(Plan { dt: left, snapshot })
         } else if left < 2.0 * limit {
@@ -87,6 +96,7 @@ impl Schedule {
     /// The plan that takes the place of one which turns out to be too long: shorter, and with nothing due at its end.
     pub fn shorten(&mut self, plan: Plan, dt: f64) -> Plan {
         self.next -= usize::from(plan.snapshot);
+        self.landing = self.landing.or(self.planned.take());
         Plan { dt, snapshot: false }
     }
 }
@@ -127,6 +137,12 @@ mod tests {
         }
         assert!((time - 0.5).abs() < 1e-15, "{time}");
         assert_eq!(schedule.plan(time, 0.2), Some(Plan { dt: 0.2, snapshot: false }));
+        // A step to it that turns out to be too long leaves it as it is.
+        schedule.land_at(0.6);
+        let plan = schedule.plan(0.5, 0.2).expect("not over");
+        assert_eq!((schedule.shorten(plan, 0.04).dt, schedule.landing()), (0.04, Some(0.6)));
+        let plan = schedule.plan(0.54, 0.2).expect("not over");
+        assert!((plan.dt - 0.06).abs() < 1e-15 && schedule.landing().is_none(), "{plan:?}");
         // On a snapshot's own time it is the snapshot that counts; what is past is forgotten.
         schedule.land_at(1.0);
         assert_eq!(schedule.plan(0.9, 0.2), Some(Plan { dt: 1.0 - 0.9, snapshot: true }));

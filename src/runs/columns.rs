@@ -13,6 +13,9 @@ use crate::runs::varied::varied;
 /// version.
 pub const OWN: [&str; 5] = ["path", "state", "progress", "started", "version"];
 
+/// Keys of the summaries of runs that failed. That none has is a good answer to who asks for them.
+const OF_FAILURES: [&str; 2] = ["error", "exit_code"];
+
 /// Without these no number of a run means much.
 const RESOLUTION: &str = "cells_per_radius";
 
@@ -69,7 +72,9 @@ impl Listing {
     ///
     /// - errors: [`ListError::UnknownKey`], with those that may be meant.
     pub fn check(&self, key: &str) -> Result<(), ListError> {
-        let is_known = OWN.contains(&key) || aliases(key).iter().any(|key| self.keys.get(key).is_some());
+        let is_known = OWN.contains(&key)
+            || OF_FAILURES.contains(&key)
+            || aliases(key).iter().any(|key| self.keys.get(key).is_some());
         if is_known || self.count == 0 {
             return Ok(());
         }

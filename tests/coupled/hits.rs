@@ -40,7 +40,7 @@ pub fn run(case: &Case, at: &Path) -> Map<String, Value> {
     let directory = RunDirectory::prepare(at, false).expect("a directory");
     directory.write_atomic("case.toml", case.effective_toml().as_bytes()).expect("its case");
     in_process(case, &directory, Keeping::default(), &Stop::default(), &mut |_| {}).expect("a run");
-    conclude(&directory, None).expect("its end")
+    conclude(&directory, case, None).expect("its end")
 }
 
 pub fn number(summary: &Map<String, Value>, key: &str) -> f64 {

@@ -194,7 +194,7 @@ fn a_pulse_that_is_given_is_the_equivalent_load() {
     let case = case(&text);
     let directory = RunDirectory::prepare(&directory.path().join("run"), false).expect("a directory");
     in_process(&case, &directory, Keeping::default(), &Stop::default(), &mut |_| {}).expect("a run");
-    let whole = conclude(&directory, None).expect("a summary");
+    let whole = conclude(&directory, &case, None).expect("a summary");
     for (key, expected) in [
         ("load_amplitude", AMPLITUDE),
         ("load_radius", RADIUS),

@@ -27,7 +27,7 @@ fn pool(threads: usize) -> rayon::ThreadPool {
 fn undisturbed(case: &Case, path: &Path) {
     let directory = RunDirectory::prepare(path, false).unwrap();
     in_process(case, &directory, Keeping::default(), &Stop::default(), &mut |_| {}).unwrap();
-    conclude(&directory, None).unwrap();
+    conclude(&directory, case, None).unwrap();
 }
 
 /// Runs a case in pieces of `piece` steps. After each a checkpoint is kept; then some more steps are made and written, and all
@@ -69,7 +69,7 @@ fn in_pieces(case: &Case, path: &Path, piece: usize) -> usize {
         });
         pieces += 1;
         if is_over {
-            conclude(&directory, None).unwrap();
+            conclude(&directory, case, None).unwrap();
             assert!(!path.join("checkpoints").exists(), "a finished run keeps no checkpoints");
             return pieces;
         }

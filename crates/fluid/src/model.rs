@@ -134,11 +134,13 @@ impl<const N: usize> Model<N> for Fluid {
         scratch: Scratches<'_, BlockScratch<N>>,
     ) {
         spread.clear();
+        let mut group = vec![false; step.mesh.blocks()];
+        slots.iter().for_each(|slot| group[*slot] = true);
         for of in self.terms.spreading() {
             let is_due = |slot: &&usize| self.spreads_in_stages(of, step, **slot);
             let due: Vec<usize> = slots.iter().filter(is_due).copied().collect();
             spread_in(spread, of, step.mesh, &due, step.dt, |slot| {
-                scratch.with(|scratch| begin_spreading(step, slot, of, scratch))
+                scratch.with(|scratch| begin_spreading(step, (slot, &group), of, scratch))
             });
         }
     }

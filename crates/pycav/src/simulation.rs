@@ -84,13 +84,13 @@ impl Run {
 
     fn end(&mut self, result: Result<Turn, cav::run::RunError>, over: Over) -> Result<(), Failure> {
         self.over = Some(over);
-        let Self { session, pool, directory, log, .. } = self;
+        let Self { case, session, pool, directory, log, .. } = self;
         let ended = guarded(|| {
             let ended = pool.install(|| log.during(|| session.end(directory.as_ref(), result)));
             if let Some(directory) = directory.as_ref() {
-                let whole = log.during(|| conclude(directory, ended.as_ref().err()))?;
+                let whole = log.during(|| conclude(directory, case, ended.as_ref().err()))?;
                 match &ended {
-                    Ok(()) => log.done(&closing_words(&whole, directory.path())),
+                    Ok(()) => log.done(&closing_words(&whole, case, directory.path())),
                     Err(error) => log.failed(error),
                 }
             }
@@ -311,10 +311,11 @@ impl Simulation {
         let made = self.steps(py, |_| false, after, has_callback);
         match (&made, self.directory()?) {
             (Ok(()), Some(directory)) if progress => {
+                let case = self.run()?.case.clone();
                 let file =
                     RunDirectory::open(&directory).map(|d| d.file(cav::output::run_directory::SUMMARY));
                 let whole = file.and_then(|file| cav::output::summary::read(&file)).unwrap_or_default();
-                bar.finish(&closing_words(&serde_json::Map::from_iter(whole), &directory));
+                bar.finish(&closing_words(&serde_json::Map::from_iter(whole), &case, &directory));
             }
             _ => bar.clear(),
         }

@@ -33,8 +33,9 @@ pub(super) static PHASE_CHANGE: [Section; 2] = [
                 name: "vapour_fraction",
                 unit: "",
                 values: Values::Within(Interval::closed(0.0, 1.0)),
-                default: Preset::Number(1.0),
-                about: "The part of the gas's mass that is vapour at t = 0; the rest never condenses.",
+                default: Preset::Words("that of `[fluid.bubble]`, 1 without"),
+                about: "The part of the gas's mass that is vapour at t = 0; the rest never condenses. A bubble that is described by its content has \
+                        `vapour_pressure` over all of its pressure.",
             },
         ],
     },

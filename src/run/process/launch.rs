@@ -67,7 +67,7 @@ pub(super) fn carry_out(
         let mut on_step = |line: &ProgressLine| progress.update(line);
         threads.install(|| in_process(case, directory, options.keeping(), stop, &mut on_step))
     };
-    let whole = match (conclude(directory, result.as_ref().err()), &result) {
+    let whole = match (conclude(directory, case, result.as_ref().err()), &result) {
         (Ok(whole), _) => whole,
         (Err(error), Ok(())) => return Err(error),
         (Err(error), Err(_)) => {
@@ -78,7 +78,7 @@ pub(super) fn carry_out(
     };
     match &result {
         Ok(()) => {
-            let words = closing_words(&whole, directory.path());
+            let words = closing_words(&whole, case, directory.path());
             tracing::info!("{words}");
             progress.finish(&words);
         }
@@ -184,7 +184,7 @@ pub fn run_side(
         let directory = RunDirectory::open(&path).map_err(RunError::Directory)?;
         // Both sides do this, one after the other: the last one finds both parts.
         let _turn = directory.wait_for_lock()?;
-        conclude(&directory, result.as_ref().err())?;
+        conclude(&directory, case, result.as_ref().err())?;
     }
     result
 }

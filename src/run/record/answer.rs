@@ -73,6 +73,8 @@ fn bubble(summary: Summary<'_>) -> Option<String> {
     let first = summary.number("initial_equivalent_radius")?;
     let Some((smallest, time)) = summary.number("min_equivalent_radius").zip(summary.number("collapse_time"))
     else {
+        // Without a ball of gas at the start there is none that could collapse: a drop in air, say.
+        summary.number("cells_per_radius")?;
         let last = summary.said("final_equivalent_radius", "m")?;
         return Some(format!(
             "The bubble, of {} at the start, has no collapse within the run; it ends with {last}.",
@@ -96,7 +98,8 @@ fn bubble(summary: Summary<'_>) -> Option<String> {
         percent(smallest / from)
     );
     if let Some(jet) = summary.number("jet_velocity_peak").filter(|jet| *jet > 0.0) {
-        words += &format!(" On the axis liquid runs towards the wall with up to {}.", si(jet, "m/s"));
+        let to = if summary.number("wall_pressure_peak").is_some() { "the wall" } else { "z_min" };
+        words += &format!(" On the axis liquid runs towards {to} with up to {}.", si(jet, "m/s"));
     }
     Some(words)
 }
@@ -288,6 +291,10 @@ mod tests {
         summary["growth_time"] = json!(1e-6);
         summary["max_equivalent_radius"] = json!(1.56e-3);
         let grown = told(&summary);
+        assert!(grown.contains("runs towards the wall with up to 1.79 km/s"), "{grown}");
+        let mut free = summary.clone();
+        free["wall_pressure_peak"] = Value::Null;
+        assert!(told(&free).contains("runs towards z_min with up to 1.79 km/s"), "{}", told(&free));
         let words = "The bubble grows to 1.56 mm at 1 µs. It is smallest at 7.82 µs: 78 µm, 5.0 % of its largest radius.";
         assert!(grown.contains(words), "{grown}");
         summary["surface_still"] = json!(0.3);
@@ -321,10 +328,13 @@ mod tests {
 
     #[test]
     fn a_bubble_that_does_not_collapse_is_said_not_to() {
-        let summary = json!({"initial_equivalent_radius": 1e-3, "final_equivalent_radius": 8e-4, "min_equivalent_radius": null,
-            "collapse_time": null, "cells": {"fluid": {}}});
+        let mut summary = json!({"initial_equivalent_radius": 1e-3, "final_equivalent_radius": 8e-4, "min_equivalent_radius": null,
+            "collapse_time": null, "cells_per_radius": 20.0, "cells": {"fluid": {}}});
         assert!(told(&summary).contains(
             "The bubble, of 1 mm at the start, has no collapse within the run; it ends with 800 µm."
         ));
+        // The air about a drop is no bubble.
+        summary.as_object_mut().expect("an object").remove("cells_per_radius");
+        assert!(!told(&summary).contains("bubble"), "{}", told(&summary));
     }
 }

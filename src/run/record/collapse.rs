@@ -77,6 +77,12 @@ impl CollapseFinder {
         self.found
     }
 
+    /// Whether the bubble has grown from its start, and is larger now than ever before: nothing of its collapse has begun.
+    pub fn is_growing(&self) -> bool {
+        let grown = GROWN * self.initial.unwrap_or(0.0);
+        self.lowest.is_none() && self.largest.is_some_and(|top| Some(top) == self.last[1] && top[1] > grown)
+    }
+
     /// The largest volume so far, or before the collapse.
     pub fn largest(&self) -> Option<Extremum> {
         let [time, volume] = self.largest?;
@@ -164,8 +170,12 @@ mod tests {
         let [collapse, largest] = [finder.found(), finder.grown()].map(Option::unwrap);
         assert!((collapse.time - 1.8).abs() < 1e-9 && (collapse.volume - 0.3).abs() < 1e-9, "{collapse:?}");
         assert!((largest.time - 0.8).abs() < 1e-9 && (largest.volume - 1.0).abs() < 1e-9, "{largest:?}");
+        assert!(!finder.is_growing());
         // While it still grows nothing is said of a maximum.
         let growing = followed(|t| 1.0 + t);
         assert_eq!((growing.found(), growing.grown()), (None, None));
+        assert!(growing.is_growing());
+        // What falls and rises again, even beyond its start, does not grow towards a collapse.
+        assert!(!followed(|t| 0.1 + (t - 1.0) * (t - 1.0)).is_growing());
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use crate::case::Case;
 use crate::output::run_directory::{
     FLUID_HISTORY, FLUID_SUMMARY, HISTORY, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY,
 };
@@ -15,9 +16,11 @@ use crate::run::record::{equivalent_load, two_collapses};
 
 /// Joins the histories and the parts of the summary.
 ///
+/// - `case`: of which the run was; it warns of what is probably not meant.
 /// - `failure`: what the run ended with, as far as whoever concludes knows.
 pub fn conclude(
     directory: &RunDirectory,
+    case: &Case,
     failure: Option<&RunError>,
 ) -> Result<Map<String, Value>, RunError> {
     let differing = join_histories(directory.path(), &[FLUID_HISTORY, SOLID_HISTORY], Join::Copy)?;
@@ -56,7 +59,8 @@ pub fn conclude(
     for warning in &warnings {
         tracing::warn!("{warning}");
     }
-    whole.insert("warnings".to_owned(), json!(warnings));
+    let of_start = case.warnings().into_iter();
+    whole.insert("warnings".to_owned(), of_start.chain(warnings).collect());
     put_answer(directory.path(), &mut whole);
     summary::write(directory, SUMMARY, &whole)?;
     if completed {
@@ -211,7 +215,9 @@ fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> 
 }
 
 /// What a run says when it has ended: the answer, what is to be distrusted, where it lies.
-pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
+///
+/// - `case`: what it warned of was said at the start.
+pub fn closing_words(whole: &Map<String, Value>, case: &Case, directory: &Path) -> String {
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
     let mut words = vec![format!(
         "done: {} steps in {:.1} s",
@@ -224,7 +230,9 @@ pub fn closing_words(whole: &Map<String, Value>, directory: &Path) -> String {
     };
     words.extend(texts("answer"));
     words.extend(whole.get("look_next").and_then(Value::as_str).map(str::to_owned));
-    words.extend(texts("warnings").iter().map(|warning| format!("warning: {warning}")));
+    let said = case.warnings();
+    let of_end = texts("warnings").into_iter().filter(|warning| !said.contains(warning));
+    words.extend(of_end.map(|warning| format!("warning: {warning}")));
     words.push(format!("see {}", directory.display()));
     words.join("\n")
 }

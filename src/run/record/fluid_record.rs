@@ -62,6 +62,8 @@ struct Seen {
     largest_thin_volume: f64,
     /// Ambient pressure times the gas's initial volume, J/rad (planar: J/m): what a collapse sets free.
     collapse_energy: f64,
+    /// The gas's initial volume, m³.
+    first_volume: f64,
     cuts: BubbleCuts,
     film: ThinnestFilm,
 }
@@ -139,6 +141,7 @@ impl FluidRecord {
                 collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
                     fluid.initial.ambient.pressure * solver.bubble().volume / case.geometry.turn()
                 }),
+                first_volume: solver.bubble().volume,
                 cuts,
                 ..Seen::default()
             },
@@ -181,6 +184,10 @@ impl FluidRecord {
         self.seen.last_bubble = bubble;
         self.seen.largest_thin_volume = self.seen.largest_thin_volume.max(bubble.thin_volume);
         let peaks = &mut self.seen.peaks;
+        if self.cells_per_radius.is_some() && self.seen.collapse.is_growing() {
+            // What a bubble pushes away in its growth is no jet.
+            peaks.jet = [0.0; 2];
+        }
         for (peak, value) in [
             (&mut peaks.wall, wall.axis),
             (&mut peaks.wall_anywhere, wall.anywhere),
@@ -284,6 +291,10 @@ impl Record for FluidRecord {
         let with_wall = self.interface.is_some();
         let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
         let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
+        // A bubble that grows first has more to set free than at the start.
+        let grows =
+            largest.map_or(1.0, |largest| largest.volume / self.seen.first_volume.max(f64::MIN_POSITIVE));
+        let collapse_energy = self.seen.collapse_energy * grows.max(1.0);
         let mut map = entries(json!({
             "collapse_time": collapse.map(|c| c.time),
             "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),
@@ -301,7 +312,7 @@ impl Record for FluidRecord {
             "wall_pressure_peak_anywhere_time": peak_time(self.seen.peaks.wall_anywhere),
             "jet_velocity_peak": self.seen.peaks.jet[0],
             "jet_velocity_peak_time": self.seen.peaks.jet[1],
-            "fixups": fixups::summary(solver.fixups(), self.seen.collapse_energy),
+            "fixups": fixups::summary(solver.fixups(), collapse_energy),
         }));
         map.extend(self.seen.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
         map.extend(self.seen.film.summary());

@@ -236,8 +236,7 @@ impl SolidRecord {
                 let clock = solver.clock();
                 let middle = clock.middle(solver.group_of_face(self.faces.nearest(r)));
                 [row[1], row[3]] = probe.star.at([velocity, stress], middle, time);
-                // No shear is passed to the fluid.
-                row[4] = 0.0;
+                row[4] = self.faces.at(r, |k| solver.interface().states()[k].shear);
             }
             history.push(probe.series, &row)?;
         }

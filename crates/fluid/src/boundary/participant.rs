@@ -166,22 +166,31 @@ impl<const N: usize> FluidSolver<N> {
         v_r.fill(0.0);
         terms.predict(&block, [v_z, v_r], works);
         std::array::from_fn(|j| {
-            let k = Padded::<N>::index(0, j as isize);
-            let [w, d_z, d_r] = [&*cells, s_z, s_r].map(|rows| at(&rows.split(), k));
-            let bound = self.mixture().bound_beta1::<true>(self.gas_share(cells, k));
-            let (state, _) = Prediction::<true>::new(
-                w,
-                d_z,
-                d_r,
+            let first = Padded::<N>::index(0, j as isize);
+            let [(w, own), (behind, other)] = [first, first + 1].map(|k| {
+                let [w, d_z, d_r] = [&*cells, s_z, s_r].map(|rows| at(&rows.split(), k));
+                let bound = self.mixture().bound_beta1::<true>(self.gas_share(cells, k));
+                let (state, _) = Prediction::<true>::new(
+                    w,
+                    d_z,
+                    d_r,
+                    inverse_h,
+                    inverse_r[k],
+                    0.5 * ctx.dt,
+                    bound,
+                    self.mixture(),
+                )
+                .half_step();
+                (w, state[V_R] - wall[j].tangential_velocity)
+            });
+            terms.wall_shear(WallCell {
+                density: w[RHO],
+                phi: [w[PHI], behind[PHI]],
+                by_waves: [own, other],
+                slip: own + half.component(V_R)[first],
+                dt: ctx.dt,
                 inverse_h,
-                inverse_r[k],
-                0.5 * ctx.dt,
-                bound,
-                self.mixture(),
-            )
-            .half_step();
-            let slip = state[V_R] + half.component(V_R)[k] - wall[j].tangential_velocity;
-            terms.wall_shear(WallCell { density: w[RHO], phi: w[PHI], slip, dt: ctx.dt, inverse_h })
+            })
         })
     }
 

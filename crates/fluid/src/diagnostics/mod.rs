@@ -250,6 +250,9 @@ impl<const N: usize> FluidSolver<N> {
     }
 
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
+    ///
+    /// Slopes are limited along each direction. In the cell's corners both add up, so the sum is kept within the values of the cell and its
+    /// four neighbours: beside a bubble's surface densities would fall below 0.
     pub fn sample(&self, point: [f64; 2]) -> Option<Primitive> {
         let ((slot, i, j), [a, b]) = self.mesh().place_in_cell(point)?;
         let k = Padded::<N>::index(i as isize, j as isize);
@@ -257,7 +260,12 @@ impl<const N: usize> FluidSolver<N> {
             reconstruct(&self.context(0.0), slot, scratch);
             let BlockScratch { cells, s_z, s_r, .. } = scratch;
             Primitive::from_array(std::array::from_fn(|c| {
-                cells.component(c)[k] + a * s_z.component(c)[k] + b * s_r.component(c)[k]
+                let values = cells.component(c);
+                let near = [k - 1, k + 1, k - Padded::<N>::STRIDE, k + Padded::<N>::STRIDE];
+                let near = near.map(|k| values[k]).into_iter();
+                let [low, high] =
+                    near.fold([values[k]; 2], |[low, high], value| [low.min(value), high.max(value)]);
+                (values[k] + a * s_z.component(c)[k] + b * s_r.component(c)[k]).clamp(low, high)
             }))
         }))
     }

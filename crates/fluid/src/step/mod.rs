@@ -64,16 +64,16 @@ struct TileStep<'a, const N: usize> {
     clips: Clips,
 }
 
-/// Begins what spreads in stages in a block, see [`SpreadBlock::begin`].
+/// Begins what spreads in stages in a block of a group, see [`SpreadBlock::begin`].
 pub(crate) fn begin_spreading<const N: usize>(
     ctx: &FluidStep<'_, N>,
-    slot: usize,
+    (slot, group): (usize, &[bool]),
     of: &dyn Spreading,
     scratch: &mut BlockScratch<N>,
 ) -> (SpreadBlock, f64) {
     let mut block = TileStep::assemble(ctx, Tile::one(slot), scratch);
     block.predict(scratch);
-    block.begin_spreading(of, scratch)
+    block.begin_spreading(of, group, scratch)
 }
 
 /// Whether the blocks of a tile are stepped as one: where nothing has a say but their cells' own fluxes.

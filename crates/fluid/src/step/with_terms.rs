@@ -74,6 +74,7 @@ impl<const N: usize> TileStep<'_, N> {
     pub(super) fn begin_spreading(
         &self,
         of: &dyn Spreading,
+        group: &[bool],
         scratch: &mut BlockScratch<N>,
     ) -> (SpreadBlock, f64) {
         let BlockScratch { cells, half, inverse_r, face_weight, inverse_weight, capillary, .. } = scratch;
@@ -81,7 +82,7 @@ impl<const N: usize> TileStep<'_, N> {
         let metric = self.metric(face_weight, inverse_weight);
         let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
         let block = self.term_block(&metric, inverse_r, [half.split(), cells.split()], more);
-        SpreadBlock::begin(self.slot, of, &block, spread_work)
+        SpreadBlock::begin(self.slot, of, &block, (self.ctx.mesh, group), spread_work)
     }
 
     /// What terms add to fluxes and cells.

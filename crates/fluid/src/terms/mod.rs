@@ -135,9 +135,11 @@ pub(crate) fn for_cells_without_mid_step(block: &TermBlock<'_>, mut visit: impl 
 pub(crate) struct WallCell {
     /// kg/m³.
     pub density: f64,
-    /// Gas fraction.
-    pub phi: f64,
-    /// Its velocity along the wall relative to the wall's own, at mid-step, m/s.
+    /// Gas fraction, and that of the cell behind it.
+    pub phi: [f64; 2],
+    /// The velocities of both along the wall relative to the wall's own, at mid-step as waves alone make them, m/s.
+    pub by_waves: [f64; 2],
+    /// The first one with terms.
     pub slip: f64,
     /// The step, s.
     pub dt: f64,

@@ -4,8 +4,14 @@
 //! alone make at mid-step: their mean over the step is the step's to second order. What they leave is the mean flux through each
 //! face ([`Spread`]), which the blocks' steps take in the place of their own. So flux registers, ledgers and the first-order repeats need not
 //! know of them, and what leaves one cell enters the other.
+//!
+//! Blocks of two levels that step together are in stages together (`levels.rs`). Where levels have steps of their own, ghosts towards the other one
+//! are fixed during the stages. That is right as long as what spreads does not get through the block: beyond that it would give or take in a step
+//! what its neighbour cannot, and the register puts the difference into its outermost cells, which grows from step to step. So then no more passes
+//! than one step is stable with.
 
 mod block;
+mod levels;
 mod rkl2;
 mod stages;
 mod view;
@@ -65,6 +71,16 @@ pub(crate) trait Spreading: Sync {
     /// - `work`: to work in; `kept`: gets the constants and the variables.
     /// - returns: no less than the largest rate at which anything decays in it, 1/s.
     fn begin(&self, block: &TermBlock<'_>, work: &mut Vec<f64>, kept: [&mut [f64]; 2]) -> f64;
+
+    /// Whether the fluxes through a side of the domain are that side's own, which stages must not find.
+    fn is_given(&self, _kind: Boundary) -> bool {
+        false
+    }
+
+    /// The fluxes that the states at mid-step have and one step is stable with.
+    ///
+    /// - `work`: to work in; `fluxes`: gets them, row after row.
+    fn bounded(&self, block: &TermBlock<'_>, work: &mut Vec<f64>, fluxes: &mut [f64]);
 
     /// The fluxes of these variables; their ghosts beyond the domain it may set.
     fn conduct(&self, frame: &Frame, constants: &[f64], values: &mut [f64], fluxes: &mut [f64]);

@@ -108,8 +108,11 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     }
 
     /// The base, no coarser than `coarsest`, with which a second of time takes the least work: how many blocks each level has and how
-    /// long their steps may be decides. The finest level, which is one step for all, where nothing is saved.
+    /// long their steps may be decides. One step for all where nothing is saved, and where blocks prepare their steps together.
     pub fn cheapest_base(&self, cfl: f64, coarsest: u8) -> u8 {
+        if self.model.prepares() {
+            return u8::MAX;
+        }
         let levels: Vec<(usize, f64)> = self
             .levels()
             .map(|level| (self.limits[usize::from(level)].blocks, self.limit_of(level, cfl)))

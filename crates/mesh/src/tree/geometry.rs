@@ -41,6 +41,16 @@ impl Side {
     /// All four, in the order in which ghosts beyond them are filled: r first, the z sides then complete the corners.
     pub const FOR_GHOSTS: [Self; 4] = [Self::RMin, Self::RMax, Self::ZMin, Self::ZMax];
 
+    /// The side across.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::ZMin => Self::ZMax,
+            Self::ZMax => Self::ZMin,
+            Self::RMin => Self::RMax,
+            Self::RMax => Self::RMin,
+        }
+    }
+
     /// The axis that crosses it: 0 z, 1 r.
     pub fn axis_across(self) -> usize {
         usize::from(matches!(self, Self::RMin | Self::RMax))

@@ -3,12 +3,23 @@
 use super::ConductionTerm;
 use super::caloric::CellHeat;
 use super::faces::{Work, conduct};
+use crate::state::primitive::RHO;
 use crate::terms::super_stepping::{Frame, Shape, Spreading, View};
 use crate::terms::{TermBlock, for_cells_without_mid_step};
 
 impl ConductionTerm {
     /// The axes of the rows of fluxes.
     pub(super) const AXES: [usize; 2] = [0, 1];
+
+    /// Takes the temperatures at mid-step as waves alone make them, of cells that have none those before.
+    fn take_temperatures(&self, block: &TermBlock<'_>, work: &mut Work<'_>) {
+        self.gather(&block.state, block, work);
+        for_cells_without_mid_step(block, |k| {
+            let heat: CellHeat = self.heat_in(&block.before, block, k);
+            work.set(k, heat);
+        });
+        Work::set_beyond(block, work.temperature);
+    }
 }
 
 impl Spreading for ConductionTerm {
@@ -32,12 +43,7 @@ impl Spreading for ConductionTerm {
     fn begin(&self, block: &TermBlock<'_>, work: &mut Vec<f64>, kept: [&mut [f64]; 2]) -> f64 {
         let [constants, values] = kept;
         let mut work = Work::of(work, block);
-        self.gather(&block.state, block, &mut work);
-        for_cells_without_mid_step(block, |k| {
-            let heat: CellHeat = self.heat_in(&block.before, block, k);
-            work.set(k, heat);
-        });
-        Work::set_beyond(block, work.temperature);
+        self.take_temperatures(block, &mut work);
         self.conductances(block, &mut work, false);
         let Work { temperature, capacity, conductances: [g_z, g_r], .. } = work;
         values.copy_from_slice(temperature);
@@ -57,6 +63,15 @@ impl Spreading for ConductionTerm {
             }
         }
         fastest
+    }
+
+    fn bounded(&self, block: &TermBlock<'_>, work: &mut Vec<f64>, fluxes: &mut [f64]) {
+        let mut work = Work::of(work, block);
+        self.take_temperatures(block, &mut work);
+        self.conductances(block, &mut work, true);
+        work.conduct(block);
+        let len = block.state[RHO].len();
+        fluxes.chunks_exact_mut(len).zip(work.fluxes).for_each(|(to, from)| to.copy_from_slice(from));
     }
 
     fn conduct(&self, frame: &Frame, constants: &[f64], values: &mut [f64], fluxes: &mut [f64]) {

@@ -1,10 +1,15 @@
 //! A block in stages.
 
-use mesh::{GHOSTS, Mesh, Neighbour, Offset, Padded};
+use mesh::{GHOSTS, Mesh, Neighbour, Offset, Padded, Side};
 
+use super::levels::{Across, Beyond, around, face, follow, matched};
 use super::rkl2::Stage;
 use super::{Frame, Shape, Spreading};
 use crate::terms::TermBlock;
+
+/// The product of step and rate of decay, from which on what passes to levels that step by themselves is no more than what one step is stable
+/// with: some fifty times as much. Below it fixed ghosts serve, and are right to second order; with twice as much they do not.
+const FAR: f64 = 75.0;
 
 /// What stages keep of a block.
 #[derive(Debug)]
@@ -14,6 +19,13 @@ pub(crate) struct SpreadBlock {
     /// The numbers of the blocks around it that are in stages, too.
     around: [Option<usize>; 8],
     constants: Vec<f64>,
+    /// Blocks of other levels that are in stages, too; and the corners beyond which others are.
+    across: Vec<Across>,
+    corners: Vec<Offset>,
+    /// The sides with fluxes that stages do not change: towards levels that step by themselves, and where they are the side's own.
+    fixed_sides: Vec<Side>,
+    /// The fluxes through these.
+    fixed: Vec<f64>,
     /// The variables at first; ghosts that no block in stages owns stay what they are here.
     pub(super) start: Vec<f64>,
     /// The variables of the last stage with those of the blocks around, and rates; to work in.
@@ -29,8 +41,15 @@ pub(crate) struct SpreadBlock {
 impl SpreadBlock {
     /// A block of a slot, at mid-step as waves alone make it.
     ///
+    /// - `group`: the slots that step together.
     /// - returns: besides it no less than the largest rate of decay in it, 1/s.
-    pub fn begin(slot: usize, of: &dyn Spreading, block: &TermBlock<'_>, work: &mut Vec<f64>) -> (Self, f64) {
+    pub fn begin<const N: usize>(
+        slot: usize,
+        of: &dyn Spreading,
+        block: &TermBlock<'_>,
+        (mesh, group): (&Mesh<N>, &[bool]),
+        work: &mut Vec<f64>,
+    ) -> (Self, f64) {
         let TermBlock { cells, metric, inverse_r, sides, wall, .. } = *block;
         let frame = Frame {
             cells,
@@ -43,6 +62,21 @@ impl SpreadBlock {
         };
         let mut begun = Self::new(slot, frame, of);
         let fastest = of.begin(block, work, [&mut begun.constants, &mut begun.start]);
+        let neighbours = mesh.tree().neighbours(slot);
+        // Those beyond sides come first, in the sides' order.
+        let is_apart = |side: Side| {
+            let beyond = neighbours[side as usize];
+            // The finer block of a jump has the larger product.
+            let own = if matches!(beyond, Neighbour::Finer(_)) { 2.0 } else { 1.0 };
+            own * metric.dt * fastest > FAR && beyond.slots().any(|slot| !group[slot])
+        };
+        let is_given = |side: Side| sides[side as usize].is_some_and(|kind| of.is_given(kind));
+        begun.fixed_sides =
+            Side::FOR_GHOSTS.into_iter().filter(|side| is_apart(*side) || is_given(*side)).collect();
+        if !begun.fixed_sides.is_empty() {
+            begun.fixed.resize(begun.mean.len(), 0.0);
+            of.bounded(block, work, &mut begun.fixed);
+        }
         (begun, fastest)
     }
 
@@ -55,6 +89,10 @@ impl SpreadBlock {
             slot,
             frame,
             around: [None; 8],
+            across: Vec::new(),
+            corners: Vec::new(),
+            fixed_sides: Vec::new(),
+            fixed: Vec::new(),
             constants: zeros(constants),
             start: zeros(variables),
             cells: zeros(variables),
@@ -72,34 +110,110 @@ impl SpreadBlock {
     pub(super) fn find_around<const N: usize>(
         &mut self,
         mesh: &Mesh<N>,
-        number_of: impl Fn(usize) -> Option<usize>,
+        number_of: impl Fn(usize) -> Option<usize> + Copy,
     ) {
         let neighbours = mesh.tree().neighbours(self.slot);
         self.around = std::array::from_fn(|k| match neighbours[k] {
             Neighbour::Same(slot) => number_of(slot),
             _ => None,
         });
+        let is_fixed = |across: &Across| self.fixed_sides.contains(&across.side);
+        self.across = around(mesh, self.slot, number_of).filter(|across| !is_fixed(across)).collect();
+        let is_other_level = |k: usize| matches!(neighbours[k], Neighbour::Coarser(_) | Neighbour::Finer(_));
+        self.corners = (4..8).filter(|k| is_other_level(*k)).map(|k| Offset::ALL[k]).collect();
     }
 
-    /// Makes a stage: the mean fluxes up to it, and the variables that they leave.
+    /// The blocks of its own level in stages beyond its high sides.
+    pub(super) fn beyond_high_sides(&self) -> impl Iterator<Item = (Side, usize)> {
+        [Side::ZMax, Side::RMax].into_iter().filter_map(|side| Some((side, self.around[side as usize]?)))
+    }
+
+    /// Takes another one's fluxes on the faces of a side that both have: next to a corner beyond which is another level they see different cells.
+    pub(super) fn take_fluxes<const N: usize>(&mut self, of: &dyn Spreading, side: Side, other: &Self) {
+        let Shape { axes, .. } = of.shape();
+        let rows = self.now.chunks_exact_mut(Padded::<N>::LEN).zip(other.now.chunks_exact(Padded::<N>::LEN));
+        for ((own, other), _) in rows.zip(axes).filter(|(_, axis)| **axis == side.axis_across()) {
+            for along in 0..N {
+                own[face::<N>(side, along)] = other[face::<N>(side.opposite(), along)];
+            }
+        }
+    }
+
+    /// Whether it has faces in common with finer blocks in stages.
+    pub(super) fn has_finer(&self) -> bool {
+        self.across.iter().any(|across| matches!(across.blocks, Beyond::Finer(_)))
+    }
+
+    /// Finds the fluxes that the variables of the last stage make.
     ///
-    /// - `last`: the variables of the last stage of all blocks; `number`: of this one; `next`: its variables, written.
-    pub(super) fn stage<const N: usize>(
+    /// - `starts`, `last`: the variables of all blocks at first and in the last stage; `number`: of this one.
+    pub(super) fn conduct<const N: usize>(
         &mut self,
         of: &dyn Spreading,
-        (stage, is_first): (Stage, bool),
-        dt: f64,
-        (last, number): (&[Vec<f64>], usize),
-        next: &mut [f64],
+        [starts, last]: [&[Vec<f64>]; 2],
+        number: usize,
     ) {
-        let Self { frame, around, constants, start, cells, rates, mean, before, first, now, .. } = self;
+        let Self { frame, around, across, corners, fixed_sides, fixed, constants, cells, now, .. } = self;
         cells.copy_from_slice(&last[number]);
         for (offset, other) in Offset::ALL.iter().zip(*around) {
             if let Some(other) = other {
                 copy_ghosts::<N>(cells, &last[other], *offset);
             }
         }
+        for across in &*across {
+            follow::<N>(cells, *across, [starts, last]);
+        }
+        for corner in &*corners {
+            // Only differences along faces look there: it goes with the block's own corner.
+            let beyond = [corner.i, corner.j].map(|step| if step < 0 { -1 } else { N as isize });
+            let inner = beyond.map(|place| place.clamp(0, N as isize - 1));
+            let [to, own] = [beyond, inner].map(|[i, j]| Padded::<N>::index(i, j));
+            for row in (0..cells.len()).step_by(Padded::<N>::LEN) {
+                cells[row + to] += last[number][row + own] - starts[number][row + own];
+            }
+        }
+        for side in &*fixed_sides {
+            // So that along the side, too, cells feel nothing of what is beyond.
+            for row in cells.chunks_exact_mut(Padded::<N>::LEN) {
+                Padded::<N>::reflect(row, *side, 1.0);
+            }
+        }
         of.conduct(frame, constants, cells, now);
+        for side in &*fixed_sides {
+            fix::<N>(now, fixed, of.shape().axes, *side);
+        }
+    }
+
+    /// Takes the fluxes of finer blocks on faces that it has in common with them.
+    ///
+    /// - `blocks`: all in stages; `number`: of the one.
+    pub(super) fn match_levels<const N: usize>(of: &dyn Spreading, blocks: &mut [Self], number: usize) {
+        let Shape { axes, .. } = of.shape();
+        let finer = |across: &Across| match across.blocks {
+            Beyond::Finer(numbers) => Some((across.side, numbers)),
+            Beyond::Coarser { .. } => None,
+        };
+        let places: Vec<(usize, f64)> = (blocks[number].across.iter().filter_map(finer))
+            .flat_map(|(side, numbers)| {
+                let fluxes = |number: usize| &blocks[number].now[..];
+                matched::<N>(side, numbers, axes, fluxes, |number| &blocks[number].frame.inverse_r[..])
+            })
+            .collect();
+        places.into_iter().for_each(|(place, flux)| blocks[number].now[place] = flux);
+    }
+
+    /// Makes a stage with the fluxes that are there: the mean fluxes up to it, and the variables that they leave.
+    ///
+    /// - `start`: the variables at first; `next`: those after it, written.
+    pub(super) fn stage<const N: usize>(
+        &mut self,
+        of: &dyn Spreading,
+        (stage, is_first): (Stage, bool),
+        dt: f64,
+        start: &[f64],
+        next: &mut [f64],
+    ) {
+        let Self { frame, constants, rates, mean, before, first, now, .. } = self;
         if is_first {
             first.copy_from_slice(now);
         }
@@ -117,6 +231,17 @@ impl SpreadBlock {
                 let row = next[k..k + N].iter_mut().zip(&start[k..k + N]).zip(&rates[k..k + N]);
                 row.for_each(|((next, start), rate)| *next = start + dt * rate);
             }
+        }
+    }
+}
+
+/// Puts the fluxes that are fixed through a side among others; `axes`: of their rows.
+fn fix<const N: usize>(fluxes: &mut [f64], fixed: &[f64], axes: &[usize], side: Side) {
+    let len = Padded::<N>::LEN;
+    let rows = fluxes.chunks_exact_mut(len).zip(fixed.chunks_exact(len)).zip(axes);
+    for ((row, fixed), _) in rows.filter(|(_, axis)| **axis == side.axis_across()) {
+        for k in (0..N).map(|along| face::<N>(side, along)) {
+            row[k] = fixed[k];
         }
     }
 }

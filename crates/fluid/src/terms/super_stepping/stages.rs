@@ -1,6 +1,6 @@
 //! All blocks that something spreads in, stage by stage.
 
-use mesh::Mesh;
+use mesh::{Mesh, Side};
 use rayon::prelude::*;
 
 use super::Spreading;
@@ -66,16 +66,30 @@ pub(crate) fn spread_in<const N: usize>(
     for block in &mut blocks {
         block.find_around(mesh, |slot| numbers[slot]);
     }
-    let mut last: Vec<Vec<f64>> = blocks.iter().map(|block| block.start.clone()).collect();
+    let starts: Vec<Vec<f64>> = blocks.iter_mut().map(|block| std::mem::take(&mut block.start)).collect();
+    let mut last = starts.clone();
     let mut next = last.clone();
+    let coarse: Vec<usize> = (0..blocks.len()).filter(|number| blocks[*number].has_finer()).collect();
+    let pairs: Vec<(usize, Side, usize)> = (blocks.iter().enumerate())
+        .flat_map(|(own, block)| block.beyond_high_sides().map(move |(side, other)| (own, side, other)))
+        .collect();
     let count = stages(dt * fastest);
     for number in 1..=count {
         let of_stage = (stage(number, count), number == 1);
-        (blocks.par_iter_mut().zip(&mut next)).enumerate().with_min_len(BLOCKS_AT_ONCE).for_each(
-            |(own, (block, next))| {
-                block.stage::<N>(of, of_stage, dt, (&last, own), next);
-            },
-        );
+        blocks.par_iter_mut().enumerate().with_min_len(BLOCKS_AT_ONCE).for_each(|(own, block)| {
+            block.conduct::<N>(of, [&starts, &last], own);
+        });
+        for &(own, side, other) in &pairs {
+            // A block beyond both sides of a periodic domain may be the same.
+            if let Ok([own, other]) = blocks.get_disjoint_mut([own, other]) {
+                own.take_fluxes::<N>(of, side, other);
+            }
+        }
+        coarse.iter().for_each(|number| SpreadBlock::match_levels::<N>(of, &mut blocks, *number));
+        let places = blocks.par_iter_mut().zip(&mut next).zip(&starts);
+        places.with_min_len(BLOCKS_AT_ONCE).for_each(|((block, next), start)| {
+            block.stage::<N>(of, of_stage, dt, start, next);
+        });
         std::mem::swap(&mut last, &mut next);
     }
     spread.of[of.shape().kind] = SpreadOf { numbers, blocks };

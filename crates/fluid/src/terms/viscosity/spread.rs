@@ -3,10 +3,13 @@
 use super::layered::{SHEET, take_for_layers};
 use super::stress::{FaceStress, Motion, Parts, stresses};
 use super::velocities::{Sides, Velocities};
-use super::{PhaseViscosity, Viscosity, longitudinal, mirror_beyond_sides, spared_dilatation};
+use super::{
+    PhaseViscosity, Stresses, Viscosity, beside_wall, longitudinal, mirror_beyond_sides, spared_dilatation,
+};
+use crate::Boundary;
 use crate::state::primitive::{PHI, RHO};
 use crate::terms::super_stepping::{Frame, Shape, Spreading, View};
-use crate::terms::{TermBlock, for_cells_without_mid_step};
+use crate::terms::{TermBlock, WallCell, for_cells_without_mid_step};
 
 impl Viscosity {
     /// The axes of the rows of stresses: τ_zz and τ_zr along z; τ_rr, τ_rz and τ_rr − τ_φφ along r.
@@ -68,6 +71,33 @@ impl Spreading for Viscosity {
             }
         }
         fastest
+    }
+
+    /// Friction on the wall to the solid is what both media agree upon.
+    fn is_given(&self, kind: Boundary) -> bool {
+        kind == Boundary::Interface
+    }
+
+    fn bounded(&self, block: &TermBlock<'_>, work: &mut Vec<f64>, fluxes: &mut [f64]) {
+        let Stresses { velocity: [_, v_r], z, r, .. } = self.stresses(block, work);
+        for k in beside_wall(block).filter(|_| block.wall.is_some()) {
+            // The ghost below goes as the fluid does, the other way about the wall's velocity.
+            let wall = 0.5 * (v_r[k] + v_r[k + 1]);
+            let by_waves = [v_r[k + 1] - wall, v_r[k + 2] - wall];
+            let cell = WallCell {
+                density: block.before[RHO][k + 1],
+                phi: [block.before[PHI][k + 1], block.before[PHI][k + 2]],
+                by_waves,
+                slip: by_waves[0],
+                dt: block.metric.dt,
+                inverse_h: block.metric.inverse_h,
+            };
+            // Across that wall passes its pressure alone.
+            (z.normal[k], z.shear[k]) = (0.0, self.wall_shear_in_stages(cell));
+        }
+        let rows = [z.normal, z.shear, r.normal, r.shear, r.hoop];
+        let len = block.state[RHO].len();
+        fluxes.chunks_exact_mut(len).zip(rows).for_each(|(to, from)| to.copy_from_slice(from));
     }
 
     fn conduct(&self, frame: &Frame, constants: &[f64], values: &mut [f64], fluxes: &mut [f64]) {

@@ -1,0 +1,145 @@
+//! Numbers that a unit was taken wrong in, and states that change at once.
+
+use fluid::{Mixture, Phase, Saturation, Shape};
+
+use super::format::si;
+use super::{FluidCase, SolidCase};
+
+/// Sound in a liquid or a solid that is slower or faster comes from a wrong unit, m/s.
+const SOUND: [f64; 2] = [50.0, 2e4];
+/// The yield strength of a solid over its Young's modulus; pure metals have 1e-4 and more.
+const YIELD: [f64; 2] = [1e-6, 0.3];
+/// Pressures of vapour that differ by such a factor do not stay.
+const FAR_FROM_EQUILIBRIUM: f64 = 10.0;
+/// What surface tension adds to the gas's pressure, as a share of that, above which conduction and phase change feel that they do not know of it.
+const FELT: f64 = 0.01;
+
+/// What of the fluid's numbers is probably not meant.
+pub(super) fn fluid(fluid: &FluidCase, warnings: &mut Vec<String>) {
+    let ambient = &fluid.initial.ambient;
+    let sound = fluid.eos(ambient).sound_speed(ambient.density, ambient.pressure);
+    if ambient.phase == Phase::Liquid && !(SOUND[0]..=SOUND[1]).contains(&sound) {
+        warnings.push(format!(
+            "fluid.ambient: sound runs at {sound:.3e} m/s in a liquid of {:?} kg/m3 (1480 m/s in water): look at its density, and at gamma and \
+             pi of fluid.liquid",
+            ambient.density
+        ));
+    }
+    let balls = fluid.initial.regions.iter().enumerate().filter_map(|(number, region)| match region.shape {
+        Shape::Sphere { centre, radius } if region.state.phase == Phase::Gas => {
+            Some((number, centre, radius, region.state.pressure))
+        }
+        _ => None,
+    });
+    for (number, [z, r], radius, pressure) in balls {
+        let farthest = |at: f64, [low, high]: [f64; 2]| (at - low).abs().max((at - high).abs());
+        let corner = farthest(z, fluid.grid.z).hypot(farthest(r, fluid.grid.r));
+        if radius >= corner {
+            warnings.push(format!(
+                "fluid.region.{number}: a radius of {} holds all of the fluid, of which no liquid is left: is it in m?",
+                si(radius, "m")
+            ));
+        }
+        thermal(fluid, (number, radius, pressure), warnings);
+    }
+}
+
+/// What a bubble's gas does at once by itself, or should not.
+fn thermal(fluid: &FluidCase, (number, radius, pressure): (usize, f64, f64), warnings: &mut Vec<String>) {
+    let (ambient, terms) = (&fluid.initial.ambient, &fluid.terms);
+    if let Some(tension) = terms.surface_tension
+        && (terms.conduction.is_some() || terms.phase_change.is_some())
+    {
+        let rise = 2.0 * tension / radius;
+        if rise > FELT * pressure {
+            let what = if terms.conduction.is_some() { "conduction" } else { "phase_change" };
+            warnings.push(format!(
+                "fluid.region.{number}: surface tension raises the pressure of its gas by {}, {:.0} % of it, and fluid.terms.{what} takes the gas \
+                 of mixed cells to be without: heat and vapour pass where nothing should, the less the more cells it has",
+                si(rise, "Pa"),
+                100.0 * rise / pressure
+            ));
+        }
+    }
+    let Some(change) = &terms.phase_change else { return };
+    let Some(saturation) = Saturation::of(&Mixture::new(fluid.liquid, fluid.gas)) else { return };
+    let vapour = change.vapour_fraction * pressure;
+    let temperature = fluid.liquid.temperature(ambient.density, ambient.pressure).unwrap_or(f64::NAN);
+    let saturated = saturation.pressure(temperature);
+    let ratio = saturated / vapour;
+    if ambient.phase == Phase::Liquid
+        && vapour > 0.0
+        && !(1.0 / FAR_FROM_EQUILIBRIUM..=FAR_FROM_EQUILIBRIUM).contains(&ratio)
+    {
+        let (does, room) = (
+            if ratio > 1.0 { "liquid evaporates into it at once" } else { "it condenses at once" },
+            fluid.liquid.density_at(ambient.pressure, 293.15).unwrap_or(f64::NAN),
+        );
+        warnings.push(format!(
+            "fluid.region.{number} begins with vapour of {}, and liquid of {temperature:.1} K has saturated vapour of {}: {does}; at 293.15 K \
+             fluid.ambient.density is {room:.2} kg/m3",
+            si(vapour, "Pa"),
+            si(saturated, "Pa"),
+        ));
+    }
+}
+
+/// What of the solid's numbers is probably not meant.
+pub(super) fn solid(solid: &SolidCase, warnings: &mut Vec<String>) {
+    let material = &solid.material;
+    if !(SOUND[0]..=SOUND[1]).contains(&material.c1()) {
+        warnings.push(format!(
+            "solid.material: sound runs at {:.3e} m/s in it (5900 m/s in steel): are its moduli in Pa, and its density in kg/m3?",
+            material.c1()
+        ));
+    }
+    let law = solid.plasticity.as_ref();
+    let strength = law.map_or(material.yield_strength(), |law| Some(law.yield_stress(0.0, 0.0, 0.0)));
+    let share = strength.map(|strength| (strength, strength / material.young()));
+    if let Some((strength, share)) = share.filter(|(_, share)| !(YIELD[0]..=YIELD[1]).contains(share)) {
+        warnings.push(format!(
+            "solid: a yield strength of {} is {share:.1e} of Young's modulus, {}: is it in Pa?",
+            si(strength, "Pa"),
+            si(material.young(), "Pa")
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+
+    fn warnings(sets: &[&str]) -> Vec<String> {
+        let text = "[time]\nend = 1e-7\n[fluid]\nz = [0.0, 4e-3]\nr = [0.0, 4e-3]\ncells = [64, 64]\n\
+                    [fluid.liquid]\nfluid = \"water-nasg\"\n[fluid.gas]\nfluid = \"water-vapour\"\n\
+                    [fluid.ambient]\ndensity = 1061.0\npressure = 1e5\n\
+                    [[fluid.region]]\nphase = \"gas\"\nshape = \"sphere\"\ncentre = [1.5e-3, 0.0]\nradius = 1e-3\ndensity = 0.0173\npressure = 2340.0\n\
+                    [solid]\nz = [-4e-3, 0.0]\nr = [0.0, 4e-3]\ncells = [64, 64]\nmaterial = \"structural-steel\"\n\
+                    [solid.plasticity]\nlaw = \"perfect\"\nyield_strength = 2.5e8\n";
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        Case::from_toml(text, "units", &sets).unwrap_or_else(|errors| panic!("{errors}")).warnings()
+    }
+
+    #[test]
+    fn wrong_units_are_warned_of() {
+        let boils = "fluid.terms.phase_change={law=\"ptg\"}";
+        for sets in [&[][..], &[boils], &["fluid.terms.surface_tension=0.07"]] {
+            assert_eq!(warnings(sets), Vec::<String>::new(), "{sets:?}");
+        }
+        for (sets, words) in [
+            (&["fluid.ambient.density=2.0"][..], "sound runs at 3."),
+            (&["fluid.region.0.radius=1.0"], "no liquid is left"),
+            (&["solid.plasticity.yield_strength=90.0"], "a yield strength of 90 Pa is 4."),
+            (&["solid.material={density=7850.0,young=210.0,poisson=0.3,name=\"soft\"}"], "5900 m/s in steel"),
+            (&[boils, "fluid.ambient.density=1000.0"], "liquid evaporates into it at once"),
+            (&[boils, "fluid.region.0.pressure=5e4"], "it condenses at once"),
+            (
+                &[boils, "fluid.terms.surface_tension=0.07", "fluid.region.0.radius=4e-4"],
+                "raises the pressure of its gas by 350 Pa, 15 % of it",
+            ),
+        ] {
+            let told = warnings(sets);
+            assert!(told.iter().any(|told| told.contains(words)), "{sets:?}: {told:?}");
+        }
+    }
+}
