@@ -5,7 +5,7 @@ The sides of every cell are those of the finest cell times a power of two.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,22 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Box = tuple[float, float, float, float]
 """z from, z to, r from, r to, m"""
+
+
+class Linear(NamedTuple):
+    """A field that is linear within cells: what `Mesh.linear` returns of some of them."""
+
+    slope: Floats
+    """d/dz, d/dr, shape (cells, 2)"""
+    low: Floats
+    """Least value of the cell and of its neighbours, shape (cells,); −∞ without bounds"""
+    high: Floats
+    """Largest one, likewise"""
+
+    def at(self, values: Floats, z: Floats, r: Floats, own: Any = slice(None)) -> Floats:
+        """The field at the distances `z` and `r` from the centres of the cells `own`, whose means are `values`."""
+        found = values + z * self.slope[own][..., 0] + r * self.slope[own][..., 1]
+        return np.asarray(np.clip(found, self.low[own], self.high[own]))
 
 
 class Mesh:
@@ -71,15 +87,26 @@ class Mesh:
         neighbours, two to a side so that two finer ones count alike. Beyond r = 0 lies the field's mirror image: itself
         with `parity` 1, its negative with -1.
         """
-        cells = np.arange(len(self)) if cells is None else np.asarray(cells)
-        result = np.empty((len(cells), 2))
-        for start in range(0, len(cells), CHUNK):
-            result[start : start + CHUNK] = self._gradient(values, parity, cells[start : start + CHUNK])
-        return result
+        return self.linear(values, parity, cells).slope
 
-    def _gradient(self, values: Floats, parity: int, cells: Ints) -> Floats:
+    def linear(self, values: Floats, parity: int = 1, cells: Any = None, bounded: bool = True) -> Linear:
+        """The field linear within `cells` (default: all), with the slopes of `gradient`.
+
+        - `bounded`: no further than the values of the cell and its neighbours. Beside gas a liquid would else have densities and
+          pressures below those of any cell, and below 0. A linear field stays itself, but for the outer half of cells at a side of
+          the domain, where there is no neighbour. `False` for components of vectors and of stresses, which have either sign.
+        """
+        cells = np.arange(len(self)) if cells is None else np.asarray(cells)
+        slope, (low, high) = np.empty((len(cells), 2)), np.empty((2, len(cells)))
+        for start in range(0, len(cells), CHUNK):
+            part = slice(start, start + CHUNK)
+            slope[part], low[part], high[part] = self._linear(values, parity, cells[part])
+        return Linear(slope, low, high) if bounded else Linear(slope, np.full(len(cells), -np.inf), np.full(len(cells), np.inf))
+
+    def _linear(self, values: Floats, parity: int, cells: Ints) -> Linear:
         centre, width, own = self.centre(cells), self.width(cells), values[cells]
         zz, zr, rr, z, r = np.zeros((5, len(cells)))
+        low, high = own, own
         for axis, side, across in [(a, s, c) for a in (0, 1) for s in (-1, 1) for c in (-1, 1)]:
             point = centre.copy()
             point[:, axis] += side * 0.5 * (width + self.finest)[:, axis]
@@ -90,22 +117,28 @@ class Mesh:
             to = self.centre(other)
             to[beyond, 1] *= -1.0
             step = np.where(other >= 0, (to - centre).T, 0.0)
-            change = np.where(other >= 0, np.where(beyond, parity, 1) * values[other] - own, 0.0)
+            there = np.where(other >= 0, np.where(beyond, parity, 1) * values[other], own)
+            change = there - own
+            low, high = np.minimum(low, there), np.maximum(high, there)
             zz, zr, rr = zz + step[0] * step[0], zr + step[0] * step[1], rr + step[1] * step[1]
             z, r = z + step[0] * change, r + step[1] * change
         determinant = np.maximum(zz * rr - zr * zr, np.finfo(float).tiny)
-        return np.column_stack([(rr * z - zr * r) / determinant, (zz * r - zr * z) / determinant])
+        slope = np.column_stack([(rr * z - zr * r) / determinant, (zz * r - zr * z) / determinant])
+        return Linear(slope, low, high)
 
-    def sample(self, values: Floats, points: Floats, parity: int = 1) -> Floats:
-        """Values at points (z, r), linear within each cell; mirrored beyond r = 0 (see gradient); NaN outside."""
+    def sample(self, values: Floats, points: Floats, parity: int = 1, bounded: bool = True) -> Floats:
+        """Values at points (z, r), linear within each cell; mirrored beyond r = 0 (see `gradient`); NaN outside.
+
+        - `bounded`: no further than the values of the cell and its neighbours, see `linear`. Give `False` for components.
+        """
         sign = np.where(points[:, 1] < 0.0, parity, 1)
         points = np.column_stack([points[:, 0], np.abs(points[:, 1])])
         cells = self.locate(points)
         inside = np.flatnonzero(cells >= 0)
         at = cells[inside]
         result = np.full(len(points), np.nan)
-        slope = self.gradient(values, parity, at)
-        result[inside] = sign[inside] * (values[at] + ((points[inside] - self.centre(at)) * slope).sum(1))
+        off = points[inside] - self.centre(at)
+        result[inside] = sign[inside] * self.linear(values, parity, at, bounded).at(values[at], off[:, 0], off[:, 1])
         return result
 
 
@@ -148,13 +181,13 @@ class Raster:
         self.pixel_of_narrow = pixel[:, 0] * self.shape[1] + pixel[:, 1]
         self.share = 0.25 ** up[here]
 
-    def paint(self, values: Floats, slope: Floats | None = None) -> Floats:
-        """The values as an image: rows along r, columns along z. With `slope` = mesh.gradient(values), pixels within a
+    def paint(self, values: Floats, linear: Linear | None = None) -> Floats:
+        """The values as an image: rows along r, columns along z. With `linear` = mesh.linear(values), pixels within a
         cell follow it."""
         image = np.where(self.cell >= 0, values[self.cell].astype(float), np.nan)
-        if slope is not None:
-            at, here = self.mesh.centre(self.cell.ravel()).reshape(*self.shape, 2), slope[self.cell]
-            image += (self.z[:, None] - at[..., 0]) * here[..., 0] + (self.r[None, :] - at[..., 1]) * here[..., 1]
+        if linear is not None:
+            centre = self.mesh.centre(self.cell.ravel()).reshape(*self.shape, 2)
+            image = linear.at(image, self.z[:, None] - centre[..., 0], self.r[None, :] - centre[..., 1], self.cell)
         if len(self.narrow):
             count = self.shape[0] * self.shape[1]
             total = np.bincount(self.pixel_of_narrow, self.share * values[self.narrow], count)

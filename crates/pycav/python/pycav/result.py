@@ -241,7 +241,8 @@ class Result:
 
         - `fields`: of the snapshots, as `pressure` and `von_mises`, besides: over `snapshot_time`, `z_fluid` and `r_fluid` (or
           `z_solid`, `r_solid`), named `fluid_pressure` and so on; of vectors the two components.
-        - `spacing`: of their regular grid, m; 128 points along the longer side if left out. Values are linear within each cell.
+        - `spacing`: of their regular grid, m; 128 points along the longer side if left out. Values are linear within each cell, scalars
+          within the range of the cell and its neighbours.
         - `window`: (z_low, z_high, r_high), m.
         """
         from .exchange.dataset import dataset

@@ -129,7 +129,7 @@ def _outline(snapshot: Snapshot, field: str, level: float, box: Box, mirrored: b
     if not values.min() < level < values.max():
         return ""
     raster = Raster(snapshot.mesh, box, 400)
-    image = raster.paint(values, snapshot.mesh.gradient(values)).T
+    image = raster.paint(values, snapshot.mesh.linear(values)).T
     r = raster.r
     if mirrored:  # as a whole, so that it crosses the axis without a kink
         image, r = np.hstack([image[:, ::-1], image]), np.concatenate([-r[::-1], r])

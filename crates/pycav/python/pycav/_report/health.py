@@ -193,7 +193,7 @@ def jumps(result: Result) -> tuple[Floats, Floats, Floats]:
             values = snapshot[name]
             side = 1e-6 * snapshot.mesh.finest[0] * (1 if snapshots is fluid else -1)
             points = np.column_stack([np.full(count, wall + side), r])
-            rows.append(snapshot.mesh.sample(values[:, 0] if values.ndim == 2 else values, points))
+            rows.append(snapshot.mesh.sample(values[:, 0] if values.ndim == 2 else values, points, bounded=False))
         return np.stack(rows)
 
     velocity = np.stack([on_wall(side, "velocity") for side in (fluid, solid)], -1)

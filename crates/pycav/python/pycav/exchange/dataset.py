@@ -69,7 +69,7 @@ def _provenance(result: Result) -> dict[str, Any]:
 
 
 def snapshots(result: Result, fields: Sequence[str], spacing: float | None, window: Window | None) -> xarray.Dataset:
-    """Fields of the snapshots at the middles of a regular grid, linear within each cell of the run."""
+    """Fields of the snapshots at the middles of a regular grid, linear within each cell of the run; scalars are bounded by its neighbours."""
     spacing = None if spacing is None else positive("spacing", spacing, "m")
     if window is not None:
         meshes = [result.snapshots(medium)[0].mesh for medium in result.media]
@@ -113,7 +113,8 @@ def _sampled(series: Snapshots, fields: Sequence[str], spacing: float | None, lo
         mesh = snapshot.mesh
         for name in fields:
             for own, values, parity in _parts(name, snapshot[name]):
-                rows.setdefault(own, []).append(mesh.sample(values, points, parity).reshape(len(z), len(r)))
+                scalar = own == name and not name.startswith("stress_")
+                rows.setdefault(own, []).append(mesh.sample(values, points, parity, bounded=scalar).reshape(len(z), len(r)))
     place = f"z_{series.medium}", f"r_{series.medium}"
     attributes = {name: {"units": "m", "long_name": NAMES[name[0]], "axis": axis} for name, axis in zip(place, ("Y", "X"))}
     variables = {f"{series.medium}_{name}": (("snapshot_time", *place), np.stack(values).astype(np.float32), {

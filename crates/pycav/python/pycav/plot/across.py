@@ -75,13 +75,19 @@ def _stress(figure: Figure, section: Section, axes: Axes, reach: float) -> None:
 PANELS = {"velocity": _velocity, "stress": _stress}
 
 
-def along(snapshot: Snapshot, values: Floats, r: float) -> tuple[Floats, Floats]:
-    """z and a field along z at one distance from the axis, to the very ends of the medium."""
+def along(snapshot: Snapshot, values: Floats, r: float, bounded: bool = False) -> tuple[Floats, Floats]:
+    """z and a field along z at one distance from the axis, to the very ends of the medium.
+
+    `bounded` as of `Mesh.linear`, but for the two ends: they are that side's own state at the wall, with its slope.
+    """
     mesh = snapshot.mesh
     edge = 1e-6 * mesh.finest[0]
     z = np.arange(mesh.low[0] + mesh.finest[0] / 2, mesh.high[0], mesh.finest[0])
     z = np.concatenate([[mesh.low[0] + edge], z, [mesh.high[0] - edge]])
-    return z, mesh.sample(values, np.column_stack([z, np.full_like(z, r)]))
+    points = np.column_stack([z, np.full_like(z, r)])
+    found = mesh.sample(values, points, bounded=bounded)
+    found[[0, -1]] = mesh.sample(values, points[[0, -1]], bounded=False)
+    return z, found
 
 
 def _below(
@@ -97,7 +103,7 @@ def _below(
         snapshot = section.snapshots[medium]
         values = snapshot[name]
         r = 0.25 * float(snapshot.mesh.finest[1])
-        z, found = along(snapshot, values[:, 0] if values.ndim == 2 else values, r)
+        z, found = along(snapshot, values[:, 0] if values.ndim == 2 else values, r, bounded=name == "pressure")
         near = np.abs(z - wall) < reach
         below.plot((z[near] - wall) * scale, factor * found[near], color=colour, label=medium)
     below.axvline(0, color=INK, linewidth=0.6)

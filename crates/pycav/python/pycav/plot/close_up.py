@@ -26,7 +26,7 @@ def close_up(run: Run, time: float | None = None, window: Window | None = None, 
         raise ValueError("there is nothing of a fluid in the window")
     figure, all_axes = section.canvas(2)
     velocity, fraction = snapshot["velocity"][:, 0], snapshot["gas_fraction"]
-    gas = raster.paint(fraction, snapshot.mesh.gradient(fraction))
+    gas = raster.paint(fraction, snapshot.mesh.linear(fraction))
     density, speed = raster.paint(snapshot["density"]), raster.paint(velocity)
     top = max(1.0, float(np.nanpercentile(np.abs(speed), 99.9)))
     signed = SymLogNorm(0.01 * top, linscale=0.5, vmin=-top, vmax=top, base=10)

@@ -62,7 +62,7 @@ def streamlines(
 def velocity_image(raster: Raster, snapshot: Snapshot, axis: int) -> Floats:
     """v_z or v_r, linear within cells."""
     values = snapshot["velocity"][:, axis]
-    return raster.paint(values, snapshot.mesh.gradient(values, (1, -1)[axis]))
+    return raster.paint(values, snapshot.mesh.linear(values, (1, -1)[axis], bounded=False))
 
 
 def _trace(raster: Raster, v_z: Floats, v_r: Floats, density: Floats) -> list[Floats]:
@@ -167,7 +167,7 @@ def advect(series: Snapshots, start: Floats, until: float, substeps: int) -> Flo
         dt = (other.time - one.time) / substeps
 
         def carried(points: Floats, share: float) -> Floats:
-            velocities = [np.column_stack([mesh.sample(v[:, a], points, (1, -1)[a]) for a in (0, 1)])
+            velocities = [np.column_stack([mesh.sample(v[:, a], points, (1, -1)[a], bounded=False) for a in (0, 1)])
                           for mesh, v in ends]
             return np.nan_to_num((1 - share) * velocities[0] + share * velocities[1])
 

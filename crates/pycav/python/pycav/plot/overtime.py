@@ -189,7 +189,7 @@ def _axis(result: Result, reach: float | None) -> Figure:
     rows = np.full((len(times), len(z)), np.nan)
     for snapshots, name, sign in series:
         for step, snapshot in enumerate(snapshots):
-            place, values = along(snapshot, sign * snapshot[name], 0.25 * float(snapshot.mesh.finest[1]))
+            place, values = along(snapshot, sign * snapshot[name], 0.25 * float(snapshot.mesh.finest[1]), bounded=name == "pressure")
             inside = (z > snapshot.mesh.low[0]) & (z < snapshot.mesh.high[0])
             rows[step, inside] = np.interp(z[inside], place, values)
     figure, axes = _panel()

@@ -112,7 +112,7 @@ def _schlieren(section: Section, figure: Figure, axes: Axes, snapshot: Snapshot,
     drawn = _show(section, axes, raster, image, cmap="gray_r", norm=Normalize(strongest - 3.5, strongest))
     if "gas_fraction" in snapshot:
         fraction = snapshot["gas_fraction"]
-        gas = raster.paint(fraction, snapshot.mesh.gradient(fraction))
+        gas = raster.paint(fraction, snapshot.mesh.linear(fraction))
         if np.nanmin(gas) < 0.5 < np.nanmax(gas):
             r = np.concatenate([-raster.r[::-1], raster.r]) if section.mirrored else raster.r
             axes.contour(r, raster.z, section.mirror(gas).T, [0.5], colors=BLUE, linewidths=1.0)

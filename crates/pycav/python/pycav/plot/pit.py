@@ -138,7 +138,7 @@ def _zone(figure: Figure, axes: Axes, section: Section, profile: Profile, down: 
     edges = (raster.low[a] + np.arange(raster.shape[a] + 1) * raster.pixel[a] for a in (1, 0))
     drawn = axes.pcolormesh(*place(*edges), section.mirror(raster.paint(strain)), rasterized=True,
                             **colours(strain if largest is None else np.array([largest])))
-    smooth = section.mirror(raster.paint(strain, snapshot.mesh.gradient(strain)))
+    smooth = section.mirror(raster.paint(strain, snapshot.mesh.linear(strain)))
     for level, _, width in LINES:
         if smooth.min() < level < smooth.max():
             axes.contour(*place(raster.r, raster.z), smooth, [level], colors=INK, linewidths=width)

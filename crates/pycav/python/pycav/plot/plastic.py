@@ -37,7 +37,7 @@ def plastic_strain(run: Run, time: float | None = None, window: Window | None = 
     bar(figure, left, drawn, r"von Mises stress $\sigma_\mathrm{vM}$ / MPa")
     drawn = section.show(right, raster, raster.paint(strain), **colours(strain))
     bar(figure, right, drawn, LABEL, extend="min")
-    smooth = raster.paint(strain, snapshot.mesh.gradient(strain))
+    smooth = raster.paint(strain, snapshot.mesh.linear(strain))
     for level, _, width in LINES:
         section.contour(right, raster, smooth, level, colors=INK, linewidths=width)
     for axes, what in ((left, "Stress"), (right, "Plastic strain")):

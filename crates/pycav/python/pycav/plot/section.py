@@ -147,7 +147,7 @@ class Section:
         raster = self.raster("fluid", MOST // 2) if snapshot is not None and "gas_fraction" in snapshot else None
         if snapshot is not None and raster is not None:
             gas = snapshot["gas_fraction"]
-            image = raster.paint(gas, snapshot.mesh.gradient(gas))
+            image = raster.paint(gas, snapshot.mesh.linear(gas))
             self.contour(axes, raster, image, 0.5, colors=ORANGE, linewidths=0.9)
 
     def levels(self, axes: Axes) -> None:

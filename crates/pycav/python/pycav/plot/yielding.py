@@ -122,4 +122,4 @@ def _images(section: Section) -> tuple[Floats, Floats]:
     raster, snapshot = section.raster("solid"), section.snapshots["solid"]
     assert raster is not None
     stress = snapshot["von_mises"]
-    return raster.paint(stress), raster.paint(stress, snapshot.mesh.gradient(stress))
+    return raster.paint(stress), raster.paint(stress, snapshot.mesh.linear(stress))
