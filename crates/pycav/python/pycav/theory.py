@@ -40,6 +40,10 @@ class Bubble:
     sound_speed: float
     begins_at_rest: bool
     """Whether the liquid begins in the pressure field of Rayleigh's problem instead of a uniform pressure."""
+    gas_stiffness: float = 0.0
+    """π of the gas"""
+    covolume_share: float = 0.0
+    """b ρ of the gas at the start: the share of the bubble that its molecules themselves take"""
 
     @classmethod
     def of(cls, result: Result) -> Bubble | None:
@@ -52,9 +56,11 @@ class Bubble:
         if case.get("geometry") == "planar" or not spheres or ambient.get("phase") == "gas":
             return None
         liquid, gas, bubble = fluid["liquid"], fluid["gas"], spheres[0]
-        c = np.sqrt(liquid["gamma"] * (ambient["pressure"] + liquid["pi"]) / ambient["density"])
-        return cls(bubble["radius"], bubble["pressure"], gas["gamma"], ambient["pressure"], ambient["density"], float(c),
-                   fluid.get("initial_pressure") == "rayleigh")
+        density = ambient["density"]
+        free = 1.0 - liquid.get("covolume", 0.0) * density
+        c = np.sqrt(liquid["gamma"] * (ambient["pressure"] + liquid["pi"]) / (density * free))
+        return cls(bubble["radius"], bubble["pressure"], gas["gamma"], ambient["pressure"], density, float(c),
+                   fluid.get("initial_pressure") == "rayleigh", gas.get("pi", 0.0), gas.get("covolume", 0.0) * bubble["density"])
 
     @property
     def collapse_time(self) -> float:
@@ -70,20 +76,25 @@ class Bubble:
         return self.collapse_time * (1.0 - betainc(5 / 6, 1 / 2, x**3)), self.radius * x
 
     def keller_miksis(self, end: float, points: int = 2000) -> tuple[Floats, Floats]:
-        """Times in s and radii in m up to `end` by the equation of Keller and Miksis (1980), gas p R^(3γ) = const.
+        """Times in s and radii in m up to `end` by the equation of Keller and Miksis (1980).
+
+        The gas goes along its isentrope, (p + π)(V − m b)^γ = const; for an ideal one p R^(3γ) = const.
 
         Where the liquid begins at a uniform pressure, the pressure on the bubble's wall falls to the gas's at once; the
         term R ṗ/(ρc) of the equation then starts the wall with (p_gas − p∞)/(ρc).
         """
-        rho, c, p_inf, k = self.density, self.sound_speed, self.pressure, 3 * self.gas_exponent
+        rho, c, p_inf, taken, stiff = self.density, self.sound_speed, self.pressure, self.covolume_share, self.gas_stiffness
         start = 0.0 if self.begins_at_rest else (self.gas_pressure - p_inf) / (rho * c)
 
         def rate(_: float, y: Floats) -> list[float]:
             # By the logarithm of R/R₀, which no step makes negative.
             radius, speed = self.radius * np.exp(y[0]), y[1]
-            p = self.gas_pressure * np.exp(-k * y[0])
+            volume = np.exp(3 * y[0])  # over the first one
+            stiffened = (self.gas_pressure + stiff) * ((volume - taken) / (1 - taken)) ** -self.gas_exponent
+            p = stiffened - stiff
             mach = speed / c
-            change = -k * p * speed / radius  # of the gas's pressure in time
+            # Of the gas's pressure in time.
+            change = -3 * self.gas_exponent * stiffened * volume / (volume - taken) * speed / radius
             pull = (1 + mach) * (p - p_inf) / rho + radius * change / (rho * c) - 1.5 * (1 - mach / 3) * speed**2
             return [speed / radius, pull / ((1 - mach) * radius)]
 
