@@ -227,6 +227,34 @@ def test_numbers_have_units_of_an_engineer(result):
     assert all(number.around == "" for number in found.values()) and 0 < LIKE < 1
 
 
+def with_summary(result, place, **changes):
+    """A run whose summary says something else."""
+    run = shutil.copytree(result.directory, place)
+    summary = json.loads((run / "summary.json").read_text())
+    (run / "summary.json").write_text(json.dumps(summary | changes))
+    return pycav.open(run)
+
+
+def test_the_smallest_radius_is_a_share_of_the_one_it_collapses_from(result, tmp_path):
+    def note(run):
+        return next(number.note for number in key_numbers(run) if number.label == "Smallest equivalent radius")
+
+    smallest = result.summary["min_equivalent_radius"]
+    assert result.summary["growth_time"] is None and note(result).endswith(f"{smallest / 0.01:.3g} of the first radius")
+    # A laser bubble is smallest with more than it had at the start.
+    grown = with_summary(result, tmp_path / "run", growth_time=1e-5, max_equivalent_radius=0.5, min_equivalent_radius=0.0257)
+    assert note(grown).endswith("0.0514 of the largest radius")
+
+
+@pytest.mark.parametrize(("still", "good", "says"), [
+    (0.005, True, "is at rest at the end: the pit is what stays"), (0.05, True, "is nearly at rest at the end: the pit is what stays"),
+    (0.2, False, "still moves at the end: the pit is not yet what stays")])
+def test_a_report_takes_the_answers_word_on_whether_a_pit_stays(still, good, says, result, tmp_path):
+    """The answer tells of a pit that stays up to a tenth (`ALMOST_STILL`)."""
+    run = with_summary(result, tmp_path / "run", surface_still=still, pit_depth=1e-5, plastic_strain_peak=0.1)
+    assert [(verdict.good, says in verdict.says) for verdict in health(run) if "surface" in verdict.says] == [(good, True)]
+
+
 def test_a_report_tells_what_jumps_at_the_interface(result):
     """Each side's own state at the wall is near the common one of the histories, and nearer to the other side's."""
     r, velocity, pressure = jumps(result)

@@ -10,7 +10,7 @@ import numpy as np
 from .._convergence import study_of
 from ..mesh import Floats
 from .._numbers import percent, rounded, si
-from ..plot.surface import STILL, has_pit
+from ..plot.surface import ALMOST_STILL, STILL, has_pit
 from ..result import Result, Snapshots
 from .scales import RAISED
 
@@ -104,7 +104,8 @@ def _resolution(result: Result) -> Iterable[Verdict]:
 def _still(result: Result) -> Iterable[Verdict]:
     still = result.summary.get("surface_still")
     if still is not None and has_pit(result.summary):
-        yield Verdict(still <= STILL, "The surface is at rest at the end: the pit is what stays." if still <= STILL else
+        rest = "at rest" if still <= STILL else "nearly at rest"
+        yield Verdict(still <= ALMOST_STILL, f"The surface is {rest} at the end: the pit is what stays." if still <= ALMOST_STILL else
                       "The surface still moves at the end: the pit is not yet what stays.", percent(still), "of its depth")
 
 

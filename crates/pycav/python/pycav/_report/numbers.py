@@ -65,11 +65,18 @@ def key_numbers(result: Result) -> Iterable[Number]:
         notes = [f"at {si(float(time), 's')}"] if (time := summary.get(TIMES.get(name, f"{name}_time"))) is not None else []
         if name == "wall_pressure_mean_peak" and summary.get("wall_pressure_mean_time") is not None:
             label += f" over {rounded(float(summary['wall_pressure_mean_time']), 's')}"
-        if name == "min_equivalent_radius" and result.radius:
-            notes.append(f"{value / result.radius:.3g} of the first radius")
+        if name == "min_equivalent_radius" and (share := _of_radius(float(value), result)):
+            notes.append(share)
         around, says = _uncertainty(*study, name, float(value), unit) if study is not None else ("", "")
         is_pit = name == "pit_depth"  # three digits, as the table of the damage has it
         yield Number(label, shown(float(f"{value:.3g}") if is_pit else float(value), unit), around, "; ".join([*notes, *filter(None, [says])]))
+
+
+def _of_radius(smallest: float, result: Result) -> str:
+    """The smallest radius as a share of the one that the collapse begins from: of a bubble that grows first the largest."""
+    largest = result.summary.get("max_equivalent_radius") if result.summary.get("growth_time") is not None else None
+    whole = largest or result.summary.get("initial_equivalent_radius") or result.radius
+    return f"{smallest / whole:.3g} of the {'largest' if largest else 'first'} radius" if whole else ""
 
 
 def _says_nothing(name: str, result: Result) -> bool:

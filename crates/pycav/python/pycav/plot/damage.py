@@ -20,8 +20,9 @@ from ..mesh import Floats
 from .._numbers import number, prefix, rounded
 from ..sweeps.dataset import opened
 from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, legend, part_of, styled, ticks
+from .surface import ALMOST_STILL
 
-STEEP, MOVES = 0.05, 0.1
+STEEP, MOVES = 0.05, ALMOST_STILL
 """Where a pit is marked: depth over radius, and `surface_still`."""
 LINES, MARKS = (BLUE, GREEN, ORANGE, PINK, GREY, INK), "os^Dv."
 PANEL, FIELD, LOW = 2.9, 0.42, 2.3  # inches

@@ -17,13 +17,14 @@ from ..mesh import Floats
 from .._numbers import number, prefix, rounded
 from ..sweeps.dataset import opened
 from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, part_of, styled, ticks
+from .surface import ALMOST_STILL
 
 SHOWN = [
     ("wall_pressure_peak", "wall pressure, largest", "Pa"), ("wall_impulse", "impulse on the wall", "Pa s"),
     ("von_mises_peak", "von Mises stress, largest", "Pa"), ("yielded_volume_peak", "yielded volume", "m$^3$"),
 ]
 LENGTHS = {"pit_depth": "depth of the pit", "pit_radius": "radius at half depth", "pit_rim": "height of the rim"}
-MOVES, STEEP = 0.1, 0.05
+MOVES, STEEP = ALMOST_STILL, 0.05
 """Where a pit's field is marked: `surface_still`, and depth over radius; beyond the latter a run warns, too."""
 UNSURE = 0.5
 """A field is hatched where the uncertainty is more than this share of it."""

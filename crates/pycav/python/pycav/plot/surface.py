@@ -17,7 +17,9 @@ from .._numbers import percent, rounded
 FAR = 0.1
 """Share of the extent in r, the outermost, whose mean level is that far away (docs/reference/output-summary.md, *The surface of the solid*)."""
 STILL = 0.01
-"""Below this `surface_still` the surface is still."""
+"""Up to this `surface_still` the surface is still."""
+ALMOST_STILL = 0.1
+"""Up to this one its depth is that of a pit, as the answer in the summary has it."""
 CARRIED = 16
 """Faces that one cell of the solid carries at most, where the fluid is four levels finer."""
 DISPLACEMENT = "interface/displacement_z"
