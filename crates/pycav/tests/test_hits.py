@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +36,11 @@ def test_a_wall_that_hardens_takes_less_from_every_hit(tmp_path: Path) -> None:
     # Isotropic hardening shakes down: each hit does less work than the one before.
     assert (np.diff(data.plastic_work) < 0).all()
     assert data.plastic_work.units == "J" and data.pit_depth.units == "m"
+    # What it is and where it is from, as a sweep's dataset says it.
+    assert all(variable.attrs["long_name"] for variable in data.variables.values())
+    told = pycav.open(tmp_path / "hit-1").histories.attrs
+    assert data.attrs["case_hash"] == case.hash and data.attrs["load"] == str(tmp_path / "load")
+    assert data.attrs["git_revision"] == told["git_revision"] and data.attrs["program"] == told["program"] and told["program"]
     # What is there is not run again; more hits go on from it.
     times = [Path(place, "summary.json").stat().st_mtime_ns for place in data.directory.values]
     more = pycav.hits(tmp_path / "load", 5, tmp_path)
@@ -59,6 +65,31 @@ def test_what_cannot_be_hit_is_refused(tmp_path: Path) -> None:
         pycav.hits(elastic, 0, tmp_path)
     with pytest.raises(FileNotFoundError, match="no run directory"):
         pycav.hits(tmp_path / "nowhere", 1, tmp_path)
+
+
+@pytest.mark.parametrize(("given", "error", "says"), [
+    ({"n": "3"}, TypeError, "n = '3' is a str: give a whole number"), ({"n": 2.5}, TypeError, "n = 2.5"), ({"n": True}, TypeError, "n = True"),
+    ({"n": 1, "longest": -1.0}, ValueError, "longest = -1"), ({"n": 1, "longest": "1e-5"}, TypeError, "longest = '1e-5' is a str"),
+    ({"n": 1, "threads": 0}, ValueError, "threads = 0")])
+def test_arguments_of_another_kind_are_named(given, error, says, tmp_path: Path) -> None:
+    with pytest.raises(error, match=says):
+        pycav.hits(pycav.Case.from_dict(PULSE), out=tmp_path, **given)
+    assert not list(tmp_path.iterdir()), "nothing is run before"
+
+
+def test_hits_shorter_than_their_load_are_warned_of_and_its_run_is_left_alone(tmp_path: Path) -> None:
+    load = pycav.run(pycav.Case.from_dict(PULSE), tmp_path / "load")
+    with pytest.warns(UserWarning, match="longest = 4e-07 s ends each hit before its load, which was recorded for 5e-06 s"):
+        short = pycav.hits(load, 1, tmp_path / "short", longest=4e-7)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        whole = pycav.hits(load, 1, tmp_path / "whole", longest=6e-6)
+    assert short.plastic_work[0] < 0.9 * whole.plastic_work[0]
+    there = sorted(load.directory.iterdir())
+    for run in (load, load.directory, str(load.directory / ".." / "load")):
+        with pytest.raises(ValueError, match="directory of the run that gives the load"):
+            pycav.hits(run, 1, load.directory)
+    assert sorted(load.directory.iterdir()) == there
 
 
 def test_only_a_finished_run_has_a_load(tmp_path: Path) -> None:

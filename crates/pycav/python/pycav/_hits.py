@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import datetime
+import numbers
 import os
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -11,9 +14,11 @@ import numpy as np
 import xarray
 
 from . import _pycav
+from ._given import count, positive
 from ._run import run
 from .case import Case
 from .result import Result, open_run
+from .sweeps.measures import words
 from .sweeps.work import is_complete
 
 MEASURES = {
@@ -43,18 +48,25 @@ def hits(
     - `out`: a directory; every hit has a run directory of its own in it. What is complete there is not run again, unless the load
       or the hit before has changed since.
     - `solid`: changes of the `[solid]` table for all hits, with the keys of `Case.with_` below it: `{"plasticity.law": "perfect"}`.
-    - `longest`: how long a hit may take to become still, s; without it a hit ends with its record.
+    - `longest`: how long a hit may take to become still, s; without it a hit ends with its record. One shorter than the record cuts
+      the load off, which is warned of.
     - `threads`: of each run. `progress`: called with the number of the hit and its result.
 
     Returns a dataset over `hit` from 1 to n: pit_depth, pit_radius (m), pit_volume (m³), plastic_strain_peak, plastic_work,
-    work_on_solid (J, of the hit), surface_still, directory. Raises `ValueError` for a run without a wall that yields, and for one
-    that has not reached its end.
+    work_on_solid (J, of the hit), surface_still, directory. Variables carry `units` and `long_name`, the dataset version, revision,
+    case of the load, its hash and date. Raises `ValueError` for a run without a wall that yields, for one that has not reached its end,
+    and for an `out` that is the run's own directory.
     """
-    if n < 1:
-        raise ValueError(f"n = {n}: give 1 hit or more")
-    root = Path(out)
+    n = _number_of_hits(n)
+    longest = None if longest is None else positive("longest", longest, "s")
+    threads, root = count("threads", threads), Path(out)
+    if not isinstance(case, Case) and root.resolve() == open_run(case).directory.resolve():
+        raise ValueError(f"out = {root} is the directory of the run that gives the load: the hits need one of their own")
     root.mkdir(parents=True, exist_ok=True)
     loading = _loading(case, root / "load", threads)
+    if longest is not None and longest < (recorded := _recorded(loading)):
+        warnings.warn(f"longest = {longest:g} s ends each hit before its load, which was recorded for {recorded:g} s: "
+                      "what the rest of it does to the wall is missing", stacklevel=2)
     results: list[Result] = []
     for hit in range(1, n + 1):
         place = root / f"hit-{hit:0{len(str(n))}d}"
@@ -66,10 +78,40 @@ def hits(
         if progress is not None:
             progress(hit, results[-1])
     values: dict[str, Any] = {
-        name: ("hit", [_number(result.summary.get(name)) for result in results], {"units": unit})
+        name: ("hit", [_number(result.summary.get(name)) for result in results], {"units": unit, "long_name": _words(name)})
         for name, unit in MEASURES.items()}
-    values["directory"] = ("hit", np.array([str(result.directory) for result in results], dtype=object), {})
-    return xarray.Dataset(values, {"hit": np.arange(1, n + 1)}, {"load": str(loading.directory)})
+    values["directory"] = ("hit", np.array([str(result.directory) for result in results], dtype=object), {"long_name": "directory"})
+    places = ("hit", np.arange(1, n + 1), {"units": "1", "long_name": "number of the hit"})
+    return xarray.Dataset(values, {"hit": places}, _provenance(loading, results[0]))
+
+
+def _number_of_hits(n: Any) -> int:
+    if isinstance(n, bool) or not isinstance(n, numbers.Integral):
+        raise TypeError(f"n = {n!r} is a {type(n).__name__}: give a whole number of hits, 1 or more")
+    if n < 1:
+        raise ValueError(f"n = {n}: give 1 hit or more")
+    return int(n)
+
+
+def _recorded(loading: Result) -> float:
+    """The last time of the load that a run has recorded, s."""
+    times = loading.histories.get("interface/time")
+    return 0.0 if times is None or not len(times) else float(times[-1])
+
+
+def _words(name: str) -> str:
+    return "work of the load on the solid" if name == "work_on_solid" else words(name)
+
+
+def _provenance(loading: Result, first: Result) -> dict[str, Any]:
+    """Where the dataset is from: program and revision of the hits, and the case whose load it is, with its hash; date."""
+    now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds")
+    told = {name: str(first.histories.attrs.get(name, "")) for name in ("program", "git_revision")}
+    return {
+        "Conventions": "CF-1.11", "title": f"hits on the wall of {loading.case.name}", **told, "source": " ".join(told.values()).strip(),
+        "history": f"{now} pycav.hits", "date_created": now, "case_name": loading.case.name, "case_hash": loading.case.hash,
+        "case": loading.case.to_toml(), "load": str(loading.directory),
+    }
 
 
 def _number(value: Any) -> float:
