@@ -192,6 +192,46 @@ def test_histories_show_a_probe_and_where_the_stress_is_largest(small, tmp_path)
     assert lines["below the wall"][-1] == pytest.approx(0.01 - place[0]) and lines["off the axis"][-1] == place[1]
 
 
+WATER = {"z": [0.0, 0.02], "r": [0.0, 0.02], "cells": [8, 8], "levels": 1, "liquid": {"fluid": "water-tait"}, "gas": {"fluid": "air"}}
+PIECE = {"z": [-0.02, 0.0], "r": [0.0, 0.02], "cells": [8, 8], "levels": 1, "material": "aluminium"}
+
+
+def ball(phase, density, pressure, speed=0.0):
+    return [{"shape": "sphere", "centre": [0.006, 0.0], "radius": 0.005, "phase": phase, "density": density, "pressure": pressure,
+             "velocity": [-speed, 0.0]}]
+
+
+def test_histories_have_no_empty_panel_and_no_legend_over_a_curve(tmp_path):
+    """Around a drop the gas's radius is that of the whole domain; a legend at the upper left lay on the peak of an early hit."""
+    ambient = {"phase": "gas", "density": 1.2, "pressure": 1e5}
+    drop = pycav.Case.from_dict({"time": {"end": 1e-5}, "fluid": WATER | {"ambient": ambient, "region": ball("liquid", 998.0, 1e5, 200.0)},
+                                 "solid": PIECE})
+    figure = pycav.plot.histories(pycav.run(drop, tmp_path / "drop"))
+    assert len(figure.axes) == 2 and "eq" not in texts(figure) and "towards the wall" in texts(figure)
+    figure.draw_without_rendering()
+    assert figure.axes[1].get_legend().get_window_extent().y0 >= figure.axes[1].get_window_extent().y1
+
+
+def test_a_jet_without_a_wall_runs_along_the_axis(tmp_path):
+    open_sides = {"z_min": "non-reflecting", "z_max": "non-reflecting"}
+    fluid = WATER | {"z": [-0.02, 0.02], "ambient": {"density": 998.0, "pressure": 5e7}, "region": ball("gas", 5.0, 1e6), "boundary": open_sides}
+    free = pycav.run(pycav.Case.from_dict({"time": {"end": 5e-6}, "fluid": fluid, "coupling": {"scheme": "none"}}), tmp_path / "free")
+    figure = pycav.plot.histories(free)
+    assert len(figure.axes) == 2 and "along $-z$" in texts(figure) and "towards the wall" not in texts(figure)
+    page = pycav.report(free).read_text()
+    assert "along −z" in page and "towards the wall" not in page
+
+
+def test_histories_show_the_pressure_of_a_probe_in_the_fluid(small, tmp_path):
+    probes = [{"name": "wet", "position": [0.012, 0.0], "medium": "fluid"}, {"name": "deep", "position": [0.008, 0.0], "medium": "solid"}]
+    run = pycav.run(small.with_({"probe": probes, "time.snapshots": [], "time.end": 2e-5}), tmp_path / "run")
+    figure = pycav.plot.histories(run, theory=False, probes=["wet", "deep"])
+    lines = {line.get_label(): np.asarray(line.get_ydata()) for axes in figure.axes for line in axes.lines}
+    assert np.array_equal(lines["pressure at wet"], run.probes["wet"]["pressure"]) and "von Mises stress at deep" in lines
+    with pytest.raises(KeyError, match="no probe 'dry'"):
+        pycav.plot.histories(run, probes=["dry"])
+
+
 def test_the_levels_are_those_of_the_cells(result):
     figure = pycav.plot.grid_levels(result, 50e-6, WINDOW)
     for image, medium in zip(images(figure), ("solid", "fluid")):

@@ -151,7 +151,8 @@ def _mean(result: Result, clock: Clock) -> Iterable[Curve]:
 def _jet(result: Result, clocks: dict[str, Clock]) -> Chart:
     has_bubble = float(result.histories.get("bubble/equivalent_radius", np.zeros(1))[0]) > 0
     axial = result.parameters.get("geometry", "axisymmetric") != "planar"
-    wanted = [("bubble/jet_velocity", "towards the wall")] if has_bubble and axial else []
+    where = "towards the wall" if "interface/pressure" in result.histories else "along −z"
+    wanted = [("bubble/jet_velocity", where)] if has_bubble and axial else []
     return Chart("Fastest liquid on the axis", "m/s", [*_given(result, clocks, *wanted)])
 
 

@@ -24,24 +24,25 @@ from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, s
 def histories(
     run: Run, *, theory: bool = True, yield_strength: Sequence[float] = (), probes: Sequence[str] = (), place: bool = False
 ) -> Figure:
-    """The bubble's radius, the jet, the pressure on the wall and the largest von Mises stress over time.
+    """The bubble's radius, the jet, the pressure on the wall and the largest von Mises stress over time; what the run has of them.
 
     - `theory`: Rayleigh's and Keller and Miksis's curves beside the radius. They are of the same bubble without a wall, which
       holds a collapse up.
     - `yield_strength`: lines at these stresses in Pa.
-    - `probes`: names of probes in the solid whose von Mises stress is drawn, too.
+    - `probes`: names of probes that are drawn, too: their von Mises stress in the solid, their pressure in the fluid.
     - `place`: where the largest von Mises stress is, below the wall and off the axis, in a panel of its own.
     """
     result = open_run(run)
     data = result.histories
-    has_bubble = "bubble/equivalent_radius" in data and float(data["bubble/equivalent_radius"][0]) > 0
+    has_gas = "bubble/equivalent_radius" in data and float(data["bubble/equivalent_radius"][0]) > 0
     parts: list[tuple[Callable[[Axes], None], float]] = []
-    if has_bubble:
+    # Around a drop the gas is no bubble, and has no radius of its own.
+    if has_gas and result.parameters.get("fluid", {}).get("ambient", {}).get("phase") != "gas":
         parts.append((lambda axes: _radius(result, axes, theory), 1.4))
-    if has_bubble and result.parameters.get("geometry") != "planar":
+    if has_gas and result.parameters.get("geometry") != "planar":
         parts.append((lambda axes: _jet(result, axes), 1.0))
-    if "interface/pressure" in data or "solid/von_mises_max" in data:
-        parts.append((lambda axes: _loads(result, axes, yield_strength, probes), 1.8))
+    if "interface/pressure" in data or "solid/von_mises_max" in data or probes:
+        parts.append((lambda axes: _loads(result, axes, yield_strength, probes), 2.0))
     if place and "solid/von_mises_max" in data:
         parts.append((lambda axes: _place(result, axes), 1.0))
     if not parts:
@@ -76,7 +77,8 @@ def _jet(result: Result, axes: Axes) -> None:
     data = result.histories
     time, jet = data["time"].to_numpy(), data["bubble/jet_velocity"].to_numpy()
     axes.plot(time, jet, color=GREEN)
-    axes.set_ylabel("fastest liquid on the axis\ntowards the wall / (m s$^{-1}$)", fontsize=8)
+    where = "towards the wall" if "interface/pressure" in data else "along $-z$"
+    axes.set_ylabel(f"fastest liquid on the axis\n{where} / (m s$^{{-1}}$)", fontsize=8)
     axes.axhline(0, color=GREY, linewidth=0.5)
 
 
@@ -96,17 +98,18 @@ def _loads(result: Result, axes: Axes, yield_strength: Sequence[float], probes: 
         largest = max(largest, float(np.nanmax(values)))
     for name in probes:
         probe = result.probes[name]
-        if "von_mises" not in probe:
-            raise ValueError(f"the probe {name!r} is not in the solid and has no von Mises stress")
-        stress = probe["von_mises"]
-        axes.plot(stress["time"], stress, color=GREEN, label=f"von Mises stress at {name}")
+        solid = "von_mises" in probe
+        values, what = probe["von_mises" if solid else "pressure"].to_numpy(), "von Mises stress" if solid else "pressure"
+        axes.plot(probe["time"], values, color=GREEN if solid else INK, label=f"{what} at {name}")
+        largest = max(largest, float(np.nanmax(values)))
     for strength in yield_strength:
         axes.axhline(strength, color=GREY, linewidth=0.6, dashes=(4, 3))
         axes.annotate(f"$Y_0$ = {strength * 1e-6:.0f} MPa", (0.01, strength), xycoords=("axes fraction", "data"), fontsize=7,
                       color="0.35", va="bottom")
         largest = max(largest, strength)
     ticks(axes.yaxis, largest, "stress", "Pa")
-    legend(axes, loc="upper left")
+    # Above the panel: a peak may be anywhere in it.
+    legend(axes, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.2)
 
 
 def _place(result: Result, axes: Axes) -> None:
