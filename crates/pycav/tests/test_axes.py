@@ -45,6 +45,15 @@ def test_values_label_their_axis():
     assert labels(["auto", True, False]) == ["auto", "true", "false"] and labels([SOFT, HARD]) == [0, 1]
 
 
+@pytest.mark.parametrize("name", ["standoff", "stand-off", "StandOff", "fluid.stand_off"])
+def test_a_stand_off_by_another_name_is_told_its_own(name, short, tmp_path):
+    """The case knows no such key and can only tell those that it has, of which none is meant."""
+    with pytest.raises(ValueError, match=f"'{name}' is no key of a case: did you mean 'stand_off'"):
+        pycav.sweep(short, {name: [1.0, 2.0]}, tmp_path)
+    with pytest.raises(TypeError, match="3 is a int"):
+        pycav.sweep(short, {3: [1.0]}, tmp_path)
+
+
 @pytest.mark.parametrize(("values", "kind", "told"), [
     ([2e7, None], TypeError, r"fluid\.ambient\.pressure has None, which has no place in a case file"),
     ([True, "true"], ValueError, r"has 'true' twice")])

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _pycav
-from ._given import Named, count
+from ._given import Named, count, number
 from ._native import Native
 from .case import Case, checked
 from .cells import Array, Cells
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     import xarray
 
     from .result import Result
+
+ROUNDING = 1e-9
+"""Share of the simulated time by which one asked for may be past, as sums of steps are off by some of it."""
 
 InitialState = Callable[[Array, Array], Mapping[str, ArrayLike]]
 
@@ -74,11 +77,16 @@ class Simulation:
         return self._native.step()
 
     def advance_to(self, time: float) -> None:
-        """Makes steps until `time` in s, at which the last one ends; does nothing if that is past.
+        """Makes steps until `time` in s, at which the last one ends.
 
-        The step that lands there is shortened, so the run is not bit for bit the one without it.
+        The step that lands there is shortened, so the run is not bit for bit the one without it. `ValueError` for a time that is past,
+        or after the end of the run.
         """
-        self._native.advance_to(time)
+        wanted = number("time", time, "s")
+        if wanted < self.time * (1.0 - ROUNDING):
+            raise ValueError(f"time = {wanted:g} s is before {self.time:g} s, which the simulation has reached: no run goes back; "
+                             "make a new Simulation for an earlier state")
+        self._native.advance_to(wanted)
 
     def run(self, callback: Callable[[Simulation], object] | None = None, progress: bool = False) -> None:
         """Makes all steps that are left.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import itertools
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -34,6 +35,8 @@ class Axes:
         if not isinstance(parameters, Mapping) or not parameters:
             raise ValueError(f"parameters = {parameters!r}: a sweep needs lists of values by key, one key or more")
         self.names = list(parameters)
+        for name in self.names:
+            _refuse_misspelt(name)
         self.lists = [_values(name, parameters[name]) for name in self.names]
         self.shape = tuple(len(values) for values in self.lists)
         self.points: list[Point] = [dict(zip(self.names, values)) for values in itertools.product(*self.lists)]
@@ -64,6 +67,15 @@ def labels(values: Sequence[Any]) -> list[Any]:
     found = [_word(value) if isinstance(value, bool) else value if is_plain(value) else number for number, value in enumerate(values)]
     # As text if one is, as an array has one type.
     return [str(label) for label in found] if any(isinstance(label, str) for label in found) else found
+
+
+def _refuse_misspelt(name: Any) -> None:
+    """`stand_off` is no key of a case, so the case could not tell that it was meant."""
+    if not isinstance(name, str):
+        raise TypeError(f"{name!r} is a {type(name).__name__}: parameters are named by the keys of a case, as texts, or {STAND_OFF!r}")
+    if name != STAND_OFF and difflib.get_close_matches(name.rpartition(".")[2].lower(), [STAND_OFF], 1, 0.8):
+        raise ValueError(f"{name!r} is no key of a case: did you mean {STAND_OFF!r}, the distance of the first region's centre from the "
+                         "wall over its radius?")
 
 
 def _values(name: str, given: Any) -> list[Any]:
