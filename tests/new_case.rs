@@ -36,6 +36,20 @@ fn the_first_case_is_what_is_written_for_nothing_in_particular() {
     assert_eq!(Collapse::default().text().expect("a case"), text(&written.stdout));
 }
 
+/// What the bubble does to it at its smallest is a matter of fine cells.
+#[test]
+fn the_solid_below_a_laser_bubble_is_eight_times_as_coarse_as_the_fluid_at_its_finest() {
+    for cells_per_radius in [8.0, 16.0, 40.0] {
+        let wall = Wall::named("al-1100-o").expect("in the library");
+        let bubble = LaserBubble { stand_off: Some(0.8), wall, cells_per_radius, ..LaserBubble::default() };
+        let case = read(&bubble.text().expect("a case"));
+        let [fluid, solid] =
+            [case.fluid.as_ref().map(|side| &side.grid), case.solid.as_ref().map(|side| &side.grid)]
+                .map(|grid| grid.expect("a side").cell_size()[0]);
+        approx::assert_relative_eq!(solid, 8.0 * fluid, max_relative = 1e-12);
+    }
+}
+
 #[test]
 fn what_is_asked_is_in_the_case() {
     let written = cav(&[

@@ -1,6 +1,7 @@
 //! `cav check` and `cav materials`: what a case means in cells, steps, memory and time, before it is run.
 
 mod bubble;
+mod terms;
 
 use std::fmt::Write as _;
 
@@ -39,6 +40,7 @@ pub fn report(case: &Case) -> String {
         regions(&mut text, case, fluid);
         bubble::bubble(&mut text, fluid);
         sides(&mut text, fluid);
+        terms::terms(&mut text, fluid);
     }
     if let (Some(solid), Some(memory)) = (&case.solid, case.solid_memory()) {
         side(&mut text, "solid", &solid.grid, memory);

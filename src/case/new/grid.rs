@@ -22,9 +22,9 @@ impl Blocks {
         Self { width: BLOCK as f64 * levels.exp2() / cells * length, levels: levels as u32 }
     }
 
-    /// The same blocks, halved once less often.
-    pub fn coarser(&self) -> Self {
-        Self { width: self.width, levels: self.levels.saturating_sub(1) }
+    /// The same blocks, halved so many times less.
+    pub fn coarser(&self, times: u32) -> Self {
+        Self { width: self.width, levels: self.levels.saturating_sub(times) }
     }
 
     /// The same blocks, halved so many times more.
@@ -75,6 +75,6 @@ mod tests {
         assert_eq!((blocks.width, blocks.levels), (1.6, 2));
         assert_eq!(blocks.covering(4.8), 3);
         assert_eq!(blocks.covering(4.9), 4);
-        assert_eq!(blocks.coarser().levels, 1);
+        assert_eq!(blocks.coarser(1).levels, 1);
     }
 }

@@ -22,6 +22,10 @@ const SECOND: f64 = 1.7;
 const WALL_LENGTHENS: f64 = 0.205;
 /// Over how much of R/c of the largest radius the wall's pressure is averaged.
 const MEAN: f64 = 1.0 / 12.0;
+/// How many levels the solid has less than the fluid.
+const COARSER_SOLID: u32 = 3;
+/// Its threshold is that of the fluid.
+const SOLID_KEYS: &str = "epsilon = 1e-3                  # coarser than by default, as in the fluid\n";
 /// What counts as a wave, Pa: of shocks and jets, not of the bubble's first pressure.
 const WAVES: f64 = 1e7;
 
@@ -94,7 +98,11 @@ impl LaserBubble {
         }
         text += &self.bubble_keys(height);
         text += &match self.stand_off {
-            Some(_) => self.wall.keys(&blocks.coarser(), [ACROSS * largest.radius; 2], "", false),
+            Some(_) => {
+                let solid = finer.coarser(COARSER_SOLID);
+                let finest = "cells eight times as wide as the fluid's finest";
+                self.wall.keys((&solid, finest), [ACROSS * largest.radius; 2], SOLID_KEYS, false)
+            }
             None => "\n[coupling]\nscheme = \"none\"                 # liquid alone, open on all sides\n"
                 .to_owned(),
         };

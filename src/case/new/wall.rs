@@ -27,6 +27,9 @@ pub enum Wall {
     Solid(Box<Material>),
 }
 
+/// What there is to say of a solid's cells that have the width of the fluid's second finest.
+pub(super) const TWICE: &str = "cells twice as wide as the fluid's";
+
 impl Wall {
     /// By the name of a material of the library, a short one (`steel`), or `rigid`.
     ///
@@ -54,10 +57,10 @@ impl Wall {
 
     /// What a case says of the wall below z = 0: that it is rigid, or `[solid]` and how it yields.
     ///
-    /// - `deep`, `across`: how far the solid reaches, m; `more`: keys between `[solid]` and its plasticity; `elastic`: whether it has none.
+    /// - `finest`: what there is to say of its cells; `deep`, `across`: how far the solid reaches, m; `more`: keys between `[solid]` and its plasticity; `elastic`: whether it has none.
     pub(super) fn keys(
         &self,
-        blocks: &Blocks,
+        (blocks, finest): (&Blocks, &str),
         [deep, across]: [f64; 2],
         more: &str,
         elastic: bool,
@@ -69,7 +72,7 @@ impl Wall {
         format!(
             "\n[solid]                         # below it\n{grid}material = \"{name}\"\n\
              initial_stress = \"hydrostatic\"  # in balance with the liquid at the start\n{more}{law}",
-            grid = blocks.keys(deep, 0.0, across, "cells twice as wide as the fluid's"),
+            grid = blocks.keys(deep, 0.0, across, finest),
             name = material.name(),
             law = if elastic { String::new() } else { plasticity(material) },
         )

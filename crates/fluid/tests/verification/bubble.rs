@@ -66,3 +66,29 @@ fn a_free_bubble_stays_round() {
         assert!(skewed < 0.1 && kink < 0.02 && speed_at_axis < 0.15 * fastest);
     }
 }
+
+/// A state at a point is that of the cell's slopes, and nowhere beyond what cells have: beside a bubble slopes along z and r add up.
+#[test]
+fn a_state_at_a_point_is_not_beyond_those_of_cells() {
+    for kind in KINDS {
+        let setup = FluidSetup { levels: 1, ..setup_of(kind, AXIAL, [16, 16], CYLINDER) };
+        let mut fluid =
+            FluidSolver::<8>::new(&setup, &ball_of_gas(([0.45, 0.0], 0.3), 5e6, AIR, 0.0)).unwrap();
+        run_steps(&mut fluid, 30);
+        let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
+        let of = |w: Primitive| [w.density, w.pressure, w.phi];
+        each_cell(&fluid, |_, _, w| {
+            for ([low, high], value) in range.iter_mut().zip(of(w)) {
+                (*low, *high) = (low.min(value), high.max(value));
+            }
+        });
+        let points =
+            (0..200).flat_map(|i| (0..200).map(move |j| [i, j].map(|k| (f64::from(k) + 0.05) / 200.0)));
+        for point in points {
+            let values = of(fluid.sample(point).unwrap());
+            let is_within =
+                range.iter().zip(values).all(|([low, high], value)| (*low..=*high).contains(&value));
+            assert!(is_within, "{kind:?} {point:?}: {values:?} {range:?}");
+        }
+    }
+}
