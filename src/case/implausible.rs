@@ -110,11 +110,11 @@ mod tests {
     use crate::case::Case;
 
     fn warnings(sets: &[&str]) -> Vec<String> {
-        let text = "[time]\nend = 1e-7\n[fluid]\nz = [0.0, 4e-3]\nr = [0.0, 4e-3]\ncells = [64, 64]\n\
+        let text = "[time]\nend = 1e-7\n[fluid]\nz = [0.0, 6e-3]\nr = [0.0, 6e-3]\ncells = [64, 64]\n\
                     [fluid.liquid]\nfluid = \"water-nasg\"\n[fluid.gas]\nfluid = \"water-vapour\"\n\
                     [fluid.ambient]\ndensity = 1061.0\npressure = 1e5\n\
                     [[fluid.region]]\nphase = \"gas\"\nshape = \"sphere\"\ncentre = [1.5e-3, 0.0]\nradius = 1e-3\ndensity = 0.0173\npressure = 2340.0\n\
-                    [solid]\nz = [-4e-3, 0.0]\nr = [0.0, 4e-3]\ncells = [64, 64]\nmaterial = \"structural-steel\"\n\
+                    [solid]\nz = [-6e-3, 0.0]\nr = [0.0, 6e-3]\ncells = [64, 64]\nmaterial = \"structural-steel\"\n\
                     [solid.plasticity]\nlaw = \"perfect\"\nyield_strength = 2.5e8\n";
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
         Case::from_toml(text, "units", &sets).unwrap_or_else(|errors| panic!("{errors}")).warnings()
@@ -127,12 +127,12 @@ mod tests {
             assert_eq!(warnings(sets), Vec::<String>::new(), "{sets:?}");
         }
         for (sets, words) in [
-            (&["fluid.ambient.density=2.0"][..], "sound runs at 3."),
+            (&["fluid.ambient.density=2.0"][..], "sound runs at 2.0"),
             (&["fluid.region.0.radius=1.0"], "no liquid is left"),
-            (&["solid.plasticity.yield_strength=90.0"], "a yield strength of 90 Pa is 4."),
+            (&["solid.plasticity.yield_strength=90.0"], "a yield strength of 90 Pa is 3.9e-10"),
             (&["solid.material={density=7850.0,young=210.0,poisson=0.3,name=\"soft\"}"], "5900 m/s in steel"),
             (&[boils, "fluid.ambient.density=1000.0"], "liquid evaporates into it at once"),
-            (&[boils, "fluid.region.0.pressure=5e4"], "it condenses at once"),
+            (&[boils, "fluid.region.0.pressure=4e4", "fluid.region.0.density=0.29"], "it condenses at once"),
             (
                 &[boils, "fluid.terms.surface_tension=0.07", "fluid.region.0.radius=4e-4"],
                 "raises the pressure of its gas by 350 Pa, 15 % of it",
