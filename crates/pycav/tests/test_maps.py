@@ -223,6 +223,8 @@ def test_uncertainties_are_grid_convergence_indices():
     values, cells = [1.25, 2.0, 1.5], [4.0, 1.0, 2.0]
     assert estimated(values, cells) == (pytest.approx(1.25 * 0.25), "monotone")
     assert estimated(values[::-1], cells[::-1]) == (pytest.approx(1.25 * 0.5), "monotone")
+    # Of an order of 0.42, which counts as a half.
+    assert estimated([0.3, 0.6, 1.0], [4.0, 2.0, 1.0]) == (pytest.approx(1.25 * 0.3 / (2**0.5 - 1)), "slow")
     assert estimated([1.0, 1.1], [1.0, 2.0]) == (pytest.approx(0.4), "two-grids")
     assert estimated([1.0, 3.0, 2.0], [4.0, 2.0, 1.0]) == (2.0, "oscillatory-divergent")
     assert estimated([1.0, float("nan")], [1.0, 2.0]).kind == "unknown"

@@ -47,3 +47,14 @@ def test_next_to_a_jump_no_value_is_beyond_those_of_the_cells():
     radial = at[:, 1].copy()
     below = np.array([[1.3, 0.01], [1.3, -0.01]])
     assert mesh.sample(radial, below, -1) == pytest.approx([0.01, -0.01], abs=1e-12)
+
+
+def test_a_plane_that_reaches_below_0_has_no_mirror_image():
+    corner = np.stack(np.meshgrid(np.arange(8), np.arange(-4, 4), indexing="ij"), -1).reshape(-1, 2).astype(float)
+    mesh = Mesh(corner, corner + 1.0)
+    at = mesh.centre()
+    values = at[:, 1] * 3.0
+    points = np.random.default_rng(9).uniform([1.0, -3.0], [7.0, 3.0], (1000, 2))
+    assert mesh.sample(values, points) == pytest.approx(3.0 * points[:, 1], abs=1e-12)
+    inner = (np.abs(at - [4.0, 0.0]) < 3.0).all(1)
+    assert mesh.gradient(values)[inner] == pytest.approx(np.tile([0.0, 3.0], (inner.sum(), 1)), abs=1e-12)

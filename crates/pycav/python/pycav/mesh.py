@@ -41,6 +41,8 @@ class Mesh:
         size = high - low
         self.low, self.high = low.min(0), high.max(0)  # (z, r) of the domain
         self.finest = size.min(0)
+        # A domain that reaches below r = 0 is a plane of which both halves are there.
+        self.mirrored = bool(self.low[1] >= -0.5 * self.finest[1])
         ratio = np.log2(size / self.finest)
         self.depth = np.rint(ratio[:, 0]).astype(np.int64)
         # Corners as whole numbers of cells of the same size, counted from the domain's corner.
@@ -111,8 +113,8 @@ class Mesh:
             point = centre.copy()
             point[:, axis] += side * 0.5 * (width + self.finest)[:, axis]
             point[:, 1 - axis] += across * 0.25 * width[:, 1 - axis]
-            beyond = point[:, 1] < 0.0
-            point[:, 1] = np.abs(point[:, 1])
+            beyond = (point[:, 1] < 0.0) & self.mirrored
+            point[beyond, 1] *= -1.0
             other = self.locate(point)
             to = self.centre(other)
             to[beyond, 1] *= -1.0
@@ -127,12 +129,12 @@ class Mesh:
         return Linear(slope, low, high)
 
     def sample(self, values: Floats, points: Floats, parity: int = 1, bounded: bool = True) -> Floats:
-        """Values at points (z, r), linear within each cell; mirrored beyond r = 0 (see `gradient`); NaN outside.
+        """Values at points (z, r), linear within each cell; mirrored beyond r = 0 where the domain ends there (see `gradient`); NaN outside.
 
         - `bounded`: no further than the values of the cell and its neighbours, see `linear`. Give `False` for components.
         """
-        sign = np.where(points[:, 1] < 0.0, parity, 1)
-        points = np.column_stack([points[:, 0], np.abs(points[:, 1])])
+        sign = np.where((points[:, 1] < 0.0) & self.mirrored, parity, 1)
+        points = np.column_stack([points[:, 0], np.abs(points[:, 1])]) if self.mirrored else points
         cells = self.locate(points)
         inside = np.flatnonzero(cells >= 0)
         at = cells[inside]

@@ -2,7 +2,7 @@
 
 use mesh::{GHOSTS, Mesh, Neighbour, Offset, Padded, Side};
 
-use super::levels::{Across, Beyond, around, face, follow, matched};
+use super::levels::{Across, Beyond, blocks_across, face, follow, matched};
 use super::rkl2::Stage;
 use super::{Frame, Shape, Spreading};
 use crate::terms::TermBlock;
@@ -118,7 +118,7 @@ impl SpreadBlock {
             _ => None,
         });
         let is_fixed = |across: &Across| self.fixed_sides.contains(&across.side);
-        self.across = around(mesh, self.slot, number_of).filter(|across| !is_fixed(across)).collect();
+        self.across = blocks_across(mesh, self.slot, number_of).filter(|across| !is_fixed(across)).collect();
         let is_other_level = |k: usize| matches!(neighbours[k], Neighbour::Coarser(_) | Neighbour::Finer(_));
         self.corners = (4..8).filter(|k| is_other_level(*k)).map(|k| Offset::ALL[k]).collect();
     }

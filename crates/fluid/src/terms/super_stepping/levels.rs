@@ -19,7 +19,7 @@ pub(super) enum Beyond {
 }
 
 /// The blocks of other levels around that of a slot; `number_of`: of a slot's block, if it is in stages.
-pub(super) fn around<const N: usize>(
+pub(super) fn blocks_across<const N: usize>(
     mesh: &Mesh<N>,
     slot: usize,
     number_of: impl Fn(usize) -> Option<usize>,

@@ -58,13 +58,14 @@ def _provenance(result: Result) -> dict[str, Any]:
     told = result.histories.attrs
     now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds")
     program, revision = (str(told.get(name, "")) for name in ("program", "git_revision"))
+    place = "plane strain, per metre of depth" if result.parameters.get("geometry") == "planar" else "axisymmetric about r = 0"
     return {
         "Conventions": "CF-1.11", "title": f"run of the case {told.get('case_name', result.directory.name)}",
         "source": f"{program} {revision}".strip(), "history": f"{now} pycav: written from {result.directory.name}",
         "program": program, "git_revision": revision, "case_name": str(told.get("case_name", "")),
         "case_hash": str(told.get("case_hash", "")), "case": str(told.get("case", "")), "date_created": now,
         "completed": int(bool(result.summary.get("completed"))), "summary": json.dumps(result.summary),
-        "comment": "SI units; axisymmetric about r = 0; z from the solid into the fluid; stresses are positive in tension",
+        "comment": f"SI units; {place}; z from the solid into the fluid; stresses are positive in tension",
     }
 
 

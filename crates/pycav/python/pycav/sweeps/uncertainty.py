@@ -13,7 +13,8 @@ from ..mesh import Floats
 from .dataset import numeric, opened, values_along
 from .points import is_plain
 
-KINDS = ("interpolated", "monotone", "oscillatory", "divergent", "oscillatory-divergent", "coincident", "unchanged", "two-grids", "unknown")
+KINDS = ("interpolated", "monotone", "oscillatory", "divergent", "oscillatory-divergent", "coincident", "unchanged", "two-grids", "unknown",
+         "slow")
 """What the values of a point on several grids do; the words of docs/verification/convergence.md, and `interpolated` between such points."""
 
 SAFETY, SAFETY_OF_TWO, ORDERS, ROUND_OFF = 1.25, 3.0, (0.5, 2.0), 1e-12
@@ -142,8 +143,10 @@ def estimated(values: Sequence[float] | Floats, cells: Sequence[float] | Floats)
         return Estimate(spread, "divergent" if fine * before > 0 else "oscillatory-divergent")
     if fine * before < 0:
         return Estimate(0.5 * spread, "oscillatory")
-    order = min(max(float(np.log(before / fine) / np.log(ratio)), ORDERS[0]), ORDERS[1])
-    return Estimate(_of_order(abs(fine), ratio, order, SAFETY, cell_1 / own), "monotone")
+    observed = float(np.log(before / fine) / np.log(ratio))
+    order = min(max(observed, ORDERS[0]), ORDERS[1])
+    kind = "slow" if observed < ORDERS[0] else "monotone"
+    return Estimate(_of_order(abs(fine), ratio, order, SAFETY, cell_1 / own), kind)
 
 
 def _of_order(difference: float, ratio: float, order: float, safety: float, coarser: float) -> float:
