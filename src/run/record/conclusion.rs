@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+use mesh::Side;
 use serde_json::{Map, Value, json};
+use solid::Boundary;
 
-use crate::case::Case;
+use crate::case::{Case, SolidCase};
 use crate::output::run_directory::{
     FLUID_HISTORY, FLUID_SUMMARY, HISTORY, SOLID_HISTORY, SOLID_SUMMARY, SUMMARY,
 };
@@ -55,7 +57,8 @@ pub fn conclude(
     if let Some((work, volume)) = number("work_on_solid").zip(number("pit_volume")) {
         whole.insert("work_per_pit_volume".to_owned(), json!((volume > 0.0).then_some(work / volume)));
     }
-    let warnings = warnings(&whole);
+    let zone = case.solid.as_ref().and_then(|solid| zone_warning(&whole, solid));
+    let warnings: Vec<String> = warnings(&whole).into_iter().chain(zone).collect();
     for warning in &warnings {
         tracing::warn!("{warning}");
     }
@@ -214,6 +217,24 @@ fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> 
     deep.into_iter().chain(moves)
 }
 
+/// What has to be said of a plastic zone that reaches the sides of the solid beyond which there is more of it.
+fn zone_warning(whole: &Map<String, Value>, solid: &SolidCase) -> Option<String> {
+    let number = |key: &str| whole.get(key).and_then(Value::as_f64);
+    let ([low, high], [_, far]) = (solid.grid.z, solid.grid.r);
+    let reached = [
+        ("z_min", Side::ZMin, number("plastic_zone_depth")?, high - low),
+        ("r_max", Side::RMax, number("plastic_zone_radius")?, far),
+    ];
+    let goes_on =
+        |side: Side| matches!(solid.boundary[side as usize], Boundary::Absorbing | Boundary::NonReflecting);
+    // A zone ends with a cell.
+    let (name, ..) =
+        reached.into_iter().find(|(_, side, zone, whole)| goes_on(*side) && *zone > 0.999 * whole)?;
+    Some(format!(
+        "the plastic zone reaches solid.boundary.{name}, which absorbs waves as an elastic solid beyond it does: make the solid larger"
+    ))
+}
+
 /// What a run says when it has ended: the answer, what is to be distrusted, where it lies.
 ///
 /// - `case`: what it warned of was said at the start.
@@ -272,6 +293,28 @@ mod tests {
         // To be stopped is no failure.
         assert_eq!(failed_by(&[fine.clone(), fine], Some(&RunError::Interrupted)), Map::new());
         assert_eq!(failed_by(&[], Some(&RunError::Terminated)), Map::new());
+    }
+
+    #[test]
+    fn a_plastic_zone_that_reaches_a_side_that_absorbs_is_warned_of() {
+        let solid = |sets: &[&str]| {
+            let text = "[time]\nend = 1e-7\n[solid]\nz = [-4e-3, 0.0]\nr = [0.0, 3e-3]\ncells = [64, 48]\nmaterial = \"structural-steel\"\n\
+                        [coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = 1e9\nradius = 1e-3\nhistory = [[0.0, 0.0], [1e-8, 1.0]]\n";
+            let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+            let case = Case::from_toml(text, "zone", &sets).unwrap_or_else(|errors| panic!("{errors}"));
+            case.solid.expect("a solid")
+        };
+        let told = |solid: &SolidCase, depth: f64, radius: f64| {
+            let whole = json!({ "plastic_zone_depth": depth, "plastic_zone_radius": radius });
+            zone_warning(whole.as_object().expect("an object"), solid)
+        };
+        let open = solid(&[]);
+        assert_eq!(told(&open, 3.9e-3, 2.9e-3), None);
+        for (depth, radius, name) in [(4e-3, 1e-3, "z_min"), (1e-3, 3e-3, "r_max")] {
+            assert!(told(&open, depth, radius).is_some_and(|words| words.contains(name)));
+        }
+        let closed = solid(&["solid.boundary.z_min=\"fixed\"", "solid.boundary.r_max=\"free\""]);
+        assert_eq!(told(&closed, 4e-3, 3e-3), None);
     }
 
     #[test]
