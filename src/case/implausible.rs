@@ -1,6 +1,6 @@
 //! Numbers that a unit was taken wrong in, and states that change at once.
 
-use fluid::{Mixture, Phase, Saturation, Shape};
+use fluid::{Phase, Shape};
 
 use super::format::si;
 use super::{FluidCase, SolidCase};
@@ -62,10 +62,8 @@ fn thermal(fluid: &FluidCase, (number, radius, pressure): (usize, f64, f64), war
         }
     }
     let Some(change) = &terms.phase_change else { return };
-    let Some(saturation) = Saturation::of(&Mixture::new(fluid.liquid, fluid.gas)) else { return };
+    let (Some(temperature), Some(saturated)) = fluid.warmth() else { return };
     let vapour = change.vapour_fraction * pressure;
-    let temperature = fluid.liquid.temperature(ambient.density, ambient.pressure).unwrap_or(f64::NAN);
-    let saturated = saturation.pressure(temperature);
     let ratio = saturated / vapour;
     if ambient.phase == Phase::Liquid
         && vapour > 0.0

@@ -236,6 +236,15 @@ pub struct FluidCase {
 }
 
 impl FluidCase {
+    /// The temperature of the liquid far away, K, and the pressure of its saturated vapour, Pa; each `None` where the laws know none.
+    pub(crate) fn warmth(&self) -> (Option<f64>, Option<f64>) {
+        let ambient = &self.initial.ambient;
+        let temperature = self.liquid.temperature(ambient.density, ambient.pressure);
+        let saturation = fluid::Saturation::of(&fluid::Mixture::new(self.liquid, self.gas));
+        let below = temperature.filter(|temperature| *temperature < fluid::Saturation::CRITICAL[0]);
+        (temperature, saturation.zip(below).map(|(saturation, temperature)| saturation.pressure(temperature)))
+    }
+
     /// The equation of state of the phase of a state.
     pub fn eos(&self, state: &PhaseState) -> NobleAbelStiffenedGas {
         match state.phase {

@@ -311,11 +311,11 @@ impl Simulation {
         let made = self.steps(py, |_| false, after, has_callback);
         match (&made, self.directory()?) {
             (Ok(()), Some(directory)) if progress => {
-                let case = self.run()?.case.clone();
+                let run = self.run()?;
                 let file =
                     RunDirectory::open(&directory).map(|d| d.file(cav::output::run_directory::SUMMARY));
                 let whole = file.and_then(|file| cav::output::summary::read(&file)).unwrap_or_default();
-                bar.finish(&closing_words(&serde_json::Map::from_iter(whole), &case, &directory));
+                bar.finish(&closing_words(&serde_json::Map::from_iter(whole), &run.case, &directory));
             }
             _ => bar.clear(),
         }

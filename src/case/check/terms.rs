@@ -1,6 +1,6 @@
 //! What acts on the fluid besides the waves, and how warm it is.
 
-use fluid::{EvaporationLaw, Mixture, Phase, PhaseViscosity, Saturation, Shape};
+use fluid::{EvaporationLaw, Phase, PhaseViscosity, Shape};
 
 use super::super::format::si;
 use super::line;
@@ -12,14 +12,9 @@ pub(super) fn terms(text: &mut String, fluid: &FluidCase) {
     if ambient.phase == Phase::Liquid {
         let sound = fluid.liquid.sound_speed(ambient.density, ambient.pressure);
         let mut parts = vec![format!("sound at {sound:.1} m/s")];
-        if let Some(temperature) = fluid.liquid.temperature(ambient.density, ambient.pressure) {
-            parts.push(format!("{temperature:.1} K"));
-            let saturation = Saturation::of(&Mixture::new(fluid.liquid, fluid.gas));
-            let vapour = saturation.filter(|_| temperature < Saturation::CRITICAL[0]);
-            parts.extend(
-                vapour.map(|of| format!("saturated vapour of {}", si(of.pressure(temperature), "Pa"))),
-            );
-        }
+        let (temperature, saturated) = fluid.warmth();
+        parts.extend(temperature.map(|temperature| format!("{temperature:.1} K")));
+        parts.extend(saturated.map(|pressure| format!("saturated vapour of {}", si(pressure, "Pa"))));
         line(text, "liquid", &parts.join(", "));
     }
     if let Some(viscosity) = &terms.viscosity {

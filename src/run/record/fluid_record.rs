@@ -50,6 +50,8 @@ pub struct FluidRecord {
     seen: Seen,
     /// Finest cells along the radius of the first region, where that is a ball of gas.
     cells_per_radius: Option<f64>,
+    /// Of the liquid far away, Pa.
+    ambient_pressure: f64,
 }
 
 /// What it has seen so far, of which the summary tells.
@@ -60,10 +62,6 @@ struct Seen {
     peaks: Peaks,
     last_bubble: Bubble,
     largest_thin_volume: f64,
-    /// Ambient pressure times the gas's initial volume, J/rad (planar: J/m): what a collapse sets free.
-    collapse_energy: f64,
-    /// The gas's initial volume, m³.
-    first_volume: f64,
     cuts: BubbleCuts,
     film: ThinnestFilm,
 }
@@ -137,15 +135,9 @@ impl FluidRecord {
             wall_heat: Default::default(),
             bubbles,
             film,
-            seen: Seen {
-                collapse_energy: case.fluid.as_ref().map_or(0.0, |fluid| {
-                    fluid.initial.ambient.pressure * solver.bubble().volume / case.geometry.turn()
-                }),
-                first_volume: solver.bubble().volume,
-                cuts,
-                ..Seen::default()
-            },
+            seen: Seen { cuts, ..Seen::default() },
             cells_per_radius: case.cells_per_radius(),
+            ambient_pressure: case.fluid.as_ref().map_or(0.0, |fluid| fluid.initial.ambient.pressure),
         })
     }
 
@@ -291,10 +283,9 @@ impl Record for FluidRecord {
         let with_wall = self.interface.is_some();
         let peak = |[value, _]: [f64; 2]| if with_wall { json!(value) } else { Value::Null };
         let peak_time = |[_, time]: [f64; 2]| if with_wall { json!(time) } else { Value::Null };
-        // A bubble that grows first has more to set free than at the start.
-        let grows =
-            largest.map_or(1.0, |largest| largest.volume / self.seen.first_volume.max(f64::MIN_POSITIVE));
-        let collapse_energy = self.seen.collapse_energy * grows.max(1.0);
+        // What a collapse from there sets free, J/rad (planar: J/m).
+        let turn = solver.mesh().domain().geometry.turn();
+        let collapse_energy = largest.map_or(0.0, |largest| self.ambient_pressure * largest.volume / turn);
         let mut map = entries(json!({
             "collapse_time": collapse.map(|c| c.time),
             "min_equivalent_radius": collapse.map(|c| radius(c.volume.max(0.0))),

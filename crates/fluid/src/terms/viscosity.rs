@@ -296,14 +296,19 @@ impl Viscosity {
     /// The velocity near the wall is a line, of the stress τ between the first two cells, and what the first cell is off that, which spreads
     /// as in Stokes' first problem: τ + (v − τ h/(2μ)) G, where half a cell resists with h/(2μ) and what is behind it with √(π Δt/(4ρμ)). In
     /// one step no more is stopped than has the mass of eight cells. With short steps it is 2μv/h.
+    ///
+    /// The line's part lies between 0 and twice 2μv/h: a wall takes from the motion along it. Where gas meets liquid on the wall the two cells may be on
+    /// no line, and what they differ by would drive them.
     fn wall_shear_in_stages(&self, cell: WallCell) -> f64 {
         let WallCell { density, phi, by_waves: [first, second], dt, inverse_h: [inverse_h, _], .. } = cell;
         let [own, other] = phi.map(|phi| self.at(phi)[0]);
         if own <= 0.0 {
             return 0.0;
         }
-        let line = 0.5 * (own + other) * (second - first) * inverse_h;
         let resistance = 0.5 / (inverse_h * own);
+        let most = 2.0 * first / resistance;
+        let line = 0.5 * (own + other) * (second - first) * inverse_h;
+        let line = line.clamp(most.min(0.0), most.max(0.0));
         let behind = (std::f64::consts::FRAC_PI_4 * dt / (density * own)).sqrt();
         let conductance = (1.0 / (resistance + behind)).min(8.0 * density / (inverse_h * dt));
         line + (first - line * resistance) * conductance
@@ -318,5 +323,32 @@ impl Viscosity {
             .flat_map(|j| (0..n).map(move |i| metric.origin + j * metric.stride + i))
             .filter(is_bounded)
             .count() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wall_takes_from_the_motion_along_it() {
+        let of = |shear: f64| PhaseViscosity { shear, bulk: 0.0 };
+        let viscosity = Viscosity { liquid: of(1e-3), gas: of(10.0), thin_gas: ThinGas::SuperTimeStepping };
+        let inverse_h = [3e4, 3e4];
+        for phi in [[1.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5]] {
+            for by_waves in [[1.0, 3.0], [1.0, 2.5], [1.0, -50.0], [-1.0, 50.0], [1e-3, 100.0], [-2.0, 0.0]] {
+                let [slip, _] = by_waves;
+                let density = if phi[0] < 0.5 { 1e3 } else { 1.0 };
+                let cell = WallCell { density, phi, by_waves, slip, dt: 1e-8, inverse_h };
+                let shear = viscosity.wall_shear(cell);
+                let sticking = 2.0 * viscosity.at(phi[0])[0] * slip * inverse_h[0];
+                let share = shear / sticking;
+                assert!(share > 0.0 && share <= 2.0, "{phi:?} {by_waves:?}: {share}");
+            }
+        }
+        // On a line through the wall it is the line's own, in however long a step.
+        let cell =
+            WallCell { density: 1.0, phi: [1.0; 2], by_waves: [1.0, 3.0], slip: 1.0, dt: 1e-6, inverse_h };
+        approx::assert_relative_eq!(viscosity.wall_shear(cell), 20.0 * inverse_h[0], max_relative = 1e-12);
     }
 }

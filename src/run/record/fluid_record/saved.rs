@@ -69,6 +69,7 @@ impl FluidRecord {
             film: _,
             seen,
             cells_per_radius: _,
+            ambient_pressure: _,
         } = self;
         FluidRecordState {
             files: files.saved(),

@@ -130,13 +130,7 @@ impl SpreadBlock {
 
     /// Takes another one's fluxes on the faces of a side that both have: next to a corner beyond which is another level they see different cells.
     pub(super) fn take_fluxes<const N: usize>(&mut self, of: &dyn Spreading, side: Side, other: &Self) {
-        let Shape { axes, .. } = of.shape();
-        let rows = self.now.chunks_exact_mut(Padded::<N>::LEN).zip(other.now.chunks_exact(Padded::<N>::LEN));
-        for ((own, other), _) in rows.zip(axes).filter(|(_, axis)| **axis == side.axis_across()) {
-            for along in 0..N {
-                own[face::<N>(side, along)] = other[face::<N>(side.opposite(), along)];
-            }
-        }
+        put_faces::<N>((&mut self.now, side), (&other.now, side.opposite()), of.shape().axes);
     }
 
     /// Whether it has faces in common with finer blocks in stages.
@@ -180,7 +174,7 @@ impl SpreadBlock {
         }
         of.conduct(frame, constants, cells, now);
         for side in &*fixed_sides {
-            fix::<N>(now, fixed, of.shape().axes, *side);
+            put_faces::<N>((now, *side), (fixed, *side), of.shape().axes);
         }
     }
 
@@ -235,13 +229,13 @@ impl SpreadBlock {
     }
 }
 
-/// Puts the fluxes that are fixed through a side among others; `axes`: of their rows.
-fn fix<const N: usize>(fluxes: &mut [f64], fixed: &[f64], axes: &[usize], side: Side) {
+/// Puts fluxes through one side of a block in the place of those through another, of the same axis; `axes`: of their rows.
+fn put_faces<const N: usize>((to, side): (&mut [f64], Side), (from, of): (&[f64], Side), axes: &[usize]) {
     let len = Padded::<N>::LEN;
-    let rows = fluxes.chunks_exact_mut(len).zip(fixed.chunks_exact(len)).zip(axes);
-    for ((row, fixed), _) in rows.filter(|(_, axis)| **axis == side.axis_across()) {
-        for k in (0..N).map(|along| face::<N>(side, along)) {
-            row[k] = fixed[k];
+    let rows = to.chunks_exact_mut(len).zip(from.chunks_exact(len)).zip(axes);
+    for ((to, from), _) in rows.filter(|(_, axis)| **axis == side.axis_across()) {
+        for along in 0..N {
+            to[face::<N>(side, along)] = from[face::<N>(of, along)];
         }
     }
 }
