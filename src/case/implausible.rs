@@ -11,8 +11,6 @@ const SOUND: [f64; 2] = [50.0, 2e4];
 const YIELD: [f64; 2] = [1e-6, 0.3];
 /// Pressures of vapour that differ by such a factor do not stay.
 const FAR_FROM_EQUILIBRIUM: f64 = 10.0;
-/// What surface tension adds to the gas's pressure, as a share of that, above which conduction and phase change feel that they do not know of it.
-const FELT: f64 = 0.01;
 
 /// What of the fluid's numbers is probably not meant.
 pub(super) fn fluid(fluid: &FluidCase, warnings: &mut Vec<String>) {
@@ -40,27 +38,13 @@ pub(super) fn fluid(fluid: &FluidCase, warnings: &mut Vec<String>) {
                 si(radius, "m")
             ));
         }
-        thermal(fluid, (number, radius, pressure), warnings);
+        vapour(fluid, (number, pressure), warnings);
     }
 }
 
-/// What a bubble's gas does at once by itself, or should not.
-fn thermal(fluid: &FluidCase, (number, radius, pressure): (usize, f64, f64), warnings: &mut Vec<String>) {
+/// What a bubble's vapour does at once.
+fn vapour(fluid: &FluidCase, (number, pressure): (usize, f64), warnings: &mut Vec<String>) {
     let (ambient, terms) = (&fluid.initial.ambient, &fluid.terms);
-    if let Some(tension) = terms.surface_tension
-        && (terms.conduction.is_some() || terms.phase_change.is_some())
-    {
-        let rise = 2.0 * tension / radius;
-        if rise > FELT * pressure {
-            let what = if terms.conduction.is_some() { "conduction" } else { "phase_change" };
-            warnings.push(format!(
-                "fluid.region.{number}: surface tension raises the pressure of its gas by {}, {:.0} % of it, and fluid.terms.{what} takes the gas \
-                 of mixed cells to be without: heat and vapour pass where nothing should, the less the more cells it has",
-                si(rise, "Pa"),
-                100.0 * rise / pressure
-            ));
-        }
-    }
     let Some(change) = &terms.phase_change else { return };
     let (Some(temperature), Some(saturated)) = fluid.warmth() else { return };
     let vapour = change.vapour_fraction * pressure;
@@ -121,7 +105,9 @@ mod tests {
     #[test]
     fn wrong_units_are_warned_of() {
         let boils = "fluid.terms.phase_change={law=\"ptg\"}";
-        for sets in [&[][..], &[boils], &["fluid.terms.surface_tension=0.07"]] {
+        for sets in
+            [&[][..], &[boils], &[boils, "fluid.terms.surface_tension=0.07", "fluid.region.0.radius=4e-4"]]
+        {
             assert_eq!(warnings(sets), Vec::<String>::new(), "{sets:?}");
         }
         for (sets, words) in [
@@ -131,10 +117,6 @@ mod tests {
             (&["solid.material={density=7850.0,young=210.0,poisson=0.3,name=\"soft\"}"], "5900 m/s in steel"),
             (&[boils, "fluid.ambient.density=1000.0"], "liquid evaporates into it at once"),
             (&[boils, "fluid.region.0.pressure=4e4", "fluid.region.0.density=0.29"], "it condenses at once"),
-            (
-                &[boils, "fluid.terms.surface_tension=0.07", "fluid.region.0.radius=4e-4"],
-                "raises the pressure of its gas by 350 Pa, 15 % of it",
-            ),
         ] {
             let told = warnings(sets);
             assert!(told.iter().any(|told| told.contains(words)), "{sets:?}: {told:?}");

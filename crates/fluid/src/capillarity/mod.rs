@@ -12,8 +12,10 @@ mod jumps;
 mod patch;
 mod place;
 mod rows;
+mod single_pressure;
 
 pub(crate) use contact::cell_at_wall;
 pub(crate) use initial::level_mixed_cells;
 pub(crate) use jumps::FaceJumps;
 pub(crate) use rows::{CapillaryRows, Interfaces};
+pub(crate) use single_pressure::SinglePressure;

@@ -6,8 +6,6 @@ use super::block::BlockCurvature;
 use super::jumps::{FaceJumps, Tension, share_of_jump};
 use super::patch::WidePatch;
 use crate::reconstruction::Rows;
-use crate::state::finished::{FinishedCell, measure_cell};
-use crate::state::{ConservedCell, primitive_of};
 use crate::step::update::Metric;
 use crate::two_phase::{Compression, is_compliant, is_mixed, phase_densities};
 use crate::{Boundary, Mixture};
@@ -107,19 +105,9 @@ impl CapillaryRows {
         &self.cells
     }
 
-    /// A cell below the pressure floor, if its gas is not in tension: that is at p + (1 − ψ)J, where the cell has p, see
-    /// [`share_of_jump`]. Around a bubble whose gas has less than σκ the liquid is in tension.
-    ///
-    /// - `k`: its padded index; `u`, `gas`: the cell and its m_g after the step.
-    pub fn borne(&self, k: usize, u: ConservedCell, gas: f64, mixture: &Mixture) -> Option<FinishedCell> {
-        let own = if self.is_present { self.own[k] } else { 0.0 };
-        if own <= 0.0 {
-            return None;
-        }
-        let [rho, _, _, pressure, phi] = primitive_of::<true>(u, gas, mixture);
-        let of_gas = pressure + (1.0 - share_of_jump(phi, rho, gas, mixture)) * own;
-        let cell = (of_gas >= mixture.pressure_floor(1.0)).then(|| measure_cell(u, gas, mixture));
-        cell.filter(FinishedCell::is_admissible)
+    /// J of a padded cell of the block, Pa: by how much the pressure of its gas exceeds that of its liquid.
+    pub fn jump(&self, k: usize) -> f64 {
+        if self.is_present { self.own[k] } else { 0.0 }
     }
 
     /// Finds the jumps of a block.

@@ -10,8 +10,9 @@ use super::rate::at_finite_rate;
 use super::saturation::Saturation;
 use super::surface::{area_density, borders_gas};
 use crate::Mixture;
+use crate::capillarity::{CapillaryRows, SinglePressure};
 use crate::state::conserved::{ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
-use crate::state::finished::{FinishedCell, finish_corrected};
+use crate::state::finished::FinishedCell;
 
 /// What has changed phase, per radian in axial symmetry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -21,6 +22,8 @@ pub(crate) struct BlockExchange {
     pub condensed: f64,
     /// What the energy, counted without reference energies, has gained, J.
     pub energy: f64,
+    /// What it has gained by the work of surface tension on surfaces that move as masses change phase, J.
+    pub tension_work: f64,
     /// Cells that opened under tension, and the mass that evaporated in them, kg.
     pub opened: u32,
     pub opened_mass: f64,
@@ -47,6 +50,8 @@ pub(crate) struct BlockPlace<'a> {
     pub volume: &'a dyn Fn(usize) -> f64,
     /// Whether there was gas in the padded cells.
     pub had_gas: bool,
+    /// Surface tension at the beginning of the step.
+    pub capillary: &'a CapillaryRows,
 }
 
 impl Exchange {
@@ -59,7 +64,7 @@ impl Exchange {
 
     /// Lets mass go from one phase to the other in those cells of a block where they meet, and opens liquid under tension.
     ///
-    /// Mass and momentum of a cell stay, its energy with the reference energies, too. A cell that would be left below the floor of the pressure, or
+    /// Mass and momentum of a cell stay, its energy with the reference energies and that of surface tension, too. A cell that would be left below the floor of the pressure, or
     /// without a sound speed, stays as it is.
     ///
     /// - `new`: the block's components; `speeds`: those of [`FinishedCell`], of the N² cells; both written where something changes.
@@ -81,16 +86,21 @@ impl Exchange {
             }
             let at = |component: usize| component * N * N + cell;
             let u = [RHO, MOMENTUM_Z, MOMENTUM_R, ENERGY].map(|component| new[at(component)]);
-            let (holding, kinetic) = self.holding(u, phi, [new[at(GAS)], new[at(self.vapour)]]);
+            let k = Padded::<N>::index((cell % N) as isize, (cell / N) as isize);
+            let single = SinglePressure::of(
+                if meets { place.capillary.jump(k) } else { 0.0 },
+                &self.saturation.mixture,
+            );
+            let saturation = self.saturation.with_laws_of(&single);
+            let (holding, kinetic) = holding(u, phi, [new[at(GAS)], new[at(self.vapour)]], &single);
             let changed = if meets {
-                let k = Padded::<N>::index((cell % N) as isize, (cell / N) as isize);
-                self.where_phases_meet(&holding, place, k, Padded::<N>::STRIDE)
+                self.where_phases_meet(&holding, &saturation, place, k, Padded::<N>::STRIDE)
             } else {
                 self.under_tension(&holding)
             };
             let Some(changed) = changed else { continue };
-            let after = holding.with(changed, &self.saturation);
-            let Some(finished) = self.finished(u, kinetic, &after) else { continue };
+            let after = holding.with(changed, &saturation);
+            let Some(finished) = self.finished(u, kinetic, &after, &single) else { continue };
             for (component, value) in finished.conserved.into_iter().enumerate() {
                 new[at(component)] = value;
             }
@@ -99,39 +109,32 @@ impl Exchange {
             for (row, value) in speeds.iter_mut().zip([finished.speed_z, finished.speed_r]) {
                 row[cell] = value;
             }
-            done.add(changed.evaporated, finished.conserved[ENERGY] - u[3], (place.volume)(cell / N), !meets);
+            let tension_work = single.tension_work(phi, after.phi);
+            let energy = finished.conserved[ENERGY] - u[3];
+            done.add(
+                changed.evaporated,
+                [energy - tension_work, tension_work],
+                (place.volume)(cell / N),
+                !meets,
+            );
         }
         done
-    }
-
-    /// What a cell holds, and its kinetic energy per volume. The vapour is no more than the gas.
-    fn holding(
-        &self,
-        [rho, m_z, m_r, energy]: [f64; 4],
-        phi: f64,
-        [gas, vapour]: [f64; 2],
-    ) -> (Holding, f64) {
-        let kinetic = 0.5 * (m_z * m_z + m_r * m_r) / rho;
-        let gas = gas.max(0.0);
-        (
-            Holding { density: rho, gas, vapour: vapour.clamp(0.0, gas), internal: energy - kinetic, phi },
-            kinetic,
-        )
     }
 
     fn where_phases_meet(
         &self,
         cell: &Holding,
+        saturation: &Saturation,
         place: &BlockPlace<'_>,
         k: usize,
         stride: usize,
     ) -> Option<Changed> {
         match self.asked.law {
-            EvaporationLaw::Equilibrium => to_equilibrium(cell, &self.saturation)
+            EvaporationLaw::Equilibrium => to_equilibrium(cell, saturation)
                 .filter(|changed| changed.evaporated <= 0.0 || borders_gas(place.phi, k, stride)),
             EvaporationLaw::HertzKnudsen { accommodation } => {
                 let area = area_density(place.phi, k, stride, place.inverse_h, holds_both);
-                at_finite_rate(cell, accommodation * place.dt * area, &self.saturation)
+                at_finite_rate(cell, accommodation * place.dt * area, saturation)
             }
         }
     }
@@ -146,19 +149,39 @@ impl Exchange {
     }
 
     /// The cell with what it holds now; `None` if it is not physical.
-    fn finished(&self, [rho, m_z, m_r, _]: [f64; 4], kinetic: f64, after: &Holding) -> Option<FinishedCell> {
-        let u = [rho, m_z, m_r, after.internal + kinetic, after.phi];
-        let finished = finish_corrected(u, after.gas, &self.saturation.mixture);
-        (finished.floor == 0.0 && finished.is_admissible()).then_some(finished)
+    fn finished(
+        &self,
+        [rho, m_z, m_r, _]: [f64; 4],
+        kinetic: f64,
+        after: &Holding,
+        single: &SinglePressure,
+    ) -> Option<FinishedCell> {
+        let internal = after.internal + single.energy_above(after.phi, after.liquid());
+        let u = [rho, m_z, m_r, internal + kinetic, after.phi];
+        single.finished((u, after.gas), &self.saturation.mixture)
     }
 }
 
+/// What a cell holds, by the laws of one pressure, and its kinetic energy per volume. The vapour is no more than the gas.
+fn holding(
+    [rho, m_z, m_r, energy]: [f64; 4],
+    phi: f64,
+    [gas, vapour]: [f64; 2],
+    single: &SinglePressure,
+) -> (Holding, f64) {
+    let kinetic = 0.5 * (m_z * m_z + m_r * m_r) / rho;
+    let gas = gas.max(0.0);
+    let internal = (energy - kinetic) - single.energy_above(phi, rho - gas);
+    (Holding { density: rho, gas, vapour: vapour.clamp(0.0, gas), internal, phi }, kinetic)
+}
+
 impl BlockExchange {
-    /// - `mass`, `energy`: per volume.
-    fn add(&mut self, mass: f64, energy: f64, volume: f64, opened: bool) {
+    /// - `mass`, `energy`, `work`: per volume; that of surface tension.
+    fn add(&mut self, mass: f64, [energy, work]: [f64; 2], volume: f64, opened: bool) {
         self.evaporated += volume * mass.max(0.0);
         self.condensed += volume * (-mass).max(0.0);
         self.energy += volume * energy;
+        self.tension_work += volume * work;
         if opened {
             self.opened += 1;
             self.opened_mass += volume * mass;

@@ -1,5 +1,6 @@
 //! When liquid and vapour are in equilibrium.
 
+use crate::capillarity::SinglePressure;
 use crate::{Heat, Mixture, NobleAbelStiffenedGas};
 
 /// A liquid and its vapour, an ideal gas: both laws with their reference energies and entropies.
@@ -23,6 +24,16 @@ impl Saturation {
         let is_ideal = mixture.gas.pi == 0.0 && mixture.gas.covolume == 0.0;
         let is_referred = gas_heat.energy > liquid_heat.energy && gas_heat.energy != 0.0;
         (is_ideal && is_referred).then_some(Self { mixture: *mixture, liquid_heat, gas_heat })
+    }
+
+    /// The same phases by the laws of one pressure, where surface tension makes a jump.
+    pub(super) fn with_laws_of(&self, single: &SinglePressure) -> Self {
+        let mixture = single.mixture;
+        Self {
+            mixture,
+            liquid_heat: mixture.liquid.heat.unwrap_or(self.liquid_heat),
+            gas_heat: self.gas_heat,
+        }
     }
 
     /// The vapour's partial pressure that is in equilibrium with liquid: the p_v of g_v(T, p_v) = g_l(T, p).

@@ -296,7 +296,7 @@ impl<'a, const N: usize> TileStep<'a, N> {
             carried.update::<N>(&old[rows.clone()], &metric, &mut new[rows]);
         }
         if ctx.model.terms.is_diffusive && self.gas.phases().is_some() {
-            self.finish_terms(scratch, new);
+            report.tension[1] += self.finish_terms(scratch, new);
         }
         if let Some(exchange) = &ctx.model.exchange {
             self.change_phase(exchange, scratch, new, report);
@@ -317,9 +317,11 @@ impl<'a, const N: usize> TileStep<'a, N> {
             dt: self.ctx.dt,
             volume: &|j| self.ctx.mesh.volume(self.id, j),
             had_gas: self.gas.is_present(),
+            capillary: &scratch.capillary,
         };
         let mut speeds = scratch.speeds.split_mut::<3>().map(|row| &mut row[..N * N]);
         report.exchange = exchange.act::<N>(&place, new, &mut speeds);
+        report.tension[1] += report.exchange.tension_work;
         report.has_gas |= report.exchange.opened > 0;
     }
 }

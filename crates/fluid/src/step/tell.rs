@@ -53,7 +53,9 @@ impl<const N: usize> TileStep<'_, N> {
             }
         }
         if scratch.capillary.is_present() {
-            report.tension = self.tension_gains(scratch);
+            for (sum, gain) in report.tension.iter_mut().zip(self.tension_gains(scratch)) {
+                *sum += gain;
+            }
             if ctx.model.terms.forbids_contact() {
                 let found = cell_at_wall(ctx.mesh, slot, ctx.model.analysis.boundaries, new);
                 report.contact = found.map(|cell| cell as u32);

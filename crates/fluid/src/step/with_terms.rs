@@ -100,7 +100,9 @@ impl<const N: usize> TileStep<'_, N> {
     }
 
     /// What terms do to the cells of both phases at the end of the step.
-    pub(super) fn finish_terms(&self, scratch: &mut BlockScratch<N>, new: &mut [f64]) {
+    ///
+    /// - returns: the work of surface tension in that, J per radian.
+    pub(super) fn finish_terms(&self, scratch: &mut BlockScratch<N>, new: &mut [f64]) -> f64 {
         let BlockScratch { cells, face_weight, inverse_weight, speeds, works, capillary, .. } = scratch;
         let mut cells = FinishedCells {
             cells: N,
@@ -108,10 +110,13 @@ impl<const N: usize> TileStep<'_, N> {
             phi: cells.component(PHI),
             new,
             speeds: speeds.split_mut::<3>().map(|row| &mut row[..N * N]),
-            excess: capillary.excess(),
+            capillary,
             mixture: &self.ctx.model.mixture,
+            volume: &|j| self.ctx.mesh.volume(self.id, j),
+            tension_work: 0.0,
         };
         self.ctx.model.terms.finish(&mut cells, works);
+        cells.tension_work
     }
 }
 

@@ -1,6 +1,7 @@
 //! The cells of a block at the end of its step, for terms that change them once more.
 
 use crate::Mixture;
+use crate::capillarity::CapillaryRows;
 use crate::state::ConservedCell;
 use crate::state::conserved::{self, ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, RHO};
 use crate::state::finished::FinishedCell;
@@ -17,9 +18,15 @@ pub(crate) struct FinishedCells<'a> {
     pub new: &'a mut [f64],
     /// |v_z| + c and |v_r| + c of those cells, and the energy that the floor added.
     pub speeds: [&'a mut [f64]; 3],
-    /// By how much the pressure of the padded cells' gas exceeds that of the cells by surface tension, Pa, at the beginning of the step.
-    pub excess: Option<&'a [f64]>,
+    /// Surface tension at the beginning of the step.
+    pub capillary: &'a CapillaryRows,
     pub mixture: &'a Mixture,
+    /// The volume of a cell in a row, per radian in axial symmetry.
+    pub volume: &'a dyn Fn(usize) -> f64,
+    /// What the cells' energy has changed by, J per radian: the work of surface tension, see [`SinglePressure`].
+    ///
+    /// [`SinglePressure`]: crate::capillarity::SinglePressure
+    pub tension_work: f64,
 }
 
 impl FinishedCells<'_> {
@@ -54,6 +61,8 @@ impl FinishedCells<'_> {
             }
             let k = self.metric.origin + cell / n * self.metric.stride + cell % n;
             if let Some(finished) = change(self, (u, gas), (k, cell / n)) {
+                let gained = finished.conserved[conserved::ENERGY] - u[conserved::ENERGY];
+                self.tension_work += gained * (self.volume)(cell / n);
                 self.set(cell, finished);
             }
         }

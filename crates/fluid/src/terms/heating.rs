@@ -1,8 +1,9 @@
 //! Heat that comes into the phases of a cell that holds both.
 
 use crate::Mixture;
+use crate::capillarity::SinglePressure;
 use crate::state::ConservedCell;
-use crate::state::finished::{FinishedCell, finish_corrected, measure_cell};
+use crate::state::finished::FinishedCell;
 
 /// The energies of the phases of a cell at one pressure, per volume of the cell.
 #[derive(Clone, Copy, Debug)]
@@ -61,46 +62,43 @@ impl PhaseEnergies {
     }
 }
 
-/// The pressure of a cell's gas without heat that is in the cell's energy, Pa; `None` where it would have none.
-///
-/// - `gas`: m_g, kg/m³; `heat`: J/m³; `excess`: see [`heated`].
-pub(crate) fn pressure_without(
-    (u, gas): (ConservedCell, f64),
-    heat: f64,
-    excess: f64,
-    mixture: &Mixture,
-) -> Option<f64> {
-    let [rho, m_z, m_r, energy, phi] = u;
-    let internal = energy - 0.5 * (m_z * m_z + m_r * m_r) / rho;
-    let [beta1, beta2] = mixture.free_betas::<true>(phi, rho, gas);
-    let pressure = (internal - heat - beta2) / beta1 + excess;
-    (pressure + mixture.gas.pi > 0.0).then_some(pressure)
+/// A cell of both phases that have got heat which is in its energy already.
+pub(crate) struct CellInHeat<'a> {
+    u: ConservedCell,
+    /// m_g, kg/m³.
+    gas: f64,
+    mixture: &'a Mixture,
+    single: SinglePressure,
 }
 
-/// A cell of which the phases have got heat that is in its energy already, at one pressure again; `None` where it stays as it is.
-///
-/// Mass, momentum and energy stay; the gas fraction changes, which says how the energy is divided.
-///
-/// - `gas`: m_g, kg/m³; `phases`: before; `heat`: of gas and liquid, J/m³; `excess`: by which the gas's pressure exceeds the cell's by
-///   surface tension, Pa.
-pub(crate) fn heated(
-    (u, gas): (ConservedCell, f64),
-    phases: &PhaseEnergies,
-    heat: [f64; 2],
-    excess: f64,
-    mixture: &Mixture,
-) -> Option<FinishedCell> {
-    let [rho, m_z, m_r, energy, phi] = u;
-    let after = phi + phases.growth(heat)?;
-    if !(after > 0.0 && after < 1.0) {
-        return None;
+impl<'a> CellInHeat<'a> {
+    /// - `gas`: m_g, kg/m³; `jump`: by which the gas's pressure exceeds the liquid's by surface tension, Pa.
+    pub fn of((u, gas): (ConservedCell, f64), jump: f64, mixture: &'a Mixture) -> Self {
+        Self { u, gas, mixture, single: SinglePressure::of(jump, mixture) }
     }
-    let u = [rho, m_z, m_r, energy, after];
-    let finished = finish_corrected(u, gas, mixture);
-    // The cell's pressure may be below the floor if that of its gas is not.
-    let is_borne = finished.floor > 0.0
-        && excess > 0.0
-        && pressure_without((u, gas), 0.0, excess, mixture).is_some_and(|p| p >= mixture.pressure_floor(1.0));
-    let finished = if is_borne { measure_cell(u, gas, mixture) } else { finished };
-    (finished.floor == 0.0 && finished.is_admissible()).then_some(finished)
+
+    /// Its phases before they got heat; `None` where the gas would have no pressure.
+    ///
+    /// - `heat`: J/m³.
+    pub fn without(&self, heat: f64) -> Option<PhaseEnergies> {
+        let [rho, .., phi] = self.u;
+        let pressure = self.single.pressure_without((self.u, self.gas), heat);
+        (pressure + self.mixture.gas.pi > 0.0)
+            .then(|| PhaseEnergies::of(&self.single.mixture, [rho, pressure, phi], self.gas))
+    }
+
+    /// The cell with its phases in equilibrium of pressures again; `None` where it stays as it is.
+    ///
+    /// Mass and momentum stay; the gas fraction changes, which says how the energy is divided. The energy changes by what goes into the surface.
+    ///
+    /// - `phases`: before; `heat`: of gas and liquid, J/m³.
+    pub fn heated(&self, phases: &PhaseEnergies, heat: [f64; 2]) -> Option<FinishedCell> {
+        let [rho, m_z, m_r, energy, phi] = self.u;
+        let after = phi + phases.growth(heat)?;
+        if !(after > 0.0 && after < 1.0) {
+            return None;
+        }
+        let energy = energy + self.single.tension_work(phi, after);
+        self.single.finished(([rho, m_z, m_r, energy, after], self.gas), self.mixture)
+    }
 }

@@ -9,7 +9,7 @@ use super::phase_model::PhaseModel;
 use super::reconstruction::CellRule;
 use super::scratch::GasScratch;
 use super::update::{OldCells, bound_gas, gas_fluxes, gas_shares, is_zero, update_gas, update_mixed};
-use crate::capillarity::{CapillaryRows, FaceJumps};
+use crate::capillarity::{CapillaryRows, FaceJumps, SinglePressure};
 use crate::options::TwoPhaseOptions;
 use crate::physics::FluidStep;
 use crate::reconstruction::Reconstruction;
@@ -274,7 +274,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
             u[ENERGY] -= added;
             let k = metric.origin + cell / N * metric.stride + cell % N;
             let mixture = &self.ctx.model.mixture;
-            let borne = capillary.borne(k, u, gas[cell], mixture);
+            let borne = SinglePressure::of(capillary.jump(k), mixture).borne((u, gas[cell]), mixture);
             let [phi, mass] = before.map(|row| row[cell]);
             let old = Gas { pressure: pressure[k], phi, mass };
             let Some(after) = borne.or_else(|| expanded(u, gas[cell], old, mixture)) else { continue };

@@ -114,11 +114,10 @@ impl Caloric {
 
     /// Both phases of a cell.
     ///
-    /// - `gas`: m_g, kg/m³; `state`: ρ, p, φ.
-    pub fn phases(&self, state: [f64; 3], gas: f64, mixture: &Mixture) -> PhaseHeats {
-        let energies = PhaseEnergies::of(mixture, state, gas);
+    /// - `masses`: m_g and m_l, kg/m³.
+    pub fn phases(&self, energies: PhaseEnergies, [gas, liquid]: [f64; 2]) -> PhaseHeats {
         PhaseHeats {
-            capacities: [gas * self.gas.capacity, (state[0] - gas) * self.liquid.capacity],
+            capacities: [gas * self.gas.capacity, liquid * self.liquid.capacity],
             heats: energies.heats(),
             energies,
         }

@@ -22,6 +22,10 @@ fn cell(p: f64, phi: f64, [gas, liquid]: [f64; 2]) -> ([f64; 3], f64) {
     ([rho, p, phi], mass)
 }
 
+fn phases_of(state: [f64; 3], gas: f64, mixture: &Mixture) -> PhaseHeats {
+    caloric().phases(PhaseEnergies::of(mixture, state, gas), [gas, state[0] - gas])
+}
+
 #[test]
 fn cells_of_one_temperature_have_it() {
     for phi in [0.0, 1e-9, 1e-3, 0.5, 1.0 - 1e-9, 1.0] {
@@ -54,7 +58,7 @@ fn phases_come_to_one_pressure_with_the_heat_that_they_got() {
         (0.999, [300.0, 400.0], [1e5, 1e6]),
     ] {
         let ([rho, p, phi], gas) = cell(1e5, phi, temperatures);
-        let phases = caloric().phases([rho, p, phi], gas, &mixture);
+        let phases = phases_of([rho, p, phi], gas, &mixture);
         assert_eq!(phases.energies.growth([0.0; 2]), Some(0.0));
         let growth = phases.energies.growth(heat).expect("there is heat enough");
         let energy = |law: NobleAbelStiffenedGas, volume: f64, mass: f64, p: f64| {
@@ -77,7 +81,7 @@ fn phases_come_to_one_pressure_with_the_heat_that_they_got() {
 #[test]
 fn gas_beside_stiff_liquid_is_heated_at_constant_volume() {
     let (state, gas) = cell(1e5, 0.3, [300.0; 2]);
-    let phases = caloric().phases(state, gas, &mixture());
+    let phases = phases_of(state, gas, &mixture());
     let heat = 0.01 * phases.heats[0];
     let growth = phases.energies.growth([heat, 0.0]).expect("there is heat enough");
     // The pressure rises by a hundredth: the liquid gives way by that over its stiffness.
@@ -92,7 +96,7 @@ fn the_phases_of_a_cell_come_to_what_many_small_steps_bring_them_to() {
         [(0.3, [3e3, -5e3], 200.0), (0.9, [-1e4, 2e4], 1e3), (0.5, [10.0, 0.0], 0.0)]
     {
         let (state, gas) = cell(1e5, phi, [900.0, 300.0]);
-        let whole = caloric().phases(state, gas, &mixture());
+        let whole = phases_of(state, gas, &mixture());
         let [c_g, c_l] = whole.capacities;
         let [mut h_g, mut h_l] = whole.heats;
         let steps = 200_000;
@@ -113,7 +117,7 @@ fn the_phases_of_a_cell_come_to_what_many_small_steps_bring_them_to() {
 #[test]
 fn thin_phases_follow() {
     let (state, gas) = cell(1e5, 1e-6, [3000.0, 300.0]);
-    let phases = caloric().phases(state, gas, &mixture());
+    let phases = phases_of(state, gas, &mixture());
     let [gas_heat, _] = phases.shares([0.0; 2], 1e9);
     approx::assert_relative_eq!(gas_heat, -0.9 * phases.heats[0], max_relative = 1e-6);
 }

@@ -5,13 +5,13 @@ use crate::phase_change::{area_density, holds_both};
 use crate::state::ConservedCell;
 use crate::state::finished::FinishedCell;
 use crate::terms::FinishedCells;
-use crate::terms::heating::{heated, pressure_without};
+use crate::terms::heating::CellInHeat;
 
 impl ConductionTerm {
     /// Gives both phases of mixed cells their parts of the heat that came in, and lets it pass between them.
     ///
     /// Mass, momentum and energy of a cell stay; the gas fraction changes, which says how the energy is divided. The heat that came through
-    /// faces is in the energy already.
+    /// faces is in the energy already. With surface tension the energy of the surface counts.
     ///
     /// - `fluxes`: of heat along z and r, W/m².
     pub(super) fn finish_phases(&self, cells: &mut FinishedCells<'_>, fluxes: [&[f64]; 2]) {
@@ -29,15 +29,15 @@ impl ConductionTerm {
         (k, j): (usize, usize),
     ) -> Option<FinishedCell> {
         let [rho, _, _, _, phi] = u;
+        let cell = CellInHeat::of((u, gas), cells.capillary.jump(k), &self.mixture);
         let through = self.heat_through(cells, fluxes, (k, j));
         let [by_gas, by_liquid, by_either] = through;
-        let pressure = pressure_without((u, gas), by_gas + by_liquid + by_either, 0.0, &self.mixture)?;
-        let phases = self.caloric.phases([rho, pressure, phi], gas, &self.mixture);
+        let phases = self.caloric.phases(cell.without(by_gas + by_liquid + by_either)?, [gas, rho - gas]);
         let [c_g, c_l] = phases.capacities;
         let split = by_either * c_g / (c_g + c_l);
         let through = [by_gas + split, by_liquid + (by_either - split)];
         let heat = phases.shares(through, self.conductance(cells, phi, k) * cells.metric.dt);
-        heated((u, gas), &phases.energies, heat, 0.0, &self.mixture)
+        cell.heated(&phases.energies, heat)
     }
 
     /// The heat that came into a cell in the step through faces on its gas's side, on its liquid's side, and through those of which the

@@ -2,9 +2,9 @@
 
 use super::stress::Parts;
 use super::{Viscosity, longitudinal, rows_of};
-use crate::state::conserved::{PHI, RHO};
+use crate::state::conserved::PHI;
 use crate::terms::FinishedCells;
-use crate::terms::heating::{PhaseEnergies, heated, pressure_without};
+use crate::terms::heating::CellInHeat;
 use crate::two_phase::is_mixed;
 
 impl Viscosity {
@@ -16,16 +16,14 @@ impl Viscosity {
     pub(super) fn finish_phases(&self, cells: &mut FinishedCells<'_>, work: &[f64]) {
         cells.change_mixed(is_mixed, |cells, (u, gas), at| {
             let heat = friction(cells, work, at);
-            let excess = cells.excess.map_or(0.0, |excess| excess[at.0]);
-            let mixture = cells.mixture;
-            let pressure = pressure_without((u, gas), heat, excess, mixture)?;
-            let phases = PhaseEnergies::of(mixture, [u[RHO], pressure, u[PHI]], gas);
+            let cell = CellInHeat::of((u, gas), cells.capillary.jump(at.0), cells.mixture);
+            let phases = cell.without(heat)?;
             let [of_gas, of_liquid] = [
                 u[PHI] * longitudinal([self.gas.shear, self.gas.bulk]),
                 (1.0 - u[PHI]) * longitudinal([self.liquid.shear, self.liquid.bulk]),
             ];
             let by_gas = if of_gas > 0.0 { heat * of_gas / (of_gas + of_liquid) } else { 0.0 };
-            heated((u, gas), &phases, [by_gas, heat - by_gas], excess, mixture)
+            cell.heated(&phases, [by_gas, heat - by_gas])
         });
     }
 }
