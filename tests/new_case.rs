@@ -165,6 +165,7 @@ fn what_makes_no_case_is_named_with_what_is_allowed() {
         (["load", "--wall", "rigid"], "a rigid wall takes no load"),
         (["load", "--duration", "1mm"], "give a number with s, ms"),
         (["laser", "--equilibrium-radius", "30um"], "equilibrium_radius: must be larger, got 3e-5"),
+        (["laser", "--largest-radius", "-1mm"], "largest_radius: must be positive, got -0.001"),
         (["laser", "--left-radius", "1mm"], "left_radius: must be less than R_n, got 0.001"),
         (["free", "--cells-per-radius", "nan"], "cells_per_radius: must be from 4 to 2000"),
         (["shock", "--amplitude", "-1MPa"], "amplitude: must be positive"),

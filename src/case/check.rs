@@ -151,7 +151,9 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
             let distance = centre[0] - fluid.grid.z[0];
             parts.push(format!("stand-off d/R = {:.3}", distance / radius));
         }
-        if let Some(time) = rayleigh_time(ambient, &region.state, radius) {
+        // A cylinder's collapse has no time of its own: it depends on how far away the sides are.
+        let is_sphere = case.geometry == Geometry::Axisymmetric;
+        if let Some(time) = rayleigh_time(ambient, &region.state, radius).filter(|_| is_sphere) {
             parts.push(format!("Rayleigh collapse time {}", si(time, "s")));
         }
         line(text, &format!("region {number}"), &parts.join(", "));
@@ -222,6 +224,13 @@ fn impedances(text: &mut String, fluid: &FluidCase, solid: &SolidCase) {
     line(text, "impedance", &numbers);
 }
 
+/// The steps that both sides make if each keeps within its limit: the longer one is divided into equal parts.
+fn within(limits: [Option<f64>; 2]) -> [Option<f64>; 2] {
+    let [Some(fluid), Some(solid)] = limits else { return limits };
+    let longest = fluid.max(solid);
+    [fluid, solid].map(|own| Some(longest / mesh::steps_in(longest, own)))
+}
+
 fn steps(text: &mut String, case: &Case) {
     let [fluid, solid] = first_steps(case).map(|side| side.map(|first| first.length));
     // Each side keeps its own step, as far as the other can follow.
@@ -229,12 +238,11 @@ fn steps(text: &mut String, case: &Case) {
     let beside = |own: Option<f64>, other: Option<f64>| {
         own.map(|own| other.map_or(own, |other| own.min(ratio * other)))
     };
-    let [fluid, solid] = [beside(fluid, solid), beside(solid, fluid)];
+    let [fluid, solid] = within([beside(fluid, solid), beside(solid, fluid)]);
     match (fluid, solid) {
         (Some(fluid), Some(solid)) => {
-            let (most, longer) =
-                if fluid >= solid { (fluid / solid, "fluid") } else { (solid / fluid, "solid") };
-            let words = match most.ceil() {
+            let longer = if fluid >= solid { "fluid" } else { "solid" };
+            let words = match mesh::steps_in(fluid.max(solid), fluid.min(solid)) {
                 1.0 => "the same".to_owned(),
                 most => format!("{most:.0} in one of the {longer}'s"),
             };

@@ -144,10 +144,14 @@ fn near_sides(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>)
                             }
                             _ => "move it",
                         };
+                        // How late a cylinder is follows another law.
+                        let late = match geometry {
+                            Geometry::Axisymmetric => format!("about {:.0} % late", (100.0 * LATE * held).ceil()),
+                            Geometry::Planar => "late".to_owned(),
+                        };
                         warnings.push(format!(
                             "{where_it_is} and \"non-reflecting\": it holds the flow to the bubble up, which collapses \
-                             about {:.0} % late; {otherwise} to {enough:.0} radii",
-                            (100.0 * LATE * held).ceil()
+                             {late}; {otherwise} to {enough:.0} radii"
                         ));
                     }
                 }

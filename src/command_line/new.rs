@@ -4,7 +4,9 @@ use clap::{Args, Subcommand};
 use solid::Material;
 
 use crate::case::CaseErrors;
-use crate::case::new::{Collapse, Dimension, FreeBubble, LaserBubble, ShockedBubble, Wall, WallLoad};
+use crate::case::new::{
+    Collapse, Dimension, FreeBubble, LaserBubble, LaserRadii, ShockedBubble, Wall, WallLoad,
+};
 
 /// What `cav new` lists.
 const KINDS: &str = "\
@@ -117,15 +119,18 @@ struct FreeArgs {
 
 #[derive(Args)]
 struct LaserArgs {
-    /// Radius at the start.
-    #[arg(long, value_parser = length, default_value = "20um")]
-    radius: f64,
-    /// Radius at which its gas would be in equilibrium.
-    #[arg(long, value_parser = length, default_value = "184.1um")]
-    equilibrium_radius: f64,
-    /// The same of the gas that is left after the first maximum; none: all of it.
-    #[arg(long, value_parser = length_or_none, default_value = "64um")]
-    left_radius: LengthOrNone,
+    /// Largest radius; the equilibrium radius follows from it by Gilmore's equation.
+    #[arg(long, value_parser = length, conflicts_with = "equilibrium_radius")]
+    largest_radius: Option<f64>,
+    /// Radius at the start; 20um, or in that proportion to the largest.
+    #[arg(long, value_parser = length)]
+    radius: Option<f64>,
+    /// Radius at which its gas would be in equilibrium; 184.1um.
+    #[arg(long, value_parser = length)]
+    equilibrium_radius: Option<f64>,
+    /// The same of the gas that is left after the first maximum; none: all of it; 64um, or in that proportion to the largest.
+    #[arg(long, value_parser = length_or_none)]
+    left_radius: Option<LengthOrNone>,
     /// Pressure of the liquid far away.
     #[arg(long, value_parser = pressure, default_value = "1bar")]
     pressure: f64,
@@ -198,16 +203,21 @@ pub(super) fn text(args: New) -> Result<String, CaseErrors> {
         Kind::Free(FreeArgs { radius, pressure, gas_pressure, cells_per_radius }) => {
             FreeBubble { radius, pressure, gas_pressure, cells_per_radius }.text()
         }
-        Kind::Laser(asked) => LaserBubble {
-            radius: asked.radius,
-            equilibrium_radius: asked.equilibrium_radius,
-            left_radius: asked.left_radius.0,
-            pressure: asked.pressure,
-            stand_off: asked.stand_off,
-            wall: asked.wall,
-            cells_per_radius: asked.cells_per_radius,
+        Kind::Laser(asked) => {
+            let radii = LaserRadii {
+                start: asked.radius,
+                equilibrium: asked.equilibrium_radius,
+                largest: asked.largest_radius,
+                left: asked.left_radius.map(|left| left.0),
+            };
+            LaserBubble {
+                stand_off: asked.stand_off,
+                wall: asked.wall,
+                cells_per_radius: asked.cells_per_radius,
+                ..radii.bubble(asked.pressure)?
+            }
+            .text()
         }
-        .text(),
         Kind::Shock(ShockArgs { radius, pressure, amplitude, stand_off, wall, cells_per_radius }) => {
             ShockedBubble { radius, pressure, amplitude, stand_off, wall, cells_per_radius }.text()
         }

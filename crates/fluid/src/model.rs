@@ -311,7 +311,7 @@ impl<const N: usize> Model<N> for Fluid {
     }
 
     fn mesh_changed(&mut self, mesh: &Mesh<N>) {
-        self.axis_blocks = mesh.blocks_along(Side::RMin);
+        self.axis_blocks = mesh.blocks_on_axis();
     }
 
     fn demanded_levels(

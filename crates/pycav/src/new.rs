@@ -1,7 +1,7 @@
 //! Cases for what is asked most often, as `cav new` writes them.
 
 use cav::case::CaseErrors;
-use cav::case::new::{Collapse, FreeBubble, LaserBubble, ShockedBubble, Wall, WallLoad};
+use cav::case::new::{Collapse, FreeBubble, LaserBubble, LaserRadii, ShockedBubble, Wall, WallLoad};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -43,21 +43,25 @@ pub fn new_free_bubble(
     case(FreeBubble { radius, pressure, gas_pressure, cells_per_radius }.text(), "free")
 }
 
-/// A laser bubble, free or near a wall; the arguments of `cav new laser`, SI.
+/// A laser bubble, free or near a wall; the arguments of `cav new laser`, SI: its radii at the start, in equilibrium and at its largest, and
+/// whether all of its gas is left or, if not, R_n of what is.
 #[pyfunction]
 pub fn new_laser_bubble(
-    radius: f64,
-    equilibrium_radius: f64,
-    left_radius: Option<f64>,
+    radii: (Option<f64>, Option<f64>, Option<f64>),
+    left: (bool, Option<f64>),
     pressure: f64,
     stand_off: Option<f64>,
     wall_name: &str,
     cells_per_radius: f64,
 ) -> PyResult<Case> {
     let wall = wall(wall_name)?;
-    let asked =
-        LaserBubble { radius, equilibrium_radius, left_radius, pressure, stand_off, wall, cells_per_radius };
-    case(asked.text(), "laser")
+    let (start, equilibrium, largest) = radii;
+    let (all_is_left, radius) = left;
+    let left = if all_is_left { Some(None) } else { radius.map(Some) };
+    let text = LaserRadii { start, equilibrium, largest, left }
+        .bubble(pressure)
+        .and_then(|bubble| LaserBubble { stand_off, wall, cells_per_radius, ..bubble }.text());
+    case(text, "laser")
 }
 
 /// A lithotripter's pulse and an air bubble near a wall; the arguments of `cav new shock`, SI.

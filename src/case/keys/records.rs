@@ -54,8 +54,8 @@ pub(super) static RECORDS: [Section; 3] = [
         path: "sensor",
         repeated: true,
         title: "Sensors",
-        about: "A disc on the wall about the axis, as a transducer has one; in planar geometry the wall from r_min up to \
-                `radius`. After every step it records the mean of the pressure beyond that at t = 0, its force and \
+        about: "A disc on the wall about the axis, as a transducer has one; in planar geometry a strip from \
+                −`radius` (or r_min) to `radius`. After every step it records the mean of the pressure beyond that at t = 0, its force and \
                 its impulse: [`/sensors/NAME`][sensors].",
         keys: &[
             NAME,

@@ -53,7 +53,8 @@ pub(super) static TIME: [Section; 2] = [
                 default: Preset::Number(CFL),
                 about: "The Courant number. The step is `cfl` times the smallest of h_z/(|v_z| + c) and \
                         h_r/(|v_r| + c) in the fluid, and of h/c₁ in the solid. The two directions' numbers never add \
-                        up to more than one, so with square cells 0.5 at most comes of it.",
+                        up to more than one, so with square cells 0.5 at most comes of it. Where one step is divided \
+                        into several, of a finer level or of the other side, these may be 5 % longer.",
             },
             Key {
                 name: "local_steps",

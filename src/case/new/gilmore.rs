@@ -18,21 +18,21 @@ pub(super) struct Turn {
     pub radius: f64,
 }
 
-/// A bubble that grows and collapses: its largest radius, its smallest one, and the same of the second cycle.
+/// A bubble that grows and collapses: its largest radius, its smallest one, the same of the second cycle, and so on.
 ///
 /// Gilmore (1952): R V' (1 − V/c) + 3/2 V² (1 − V/3c) = H (1 + V/c) + R H'/c (1 − V/c), with enthalpy H and sound speed c on the
 /// bubble's wall along the liquid's isentrope (p + π)/ρ^γ = const. Runge–Kutta's steps of fourth order.
 ///
 /// - `start`: radius at t = 0, m; `equilibrium`: R_n of the gas, m; `left`: R_n after the first maximum, m.
-/// - returns: `None` if there are not four turns: a bubble that does not grow, or that does not collapse.
+/// - returns: `None` if there are not so many turns: a bubble that does not grow, or that does not collapse.
 /// - tested by: Lechner's bubble (2020).
-pub(super) fn cycles(
+pub(super) fn turns<const TURNS: usize>(
     content: &BubbleContent,
     start: f64,
     equilibrium: f64,
     left: Option<f64>,
-) -> Option<[Turn; 4]> {
-    let mut turns = [Turn::default(); 4];
+) -> Option<[Turn; TURNS]> {
+    let mut turns = [Turn::default(); TURNS];
     let (mut found, mut time, mut rest) = (0, 0.0, equilibrium);
     let mut state = [start, 0.0];
     for _ in 0..MOST_STEPS {
@@ -104,14 +104,14 @@ mod tests {
             temperature: 293.15,
         };
         let [largest, collapse, rebound, second] =
-            cycles(&content, 20e-6, 184.1e-6, Some(64e-6)).expect("four turns");
+            turns(&content, 20e-6, 184.1e-6, Some(64e-6)).expect("four turns");
         assert!((480e-6..520e-6).contains(&largest.radius), "{largest:?}");
         // As long as it grew, by Rayleigh's time.
         let rayleigh = RAYLEIGH_FACTOR * largest.radius * (1000.0_f64 / 1e5).sqrt();
         assert!(((collapse.time - largest.time) / rayleigh - 1.0).abs() < 0.02, "{largest:?} {collapse:?}");
-        let [_, _, whole, _] = cycles(&content, 20e-6, 184.1e-6, None).expect("four turns");
+        let [_, _, whole, _] = turns(&content, 20e-6, 184.1e-6, None).expect("four turns");
         assert!(rebound.radius < 0.6 * whole.radius, "{rebound:?} {whole:?}");
         assert!(second.time > rebound.time && rebound.time > collapse.time);
-        assert_eq!(cycles(&content, 20e-6, 20e-6, None), None, "it rests");
+        assert_eq!(turns::<4>(&content, 20e-6, 20e-6, None), None, "it rests");
     }
 }

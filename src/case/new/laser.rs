@@ -5,7 +5,7 @@ use fluid::{BubbleContent, StiffenedGas};
 use super::super::error::CaseErrors;
 use super::super::format::si;
 use super::checks::Checks;
-use super::gilmore::{Turn, cycles};
+use super::gilmore::{Turn, turns};
 use super::grid::Blocks;
 use super::parts::{DENSITY, media, number, sound, times};
 use super::quantity::Dimension;
@@ -64,6 +64,9 @@ impl Default for LaserBubble {
 }
 
 impl LaserBubble {
+    /// The largest radius of the default bubble, m.
+    pub(super) const GROWS_TO: f64 = 493.6e-6;
+
     /// The case file.
     ///
     /// # Errors
@@ -141,7 +144,7 @@ impl LaserBubble {
             checks.hold(left < equilibrium_radius, "left_radius", left, "less than R_n", help);
         }
         checks.done()?;
-        let turns = cycles(&self.content(), radius, equilibrium_radius, self.left_radius);
+        let turns = turns(&self.content(), radius, equilibrium_radius, self.left_radius);
         let Some(turns) = turns else {
             let help = "take a pressure and radii of a bubble that grows, collapses and rebounds";
             checks.hold(
@@ -157,7 +160,7 @@ impl LaserBubble {
         Ok(turns)
     }
 
-    fn content(&self) -> BubbleContent {
+    pub(super) fn content(&self) -> BubbleContent {
         BubbleContent {
             far_pressure: self.pressure,
             gas: StiffenedGas { gamma: 1.4, pi: 0.0 }.into(),

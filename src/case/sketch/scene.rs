@@ -81,14 +81,10 @@ impl<'a> Scene<'a> {
         fluid.filter(|_| !none).or(solid)
     }
 
-    /// Where the discs that record the wall's pressure begin and end, m; in planar geometry they are strips from r_min on.
+    /// Where the discs that record the wall's pressure begin and end, m; in planar geometry they are strips about r = 0.
     pub fn discs(&self) -> impl Iterator<Item = [f64; 2]> {
-        let is_planar = self.case.geometry == Geometry::Planar;
         let begin = self.r[0];
-        self.case
-            .sensors
-            .iter()
-            .map(move |sensor| [if is_planar { begin } else { begin.max(-sensor.radius) }, sensor.radius])
+        self.case.sensors.iter().map(move |sensor| [begin.max(-sensor.radius), sensor.radius])
     }
 
     /// A line on what is drawn.

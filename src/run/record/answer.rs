@@ -69,27 +69,34 @@ pub fn percent(share: f64) -> String {
     format!("{:.digits$} %", 100.0 * share)
 }
 
+/// How many bubbles there are, if there are several.
+fn several(summary: Summary<'_>) -> Option<u64> {
+    summary.0.get("bubbles").and_then(Value::as_u64).filter(|count| *count > 1)
+}
+
 fn bubble(summary: Summary<'_>) -> Option<String> {
     let first = summary.number("initial_equivalent_radius")?;
+    let what = match several(summary) {
+        Some(count) => format!("All gas of {count} bubbles"),
+        None => "The bubble".to_owned(),
+    };
     let Some((smallest, time)) = summary.number("min_equivalent_radius").zip(summary.number("collapse_time"))
     else {
         // Without a ball of gas at the start there is none that could collapse: a drop in air, say.
         summary.number("cells_per_radius")?;
         let last = summary.said("final_equivalent_radius", "m")?;
         return Some(format!(
-            "The bubble, of {} at the start, has no collapse within the run; it ends with {last}.",
+            "{what}, of {} at the start, has no collapse within the run; it ends with {last}.",
             si(first, "m")
         ));
     };
     // Of a bubble that grows first, the largest radius is what its collapse starts from.
     let largest = summary.number("growth_time").zip(summary.number("max_equivalent_radius"));
     let (grows, from, whole) = match largest {
-        Some((grown, largest)) => (
-            format!("The bubble grows to {} at {}. It", si(largest, "m"), si(grown, "s")),
-            largest,
-            "largest",
-        ),
-        None => ("The bubble".to_owned(), first, "first"),
+        Some((grown, largest)) => {
+            (format!("{what} grows to {} at {}. It", si(largest, "m"), si(grown, "s")), largest, "largest")
+        }
+        None => (what, first, "first"),
     };
     let mut words = format!(
         "{grows} is smallest at {}: {}, {} of its {whole} radius.",
@@ -203,7 +210,8 @@ fn cells(summary: Summary<'_>) -> Option<String> {
     let mut words = format!("{} cells per radius", count(cells));
     let [smallest, first] =
         ["min_equivalent_radius", "initial_equivalent_radius"].map(|key| summary.number(key));
-    if let Some((smallest, first)) = smallest.zip(first) {
+    // Of several each has a smallest radius of its own.
+    if let Some((smallest, first)) = smallest.zip(first).filter(|_| several(summary).is_none()) {
         words += &format!(", {} where it is smallest", count(cells * smallest / first));
     }
     if let Some(film) = summary.number("film_cells_min").filter(|film| *film < RESOLVED_FILM) {
@@ -273,6 +281,14 @@ mod tests {
             summary["wall_pressure_peak_interface_time"] = json!(8.25e-6);
             assert!(told(&summary).contains(said), "{face}");
         }
+        summary["bubbles"] = json!(2);
+        let both = told(&summary);
+        assert!(
+            both.contains("All gas of 2 bubbles is smallest")
+                && both.contains("40 cells per radius, no warning"),
+            "{both}"
+        );
+        summary["bubbles"] = json!(1);
         summary["wall_pressure_peak_interface"] = json!(9.2e8);
         let words = "3.1 where it is smallest, a peak on the wall 2.2 times its mean, which grows with the resolution";
         assert!(told(&summary).contains(words), "{}", told(&summary));

@@ -183,7 +183,7 @@ impl FluidRecord {
         for (peak, value) in [
             (&mut peaks.wall, wall.axis),
             (&mut peaks.wall_anywhere, wall.anywhere),
-            (&mut peaks.wall_interface, self.wall_pressures.first().copied().unwrap_or(f64::NAN)),
+            (&mut peaks.wall_interface, self.faces.on_axis(&self.wall_pressures).unwrap_or(f64::NAN)),
             (&mut peaks.jet, axis.jet_velocity.max(0.0)),
         ] {
             if value > peak[0] {
@@ -307,7 +307,9 @@ impl Record for FluidRecord {
         }));
         map.extend(self.seen.cells.summary("fluid", solver.cell_updates(), solver.common_updates()));
         map.extend(self.seen.film.summary());
-        map.extend(cut::summary(solver));
+        let bubbles = Some(self.seen.cuts.bubbles()).filter(|count| *count > 1);
+        map.extend(bubbles.map(|count| ("bubbles".to_owned(), json!(count))));
+        map.extend(cut::summary(solver, radius));
         let masses = solver.carried_masses();
         map.extend(self.interface.iter().flat_map(InterfaceHistory::summary));
         map.extend(masses.map(|(name, mass)| (format!("{name}_mass"), json!(mass))));

@@ -159,7 +159,7 @@ impl InterfaceHistory {
             pressure: zero.clone(),
             impulse: zero,
             sensors: Sensors::create(case, faces, pressures, history)?,
-            axis: WallAxis::new(case.mean_time(), pressures),
+            axis: WallAxis::new(case.mean_time(), faces.on_axis(pressures)),
             shear: is_viscous.then(|| WallShear::new(cells)),
             heat: conducts.then(|| WallHeat::new(cells)),
         };
@@ -189,7 +189,7 @@ impl InterfaceHistory {
         if let Some(heat) = self.heat.as_mut().filter(|_| !of_heat[0].is_empty()) {
             heat.after_step(faces, &self.map, of_heat, time);
         }
-        self.axis.after_step(pressures, (time, dt));
+        self.axis.after_step(faces.on_axis(pressures), (time, dt));
         self.sensors.after_step(faces, pressures, (time, dt), history)
     }
 

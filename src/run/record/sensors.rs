@@ -56,7 +56,7 @@ impl Sensors {
             let series = history.add_series(&format!("/sensors/{}", sensor.name), &COLUMNS)?;
             history.push(series, &[0.0; 4])?;
             let initial = mean(geometry, faces, sensor.radius, pressures);
-            let area = area(geometry, faces.begin(), sensor.radius);
+            let area = area(geometry, inner(faces, sensor.radius), sensor.radius);
             let state = SensorState { initial, ..SensorState::default() };
             Ok(OnWall { sensor: sensor.clone(), area, series, state })
         };
@@ -124,17 +124,23 @@ fn area(geometry: Geometry, low: f64, high: f64) -> f64 {
     }
 }
 
+/// Where a sensor begins on a wall: at r = 0, or in the plane on the other side of it.
+fn inner(faces: &WallFaces, radius: f64) -> f64 {
+    faces.begin().max(-radius)
+}
+
 /// The mean of the pressures on the faces over the wall up to a radius; a face that reaches beyond counts with its part within.
 fn mean(geometry: Geometry, faces: &WallFaces, radius: f64, pressures: &[f64]) -> f64 {
-    let (mut low, mut sum) = (faces.begin(), 0.0);
-    for (edge, pressure) in faces.edges().iter().zip(pressures) {
+    let begin = inner(faces, radius);
+    let (mut low, mut sum) = (begin, 0.0);
+    for (edge, pressure) in faces.edges().iter().zip(pressures).filter(|(edge, _)| **edge > begin) {
         if low >= radius {
             break;
         }
         sum += area(geometry, low, edge.min(radius)) * pressure;
         low = *edge;
     }
-    sum / area(geometry, faces.begin(), radius)
+    sum / area(geometry, begin, radius)
 }
 
 #[cfg(test)]

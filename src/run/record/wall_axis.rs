@@ -23,14 +23,14 @@ pub struct WallAxis {
 }
 
 impl WallAxis {
-    /// Of a wall with these pressures on its faces at t = 0, from the axis outwards.
-    pub fn new(window: Option<f64>, pressures: &[f64]) -> Self {
-        Self { window, initial: pressures.first().copied().unwrap_or(0.0), ..Self::default() }
+    /// Of a wall with this pressure on the axis at t = 0.
+    pub fn new(window: Option<f64>, pressure: Option<f64>) -> Self {
+        Self { window, initial: pressure.unwrap_or(0.0), ..Self::default() }
     }
 
-    /// Takes notice of a step of length `dt` that ended at `time` with these mean pressures on the faces.
-    pub fn after_step(&mut self, pressures: &[f64], (time, dt): (f64, f64)) {
-        let Some(pressure) = pressures.first().filter(|_| dt > 0.0) else { return };
+    /// Takes notice of a step of length `dt` that ended at `time` with this mean pressure on the axis.
+    pub fn after_step(&mut self, pressure: Option<f64>, (time, dt): (f64, f64)) {
+        let Some(pressure) = pressure.filter(|_| dt > 0.0) else { return };
         let mean = self.mean.push(self.window.unwrap_or(0.0), dt, pressure - self.initial);
         // Before the while is full there is no mean over it.
         let is_full = self.window.is_some_and(|window| self.mean.time() >= window);
@@ -64,11 +64,11 @@ mod tests {
 
     /// The wall's numbers after steps of these lengths with these pressures.
     fn after(window: Option<f64>, steps: &[[f64; 2]]) -> Map<String, Value> {
-        let mut axis = WallAxis::new(window, &[1.0, 9.0]);
+        let mut axis = WallAxis::new(window, Some(1.0));
         let mut time = 0.0;
         for [dt, pressure] in steps {
             time += dt;
-            axis.after_step(&[*pressure, 0.0], (time, *dt));
+            axis.after_step(Some(*pressure), (time, *dt));
         }
         axis.summary()
     }

@@ -48,6 +48,14 @@ impl WallFaces {
         self.edges.partition_point(|edge| *edge < r).min(self.edges.len() - 1)
     }
 
+    /// Of values on the faces that on the axis: on the face that begins at r = 0, or on the one nearest to it.
+    pub fn on_axis<T: Copy>(&self, values: &[T]) -> Option<T> {
+        // Where round-off has moved an edge off the axis.
+        let nudge = 1e-9 * self.edges.last().map_or(0.0, |end| end - self.begin);
+        let face = self.edges.partition_point(|edge| *edge <= nudge).min(self.edges.len().saturating_sub(1));
+        values.get(face).copied()
+    }
+
     /// A value at radius `r` between those on the faces, linear between their centres, constant beyond the first and the
     /// last one.
     pub fn at(&self, r: f64, value: impl Fn(usize) -> f64) -> f64 {
@@ -78,6 +86,19 @@ mod tests {
         // Coarse faces next to fine ones.
         let faces = WallFaces::new(0, 0.0, vec![0.5, 1.0, 2.0]);
         assert_eq!(faces.at(1.125, |k| [0.25, 0.75, 1.5][k]), 1.125);
+    }
+
+    #[test]
+    fn the_axis_is_the_face_that_begins_there() {
+        let of = |begin: f64, edges: &[f64]| {
+            WallFaces::new(0, begin, edges.to_vec()).on_axis(&(0..edges.len()).collect::<Vec<_>>())
+        };
+        assert_eq!(of(0.0, &[1.0, 2.0]), Some(0));
+        assert_eq!(of(-2.0, &[-1.0, -1e-17, 1.0, 2.0]), Some(2));
+        assert_eq!(of(-2.0, &[-1.0, 0.5, 2.0]), Some(1));
+        assert_eq!(of(3.0, &[4.0, 5.0]), Some(0));
+        assert_eq!(of(-3.0, &[-2.0, -1.0]), Some(1));
+        assert_eq!(of(0.0, &[]), None);
     }
 
     #[test]

@@ -23,9 +23,8 @@ fn look<const N: usize>(follower: &mut Follower, fluid: &mut BlockSolver<Fluid, 
     }
     let Some(rule) = &follower.rule.reset else { return };
     if follower.now.reset.is_none() && volume < before && before > GROWN * follower.now.start {
-        let radius = follower.radius();
-        follower.now.reset =
-            Some(reset::cut(fluid, (&follower.now.cuts, follower.rule.number), radius, rule));
+        let size = [follower.radius(), volume];
+        follower.now.reset = Some(reset::cut(fluid, (&follower.now.cuts, follower.rule.number), size, rule));
     }
 }
 

@@ -26,11 +26,11 @@ struct Factors {
 /// The factors are those from the mean state of the gas (cells with φ ≥ 0.99) to that of [`super::content::BubbleContent::cut`]; with a share s of
 /// the mass s and s^γ, the same isentrope. Where phases have no masses of their own, the gas of a cell counts with the mean density.
 ///
-/// - `radius`: R of the bubble, m. errors: none. tested by: ledgers, the pressure after it, both models.
+/// - `radius`, `volume`: of the bubble, m, m³. errors: none. tested by: ledgers, the pressure after it, both models.
 pub(crate) fn cut<const N: usize>(
     fluid: &mut BlockSolver<Fluid, N>,
     bubble: (&BubbleCuts, usize),
-    radius: f64,
+    [radius, volume]: [f64; 2],
     rule: &BubbleReset,
 ) -> ResetReport {
     let cells = cells_of(fluid, bubble);
@@ -50,6 +50,7 @@ pub(crate) fn cut<const N: usize>(
     ResetReport {
         time: fluid.time(),
         radius,
+        volume,
         pressure: [gas.pressure, factors.pressure * gas.pressure],
         gas_mass: [before, before + came.gas_mass],
         mass: came.mass,

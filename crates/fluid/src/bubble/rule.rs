@@ -19,8 +19,10 @@ pub enum BubbleReset {
 pub struct ResetReport {
     /// When, s.
     pub time: f64,
-    /// The bubble's radius then, m.
+    /// The bubble's radius then, m, also of one that a plane cuts.
     pub radius: f64,
+    /// The volume of its gas, m³.
+    pub volume: f64,
     /// Mean pressure of its gas before and after, Pa.
     pub pressure: [f64; 2],
     /// Mass of its gas before and after, kg.

@@ -129,11 +129,12 @@ impl<const N: usize> FluidSolver<N> {
         let mut state = AxisState { jet_tip_z: f64::NAN, jet_velocity: f64::NAN };
         let mut before: Option<(f64, f64)> = None;
         for &slot in &self.model().axis_blocks {
+            let Some(j) = self.mesh().axis_row(slot) else { continue };
             let id = self.mesh().tree().leaves()[slot];
             let rows = [RHO, MOMENTUM_Z, PHI].map(|component| self.component(slot, component));
             for i in 0..N {
-                let z = self.mesh().centre(id, i, 0)[0];
-                let [rho, momentum, phi] = rows.map(|row| row[i]);
+                let z = self.mesh().centre(id, i, j)[0];
+                let [rho, momentum, phi] = rows.map(|row| row[j * N + i]);
                 if phi < 0.5 {
                     state.jet_velocity = state.jet_velocity.max(-momentum / rho);
                 }
@@ -151,10 +152,11 @@ impl<const N: usize> FluidSolver<N> {
     /// Cell means of the pressure along z_min.
     pub fn wall_pressures(&self) -> WallPressures {
         let mut pressures = WallPressures { axis: f64::NAN, anywhere: f64::NEG_INFINITY };
-        for (first, &slot) in self.interface().blocks().iter().enumerate() {
+        for &slot in self.interface().blocks() {
+            let on_axis = self.mesh().axis_row(slot);
             for j in 0..N {
                 let pressure = self.cell(slot, 0, j).pressure;
-                if first + j == 0 {
+                if on_axis == Some(j) {
                     pressures.axis = pressure;
                 }
                 pressures.anywhere = pressures.anywhere.max(pressure);

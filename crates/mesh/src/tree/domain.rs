@@ -247,6 +247,27 @@ impl<const N: usize> Mesh<N> {
         slots
     }
 
+    /// The row of a block's cells that begins on the axis, r = 0; in domains elsewhere, the row at the side that is nearest to it. `None` of
+    /// blocks that have it not.
+    pub fn axis_row(&self, slot: usize) -> Option<usize> {
+        let id = self.tree.leaves()[slot];
+        let [low, high] = self.domain.r;
+        let axis = 0.0_f64.clamp(low, high);
+        // Where it falls on a face that round-off has moved.
+        let nudge = if axis < high { 1e-6 } else { -1e-6 };
+        let row = ((axis - self.origin(id)[1]) / self.widths(id.level)[1] + nudge).floor();
+        (0.0..N as f64).contains(&row).then_some(row as usize)
+    }
+
+    /// Slots of the blocks that have a row on the axis ([`Mesh::axis_row`]), ordered along it.
+    pub fn blocks_on_axis(&self) -> Vec<usize> {
+        let mut slots: Vec<usize> =
+            (0..self.blocks()).filter(|slot| self.axis_row(*slot).is_some()).collect();
+        let z = |slot: usize| self.origin(self.tree.leaves()[slot])[0];
+        slots.sort_by(|a, b| z(*a).total_cmp(&z(*b)));
+        slots
+    }
+
     /// Whether the block in `slot` touches a side of the domain.
     pub fn touches(&self, slot: usize, side: Side) -> bool {
         self.tree.neighbours(slot)[side as usize] == Neighbour::Boundary
@@ -336,5 +357,27 @@ mod tests {
         let r: Vec<u32> = along.iter().map(|slot| mesh.tree().leaves()[*slot].j).collect();
         assert_eq!(r, [0, 1, 2, 3]);
         assert!(along.iter().all(|slot| mesh.touches(*slot, Side::ZMin)));
+    }
+
+    #[test]
+    fn the_axis_is_where_r_is_zero_or_nearest_to_it() {
+        for (r, expected) in
+            [([0.0, 4.0], 0), ([-4.0, 4.0], 16), ([-1.0, 3.0], 8), ([1.0, 5.0], 0), ([-5.0, -1.0], 31)]
+        {
+            let mesh = Mesh::<8>::uniform(
+                Domain { geometry: Geometry::Planar, z: [0.0, 4.0], r },
+                [1, 1],
+                5,
+                [false; 2],
+            )
+            .unwrap();
+            let slots = mesh.blocks_on_axis();
+            let z: Vec<u32> = slots.iter().map(|slot| mesh.tree().leaves()[*slot].i).collect();
+            assert_eq!(z, [0, 1, 2, 3], "{r:?}");
+            for slot in slots {
+                let row = mesh.axis_row(slot).unwrap() + 8 * mesh.tree().leaves()[slot].j as usize;
+                assert_eq!(row, expected, "{r:?}");
+            }
+        }
     }
 }

@@ -135,8 +135,8 @@ def new_collapse(
     radius: float, pressure: float, stand_off: float, wall_name: str, gas_pressure: float, cells_per_radius: float, elastic: bool
 ) -> Case: ...
 def new_laser_bubble(
-    radius: float, equilibrium_radius: float, left_radius: float | None, pressure: float, stand_off: float | None,
-    wall_name: str, cells_per_radius: float,
+    radii: tuple[float | None, float | None, float | None], left: tuple[bool, float | None], pressure: float,
+    stand_off: float | None, wall_name: str, cells_per_radius: float,
 ) -> Case: ...
 def new_free_bubble(radius: float, pressure: float, gas_pressure: float, cells_per_radius: float) -> Case: ...
 def new_shocked_bubble(

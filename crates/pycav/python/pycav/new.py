@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from . import _pycav
 from .case import Case
 
@@ -60,13 +62,14 @@ def free_bubble(
 
 
 def laser_bubble(
-    radius: float = 20e-6,
-    equilibrium_radius: float = 184.1e-6,
-    left_radius: float | None = 64e-6,
+    radius: float | None = None,
+    equilibrium_radius: float | None = None,
+    left_radius: float | Literal["scaled"] | None = "scaled",
     pressure: float = 1e5,
     stand_off: float | None = None,
     wall: str = "rigid",
     *,
+    largest_radius: float | None = None,
     cells_per_radius: float = 16.0,
 ) -> Case:
     """A laser bubble: a small one of high pressure that grows, collapses and rebounds, on a grid that follows it.
@@ -74,23 +77,30 @@ def laser_bubble(
     Parameters
     ----------
     radius
-        At the start, m.
+        At the start, m; 20 µm, or in that proportion to `largest_radius`.
     equilibrium_radius
-        R_n of its gas, m: it starts with the pressure p∞ (R_n/R)^(3γ).
+        R_n of its gas, m: it starts with the pressure p∞ (R_n/R)^(3γ). 184.1 µm, of which 494 µm are made.
     left_radius
-        R_n of the gas that is left when the bubble is at its largest, m; all of it stays with None.
+        R_n of the gas that is left when the bubble is at its largest, m; all of it stays with None. "scaled": 64 µm, or in that
+        proportion to `largest_radius`.
     pressure
         Of the liquid far away, Pa.
     stand_off
         d/R_max, the distance of the bubble's centre from a wall in largest radii; far from any wall with None.
     wall
         As of `collapse`.
+    largest_radius
+        What the bubble grows to, m, in the place of `equilibrium_radius`, which follows from it by Gilmore's equation.
     cells_per_radius
         Along the present radius, at least.
 
-    Errors as of `collapse`.
+    Errors as of `collapse`; ValueError for both a largest and an equilibrium radius.
     """
-    return Case._of(_pycav.new_laser_bubble(radius, equilibrium_radius, left_radius, pressure, stand_off, wall, cells_per_radius))
+    if largest_radius is not None and equilibrium_radius is not None:
+        raise ValueError("largest_radius and equilibrium_radius: give one, the other follows from it")
+    left = None if left_radius == "scaled" else left_radius
+    radii = (radius, equilibrium_radius, largest_radius)
+    return Case._of(_pycav.new_laser_bubble(radii, (left_radius is None, left), pressure, stand_off, wall, cells_per_radius))
 
 
 def shocked_bubble(

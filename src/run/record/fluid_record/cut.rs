@@ -37,7 +37,9 @@ impl CutRecord {
 }
 
 /// The keys of the summary; null as long as the gas is not cut. Masses are whole.
-pub(super) fn summary(solver: &FluidSolver<BLOCK>) -> Map<String, Value> {
+///
+/// - `radius`: the equivalent radius of a volume.
+pub(super) fn summary(solver: &FluidSolver<BLOCK>, radius: impl Fn(f64) -> f64) -> Map<String, Value> {
     if !solver.cuts_a_bubble() {
         return Map::new();
     }
@@ -45,7 +47,7 @@ pub(super) fn summary(solver: &FluidSolver<BLOCK>) -> Map<String, Value> {
     let cut = solver.bubble_reset();
     let values = [
         ("reset_time", cut.map(|cut| cut.time)),
-        ("reset_equivalent_radius", cut.map(|cut| cut.radius)),
+        ("reset_equivalent_radius", cut.map(|cut| radius(cut.volume))),
         ("reset_gas_mass_before", cut.map(|cut| turn * cut.gas_mass[0])),
         ("reset_gas_mass_after", cut.map(|cut| turn * cut.gas_mass[1])),
         ("reset_gas_pressure_before", cut.map(|cut| cut.pressure[0])),

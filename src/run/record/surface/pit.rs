@@ -29,7 +29,8 @@ pub struct Pit {
     pub depth_axis: f64,
     /// Where, outside the deepest point, the depth is half the largest one, m; `None` if nowhere.
     pub radius: Option<f64>,
-    /// Between the surface and its level far away, up to where they meet outside the deepest point, m³ (planar: m²).
+    /// Between the surface and its level far away, up to where they meet outside the deepest point, in a domain that reaches below r = 0 on
+    /// both sides of it, m³ (planar: m²).
     pub volume: f64,
     /// How far the surface rises above that level outside of that, m.
     pub rim: f64,
@@ -78,12 +79,15 @@ impl Profile<'_> {
         let depth_axis = self.on_axis(&depths);
         let depth = self.deepest(&depths, deepest).max(depth_axis);
         let end = self.crossing(&depths, deepest, 0.0).map_or(depths.len(), |(after, _)| after);
+        // Below r = 0 the surface goes on, which otherwise begins with the pit.
+        let goes_on = self.begin < -1e-6 * self.width;
+        let begin = if goes_on { (0..deepest).rfind(|k| depths[*k] <= 0.0).map_or(0, |k| k + 1) } else { 0 };
         Pit {
             depth,
             depth_axis,
             radius: self.crossing(&depths, deepest, 0.5 * depth).map(|(_, r)| r),
-            volume: (0..end).map(|k| depths[k] * self.area(k)).sum(),
-            rim: depths[end..].iter().fold(0.0, |rim, depth| rim.max(-depth)),
+            volume: (begin..end).map(|k| depths[k] * self.area(k)).sum(),
+            rim: depths[..begin].iter().chain(&depths[end..]).fold(0.0, |rim, depth| rim.max(-depth)),
         }
     }
 
@@ -167,6 +171,24 @@ mod tests {
         near("on the axis", pit.depth_axis, 1e-6, 1e-6);
         near("volume", pit.volume, 1e-6 * std::f64::consts::PI.sqrt(), 1e-3);
         near("radius", pit.radius.expect("there is one"), std::f64::consts::LN_2.sqrt(), 1e-3);
+    }
+
+    #[test]
+    fn a_rim_on_both_sides_is_no_part_of_the_volume() {
+        // As above, in the plane: zero at r = ±b, between which there is 2 D b/e of ∫(1 − s) exp(−s) dx.
+        let (b, depth) = (1e-4, 1e-6);
+        let shape = |r: f64| {
+            let s = (r / b).powi(2);
+            -depth * (1.0 - s) * (-s).exp()
+        };
+        let of = |begin: f64| {
+            let (width, u) = profile(if begin < 0.0 { 1600 } else { 800 }, [begin, 10.0 * b], shape);
+            Profile { begin, width, geometry: Geometry::Planar, displacement: &u }.pit()
+        };
+        let [half, whole] = [0.0, -10.0 * b].map(of);
+        near("volume", whole.volume, 2.0 * half.volume, 1e-12);
+        near("rim", whole.rim, half.rim, 1e-12);
+        assert!(whole.volume > depth * b, "{whole:?}");
     }
 
     #[test]

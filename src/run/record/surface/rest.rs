@@ -73,15 +73,15 @@ impl Rest {
         self.is_settled = is_whole && self.changed(&self.past[self.past.len() - 1].1) <= STILL;
     }
 
-    /// The largest change of these displacements in the last transit time, as a share.
+    /// The largest change of these displacements against any in the last transit time, as a share: what swings has come back in between.
     fn changed(&self, relative: &[f64]) -> f64 {
-        let before = self.past.front().into_iter().flat_map(|(_, before)| before);
-        let change = before.zip(relative).fold(0.0_f64, |most, (before, now)| most.max((now - before).abs()));
+        let pairs = self.past.iter().flat_map(|(_, before)| before.iter().zip(relative));
+        let change = pairs.fold(0.0_f64, |most, (before, now)| most.max((now - before).abs()));
         if change == 0.0 { 0.0 } else { change / self.depth.max(SHALLOW * self.deepest) }
     }
 
-    /// How far from rest: the largest change of u_z against the level far away since a shear wave's time across the surface ago (or up to
-    /// 5/4 of it), over the depth of the pit or over a tenth of the largest indentation there was, whichever is larger.
+    /// How far from rest: by how much u_z against the level far away differs at most from what it was at any time looked at since a shear wave's
+    /// time across the surface ago (or up to 5/4 of it), over the depth of the pit or over a tenth of the largest indentation there was, whichever is larger.
     pub fn still(&self, surface: &SurfaceDisplacement) -> f64 {
         self.changed(&relative(surface))
     }
@@ -150,6 +150,14 @@ mod tests {
         assert!(!settled(7.0, 8.0, &mut rest, |time| 1e-6 + 1e-7 * (time - 7.0)));
         assert!(rest.past.len() <= 6, "{}", rest.past.len());
         assert!((rest.pit_floor() - 0.02 * 1.1e-6).abs() < 1e-20);
+    }
+
+    #[test]
+    fn a_surface_that_swings_is_not_still_where_it_comes_back() {
+        let mut rest = Rest::at(0.0, vec![0.0], 1.0, 0.0);
+        // With the transit as period it is after each where it was before.
+        let swings = |time: f64| 1e-6 * (1.0 + 0.1 * (std::f64::consts::TAU * time).sin());
+        assert!(!settled(0.0, 6.0, &mut rest, swings));
     }
 
     #[test]
