@@ -91,3 +91,13 @@ def test_threads_are_a_whole_number_above_0(value, small, tmp_path):
 def test_a_report_is_a_page(result, tmp_path):
     with pytest.raises(ValueError, match="page.pdf does not say: give a name that ends in .html"):
         pycav.report(result, tmp_path / "page.pdf")
+
+
+def test_a_laser_bubble_grows_to_the_radius_that_a_camera_has_seen():
+    assert pycav.laser_bubble(largest_radius=493.6e-6) == pycav.laser_bubble()
+    text = pycav.laser_bubble(largest_radius=1.3e-3, left_radius=None).to_toml()
+    assert "radius = 5.267e-5" in text and "reset" not in text
+    with pytest.raises(ValueError, match="largest_radius and equilibrium_radius: give one"):
+        pycav.laser_bubble(largest_radius=1e-3, equilibrium_radius=3e-4)
+    with pytest.raises(pycav.CaseError, match="largest_radius: must be positive"):
+        pycav.laser_bubble(largest_radius=-1e-3)
