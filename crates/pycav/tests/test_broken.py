@@ -24,6 +24,14 @@ def test_what_is_missing_of_a_run_is_named(result, tmp_path):
     for ask in (pycav.report, pycav.plot.overview):
         with pytest.raises(FileNotFoundError, match=r"has no fluid\.vtkhdf: the snapshots"):
             ask(tmp_path)
+    # Killed before its first snapshot.
+    for name in ("fluid.vtkhdf", "solid.vtkhdf"):
+        shutil.copy(result.directory / name, tmp_path)
+        with h5py.File(tmp_path / name, "r+") as file:
+            file["VTKHDF/Steps"].attrs["NSteps"] = 0
+    for ask in (pycav.report, pycav.plot.overview, lambda run: pycav.open(run).to_xarray(["pressure"])):
+        with pytest.raises(FileNotFoundError, match=r"vtkhdf has no snapshot: the run is, or ended, before its first"):
+            ask(tmp_path)
     assert not (tmp_path / "report.html").exists()
 
 

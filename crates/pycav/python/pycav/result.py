@@ -100,6 +100,8 @@ class Snapshots(Sequence[Snapshot]):
             self.fields: list[str] = list(file["VTKHDF/CellData"])
             self.units: dict[str, str] = {
                 name: _text(data.attrs.get("units", "")) for name, data in file["VTKHDF/CellData"].items()}
+        if not len(self.times):
+            raise FileNotFoundError(f"{path.parent}: {path.name} has no snapshot: the run is, or ended, before its first")
         self._mesh: tuple[tuple[int, int], Mesh] | None = None
 
     def __len__(self) -> int:
