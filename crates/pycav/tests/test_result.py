@@ -10,9 +10,11 @@ import h5py
 import numpy as np
 import pyvista
 import pytest
+import xarray as xr
 
 import pycav
 from pycav import _toml, theory
+from pycav._axis import on_axis
 from pycav.histories import from_columns
 from pycav.theory import RAYLEIGH_FACTOR, Bubble
 
@@ -177,3 +179,9 @@ assert again.summary["completed"]
     done = subprocess.run([sys.executable, "-c", code, result.directory / "case.toml", tmp_path / "run"],
                           capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(("r", "column"), [([0.5, 1.5], 0), ([-1.5, -0.5, 0.5], 2), ([-1.0, -1e-17, 1.0], 1), ([-2.0, -1.0], 1)])
+def test_the_axis_is_where_r_is_zero(r, column):
+    rows = xr.DataArray(np.arange(2.0 * len(r)).reshape(2, -1), dims=("t", "r"), coords={"r": r})
+    np.testing.assert_array_equal(on_axis(rows), [column, len(r) + column])

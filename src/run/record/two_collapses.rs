@@ -95,7 +95,8 @@ fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
             let own = times.iter().zip(&pressure).filter(|(time, _)| before(**time) == of_first);
             own.map(|(_, pressure)| *pressure).reduce(f64::max)
         };
-        let at = |row: Option<usize>| Some(impulse[[row?, 0]]);
+        let axis = rows("interface/r").map_or(0, |r| on_axis(&r));
+        let at = |row: Option<usize>| impulse.get([row?, axis]).copied();
         let last_of_first = ends.iter().rposition(|time| before(*time)).filter(|row| *row < impulse.nrows());
         let whole = at(impulse.nrows().checked_sub(1));
         let first = at(last_of_first);
@@ -107,10 +108,26 @@ fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
     Some(part)
 }
 
+/// Which of these radii of cells is that of the cell from r = 0 on, or of the nearest to it.
+fn on_axis(r: &[f64]) -> usize {
+    // A cell about r = 0 may have a centre that round-off has moved.
+    let nudge = 1e-9 * r.iter().fold(0.0_f64, |most, r| most.max(r.abs()));
+    r.partition_point(|r| *r < -nudge).min(r.len().saturating_sub(1))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::run::record::collapse::CollapseFinder;
+
+    #[test]
+    fn the_axis_is_where_r_is_zero() {
+        for (r, expected) in
+            [(&[0.5, 1.5][..], 0), (&[-1.5, -0.5, 0.5], 2), (&[-1.0, -1e-17, 1.0], 1), (&[-2.0, -1.0], 1)]
+        {
+            assert_eq!(on_axis(r), expected, "{r:?}");
+        }
+    }
 
     #[test]
     fn turns_are_found_where_the_volume_comes_back_and_ringing_is_none() {

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..mesh import Floats
+from .._axis import on_axis
 from .._numbers import prefix, rounded
 from ..plot.surface import DISPLACEMENT, Profile
 from ..result import Result
@@ -128,7 +129,7 @@ def _wall(result: Result, clocks: dict[str, Clock]) -> Chart:
         return Chart("", "Pa", [])
     curves = [*_given(result, clocks, ("wall/pressure_axis", "on the axis"))]
     if not curves:  # a load
-        curves = [Curve("interface/pressure", "on the axis", "Pa", clocks["interface/time"], data["interface/pressure"].to_numpy()[:, 0])]
+        curves = [Curve("interface/pressure", "on the axis", "Pa", clocks["interface/time"], on_axis(data["interface/pressure"]))]
     curves += _mean(result, clocks["interface/time"])
     curves += _given(result, clocks, ("wall/pressure_max", "largest anywhere"))
     return Chart("Pressure on the wall", "Pa", curves)
@@ -139,10 +140,10 @@ def _mean(result: Result, clock: Clock) -> Iterable[Curve]:
     window = result.summary.get("wall_pressure_mean_time")
     if window is None or "interface/impulse" not in result.histories:
         return
-    impulse, time = result.histories["interface/impulse"].to_numpy()[:, 0], clock.values
+    impulse, time = on_axis(result.histories["interface/impulse"]), clock.values
     if len(time) < 2 or time[-1] < window:
         return
-    rest = float(result.histories["interface/pressure"].to_numpy()[0, 0])
+    rest = float(on_axis(result.histories["interface/pressure"])[0])
     mean = rest + (impulse - np.interp(time - window, time, impulse)) / window
     mean[time < window] = np.nan
     yield Curve("interface/pressure_mean", f"on the axis, mean of {rounded(float(window), 's')}", "Pa", clock, mean)
@@ -159,7 +160,7 @@ def _jet(result: Result, clocks: dict[str, Clock]) -> Chart:
 def _impulse(result: Result, clocks: dict[str, Clock]) -> Chart:
     if "interface/impulse" not in result.histories:
         return Chart("", "Pa s", [])
-    impulse = result.histories["interface/impulse"].to_numpy()[:, 0]
+    impulse = on_axis(result.histories["interface/impulse"])
     return Chart("Impulse on the wall", "Pa s", [Curve("interface/impulse", "on the axis", "Pa s", clocks["interface/time"], impulse)])
 
 
@@ -176,14 +177,13 @@ def _strain(result: Result, clocks: dict[str, Clock]) -> Chart:
 def _surface(result: Result, clocks: dict[str, Clock]) -> Chart:
     """How deep the surface is at the axis below its level far away, over time; of a solid that keeps a pit."""
     try:
-        last = Profile.of(result, None)
+        Profile.of(result, None)
     except ValueError:
         return Chart("", "m", [])
     rows = result.histories[DISPLACEMENT].to_numpy()
     outer = (np.arange(rows.shape[1]) + 0.5) >= 0.9 * rows.shape[1]
     clock = clocks["interface/displacement_time"] if "interface/displacement_time" in clocks else clocks["interface/time"]
-    depth = rows[:, outer].mean(1) - rows[:, 0]
-    assert len(depth) == len(clock.values) and np.isclose(depth[-1], last.depth[0])
+    depth = rows[:, outer].mean(1) - on_axis(result.histories[DISPLACEMENT])
     return Chart("Depth of the surface on the axis", "m", [Curve("surface/depth_axis", "below its level far away", "m", clock, depth)])
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .._axis import on_axis
 from .._numbers import percent, rounded, si
 from ..plot.surface import has_pit
 from ..result import Result
@@ -37,8 +38,8 @@ def damage(result: Result) -> Rows:
             yield from _pit(result)
             yield from _load(summary)
     if "interface/impulse" in data:
-        impulse = data["interface/impulse"].to_numpy()[-1]
-        yield "impulse on the wall, on the axis", f"{impulse[0]:.4g} Pa s", "at the end, ∫ (p* − p at t = 0) dt"
+        impulse = on_axis(data["interface/impulse"])[-1]
+        yield "impulse on the wall, on the axis", f"{impulse:.4g} Pa s", "at the end, ∫ (p* − p at t = 0) dt"
 
 
 def _place(summary: dict[str, Any], name: str) -> str:
