@@ -242,7 +242,7 @@ fn steps(text: &mut String, case: &Case) {
     match (fluid, solid) {
         (Some(fluid), Some(solid)) => {
             let longer = if fluid >= solid { "fluid" } else { "solid" };
-            let words = match mesh::steps_in(fluid.max(solid), fluid.min(solid)) {
+            let words = match (fluid.max(solid) / fluid.min(solid)).round() {
                 1.0 => "the same".to_owned(),
                 most => format!("{most:.0} in one of the {longer}'s"),
             };

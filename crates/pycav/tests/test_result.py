@@ -181,7 +181,7 @@ assert again.summary["completed"]
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize(("r", "column"), [([0.5, 1.5], 0), ([-1.5, -0.5, 0.5], 2), ([-1.0, -1e-17, 1.0], 1), ([-2.0, -1.0], 1)])
+@pytest.mark.parametrize(("r", "column"), [([0.5, 1.5], 0), ([-1.5, -0.5, 0.5], 2), ([-1.0, -1e-17, 1.0], 1), ([-1.3, -0.3, 0.7], 1), ([-2.0, -1.0], 1)])
 def test_the_axis_is_where_r_is_zero(r, column):
     rows = xr.DataArray(np.arange(2.0 * len(r)).reshape(2, -1), dims=("t", "r"), coords={"r": r})
     np.testing.assert_array_equal(on_axis(rows), [column, len(r) + column])

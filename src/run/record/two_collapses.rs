@@ -108,11 +108,11 @@ fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
     Some(part)
 }
 
-/// Which of these radii of cells is that of the cell from r = 0 on, or of the nearest to it.
+/// Which of these centres of cells of equal width is that of the cell with r = 0, or of the nearest to it.
 fn on_axis(r: &[f64]) -> usize {
-    // A cell about r = 0 may have a centre that round-off has moved.
-    let nudge = 1e-9 * r.iter().fold(0.0_f64, |most, r| most.max(r.abs()));
-    r.partition_point(|r| *r < -nudge).min(r.len().saturating_sub(1))
+    // Of a cell that ends there the centre is half a width below it, but for round-off.
+    let half = if let [first, second, ..] = r { 0.499_999 * (second - first) } else { 0.0 };
+    r.partition_point(|r| *r < -half).min(r.len().saturating_sub(1))
 }
 
 #[cfg(test)]
@@ -122,9 +122,14 @@ mod tests {
 
     #[test]
     fn the_axis_is_where_r_is_zero() {
-        for (r, expected) in
-            [(&[0.5, 1.5][..], 0), (&[-1.5, -0.5, 0.5], 2), (&[-1.0, -1e-17, 1.0], 1), (&[-2.0, -1.0], 1)]
-        {
+        for (r, expected) in [
+            (&[0.5, 1.5][..], 0),
+            (&[-1.5, -0.5, 0.5], 2),
+            (&[-1.0, -1e-17, 1.0], 1),
+            (&[-1.3, -0.3, 0.7], 1),
+            (&[-2.0, -1.0], 1),
+            (&[], 0),
+        ] {
             assert_eq!(on_axis(r), expected, "{r:?}");
         }
     }

@@ -24,6 +24,9 @@ pub(crate) struct SinglePressure {
 impl SinglePressure {
     /// - `jump`: J, by how much the pressure of the gas exceeds that of the liquid, Pa.
     pub fn of(jump: f64, mixture: &Mixture) -> Self {
+        if jump == 0.0 {
+            return Self { jump, mixture: *mixture };
+        }
         let Mixture { liquid, gas, .. } = *mixture;
         let heat = liquid.heat.map(|heat| Heat { energy: heat.energy - liquid.covolume * jump, ..heat });
         let liquid = NobleAbelStiffenedGas { pi: liquid.pi - jump, heat, ..liquid };

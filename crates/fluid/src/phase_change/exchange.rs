@@ -78,6 +78,7 @@ impl Exchange {
         if !place.had_gas && self.asked.cavitation.is_none() {
             return done;
         }
+        let even = SinglePressure::of(0.0, &self.saturation.mixture);
         for cell in 0..N * N {
             let phi = new[PHI * N * N + cell];
             let meets = holds_both(phi);
@@ -87,20 +88,24 @@ impl Exchange {
             let at = |component: usize| component * N * N + cell;
             let u = [RHO, MOMENTUM_Z, MOMENTUM_R, ENERGY].map(|component| new[at(component)]);
             let k = Padded::<N>::index((cell % N) as isize, (cell / N) as isize);
-            let single = SinglePressure::of(
-                if meets { place.capillary.jump(k) } else { 0.0 },
-                &self.saturation.mixture,
-            );
-            let saturation = self.saturation.with_laws_of(&single);
-            let (holding, kinetic) = holding(u, phi, [new[at(GAS)], new[at(self.vapour)]], &single);
+            let jump = if meets { place.capillary.jump(k) } else { 0.0 };
+            // Only few cells have a jump: the others need no laws of their own.
+            let uneven = (jump != 0.0).then(|| {
+                let single = SinglePressure::of(jump, &self.saturation.mixture);
+                (single, self.saturation.with_laws_of(&single))
+            });
+            let (single, saturation) = uneven
+                .as_ref()
+                .map_or((&even, &self.saturation), |(single, saturation)| (single, saturation));
+            let (holding, kinetic) = holding(u, phi, [new[at(GAS)], new[at(self.vapour)]], single);
             let changed = if meets {
-                self.where_phases_meet(&holding, &saturation, place, k, Padded::<N>::STRIDE)
+                self.where_phases_meet(&holding, saturation, place, k, Padded::<N>::STRIDE)
             } else {
                 self.under_tension(&holding)
             };
             let Some(changed) = changed else { continue };
-            let after = holding.with(changed, &saturation);
-            let Some(finished) = self.finished(u, kinetic, &after, &single) else { continue };
+            let after = holding.with(changed, saturation);
+            let Some(finished) = self.finished(u, kinetic, &after, single) else { continue };
             for (component, value) in finished.conserved.into_iter().enumerate() {
                 new[at(component)] = value;
             }

@@ -236,14 +236,14 @@ impl<const N: usize> Mesh<N> {
 
     /// Slots of the blocks that touch a side of the domain, ordered along that side.
     pub fn blocks_along(&self, side: Side) -> Vec<usize> {
-        let mut slots: Vec<usize> = (0..self.blocks()).filter(|slot| self.touches(*slot, side)).collect();
-        slots.sort_by(|a, b| {
-            let along = |slot: usize| {
-                let origin = self.origin(self.tree.leaves()[slot]);
-                if matches!(side, Side::ZMin | Side::ZMax) { origin[1] } else { origin[0] }
-            };
-            along(*a).total_cmp(&along(*b))
-        });
+        self.ordered(1 - side.axis_across(), |slot| self.touches(slot, side))
+    }
+
+    /// Slots of the blocks of which something holds, ordered along an axis (0: z, 1: r).
+    fn ordered(&self, axis: usize, holds: impl Fn(usize) -> bool) -> Vec<usize> {
+        let mut slots: Vec<usize> = (0..self.blocks()).filter(|slot| holds(*slot)).collect();
+        let along = |slot: usize| self.origin(self.tree.leaves()[slot])[axis];
+        slots.sort_by(|a, b| along(*a).total_cmp(&along(*b)));
         slots
     }
 
@@ -261,11 +261,7 @@ impl<const N: usize> Mesh<N> {
 
     /// Slots of the blocks that have a row on the axis ([`Mesh::axis_row`]), ordered along it.
     pub fn blocks_on_axis(&self) -> Vec<usize> {
-        let mut slots: Vec<usize> =
-            (0..self.blocks()).filter(|slot| self.axis_row(*slot).is_some()).collect();
-        let z = |slot: usize| self.origin(self.tree.leaves()[slot])[0];
-        slots.sort_by(|a, b| z(*a).total_cmp(&z(*b)));
-        slots
+        self.ordered(0, |slot| self.axis_row(slot).is_some())
     }
 
     /// Whether the block in `slot` touches a side of the domain.
