@@ -20,6 +20,8 @@ mod fixture;
 mod going_on;
 #[path = "reliability/long.rs"]
 mod long;
+#[path = "reliability/longer.rs"]
+mod longer;
 #[path = "reliability/processes.rs"]
 mod processes;
 #[path = "reliability/refused.rs"]

@@ -71,6 +71,7 @@ pub use load::{GaussianLoad, LoadCase};
 pub use local_steps::LocalSteps;
 pub use materials::materials_table;
 pub use memory::{Memory, available_memory};
+pub use read::MOST_SNAPSHOTS;
 pub use read_adaptation::DEFAULT_ERROR;
 pub use read_terms::TermsCase;
 pub use recorded_load::{RecordedLoad, from_where};
@@ -372,6 +373,12 @@ pub struct OutputCase {
 }
 
 impl Case {
+    /// Time between two rows of the slower histories, s: `output.interface_every`, or a thousandth of the run.
+    #[must_use]
+    pub fn interface_every(&self) -> f64 {
+        self.output.interface_every.unwrap_or(1e-3 * self.time.end)
+    }
+
     /// The pressure that the solid's initial stress carries far from what is in the fluid, Pa; 0 where there is neither a fluid nor a
     /// record of one.
     #[must_use]

@@ -17,7 +17,7 @@ use super::{
 };
 
 /// More snapshots than this are a mistake.
-const MOST_SNAPSHOTS: f64 = 1e5;
+pub const MOST_SNAPSHOTS: f64 = 1e5;
 /// More rows than this in the histories of the interface and of the conserved quantities are a mistake.
 const MOST_ROWS: f64 = 1e6;
 

@@ -12,7 +12,7 @@ const EXACT: f64 = 3.0;
 const SOLID: SolidCost = SolidCost { elastic: 30.0, yields: 42.0, with_rate_or_heat: 84.0 };
 /// Per cell in a snapshot, ns.
 const SNAPSHOT: f64 = 2800.0;
-/// Per face of the interface and row of its history, ns; a row every step where the case says nothing.
+/// Per face of the interface and row of its history, ns.
 const ROW: f64 = 800.0;
 /// The share of the finest grid's N cells that an adaptive one is guessed to have, a N^b and at most all: 88, 60 and 39 % of 128², 256²
 /// and 512² cells, over all steps of `cases/collapse.toml` with its levels one lower, as they are, and one higher.
@@ -78,8 +78,7 @@ fn rows(case: &Case, [of_fluid, of_solid]: [f64; 2]) -> f64 {
     let grid = case.fluid.as_ref().map(|side| &side.grid).or(case.solid.as_ref().map(|side| &side.grid));
     let faces = grid.map_or(0, |grid| case.output.interface_cells.unwrap_or(grid.finest()[1]));
     let steps = if case.fluid.is_some() { of_fluid } else { of_solid };
-    let rows = case.output.interface_every.map_or(steps, |every| steps.min(case.time.end / every));
-    ROW * faces as f64 * rows
+    ROW * faces as f64 * steps.min(case.time.end / case.interface_every())
 }
 
 #[cfg(test)]

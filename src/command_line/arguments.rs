@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use clap::{Args, ValueHint};
 
+use crate::case::new::Dimension;
+
 /// What is run, and where.
 #[derive(Args)]
 pub(super) struct What {
@@ -46,6 +48,9 @@ pub(super) struct RunArgs {
     /// Go on with the run in DIR from its newest checkpoint.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, conflicts_with_all = ["case", "out", "sets", "force"])]
     pub resume: Option<PathBuf>,
+    /// Let the run in DIR end later, 400us or 4e-4; also one that is finished.
+    #[arg(long, value_name = "TIME", value_parser = time, requires = "resume")]
+    pub end: Option<f64>,
     #[command(flatten)]
     pub how: How,
     /// Run both sides in this process instead of two, through the same frames; the numbers are the same bitwise.
@@ -80,6 +85,11 @@ pub(super) struct SideArgs {
     /// What the case is called, if not as its file.
     #[arg(long, hide = true)]
     pub name: Option<String>,
+}
+
+/// A time with a unit, or in s.
+pub(super) fn time(text: &str) -> Result<f64, String> {
+    Dimension::Time.parse(text)
 }
 
 /// After how much wall time; `None` is never.

@@ -3,6 +3,7 @@
 use clap::{Args, Subcommand};
 use solid::Material;
 
+use super::arguments::time;
 use crate::case::CaseErrors;
 use crate::case::new::{
     Collapse, Dimension, FreeBubble, LaserBubble, LaserRadii, ShockedBubble, Wall, WallLoad,
@@ -63,10 +64,6 @@ fn length_or_none(text: &str) -> Result<LengthOrNone, String> {
 
 fn pressure(text: &str) -> Result<f64, String> {
     Dimension::Pressure.parse(text)
-}
-
-fn time(text: &str) -> Result<f64, String> {
-    Dimension::Time.parse(text)
 }
 
 fn material(text: &str) -> Result<Material, String> {

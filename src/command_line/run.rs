@@ -28,6 +28,7 @@ fn options(case: &Path, what: &What, how: &How) -> Options {
         in_process: false,
         threads: how.threads.map(usize::from),
         checkpoint_every: how.checkpoint_every.0,
+        end: None,
         from: None,
         name: None,
         program: Vec::new(),
@@ -42,6 +43,7 @@ pub(super) fn run_case(args: &RunArgs, program: &[OsString]) -> Result<(), RunEr
     let options = Options {
         program: program.to_vec(),
         in_process: args.in_process,
+        end: args.end,
         ..options(path, &args.what, &args.how)
     };
     let log = |directory: &Path| log_to(directory, options.verbosity, true);

@@ -58,6 +58,9 @@ pub enum CheckpointFault {
     /// It cannot be read.
     #[error("it cannot be read: {0}")]
     Unreadable(#[from] io::Error),
+    /// It cannot be written.
+    #[error("it cannot be written: {0}")]
+    Unwritable(#[from] OutputError),
     /// It is something else.
     #[error("it is no checkpoint")]
     Foreign,
@@ -150,6 +153,21 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<(Head, T), Checkpoint
     if rest.is_empty() { Ok((head, state)) } else { Err(CheckpointFault::Undecodable) }
 }
 
+/// Makes a checkpoint one of another case.
+///
+/// # Errors
+/// It is none, or cannot be written.
+pub fn change_case(path: &Path, case: [u8; 32]) -> Result<(), CheckpointFault> {
+    let bytes = read_whole(path)?;
+    let (layout, body) = content(&bytes)?;
+    let (head, state) = postcard::take_from_bytes::<Head>(body).map_err(|_| CheckpointFault::Undecodable)?;
+    let head = postcard::to_stdvec(&Head { case, ..head }).map_err(|_| CheckpointFault::Undecodable)?;
+    let mut changed = [&MAGIC[..], &VERSION.to_le_bytes(), layout, &head, state].concat();
+    let sum = Sha256::digest(&changed);
+    changed.extend(sum);
+    Ok(safe_file::write(path, &changed)?)
+}
+
 fn read_whole(path: &Path) -> io::Result<Vec<u8>> {
     // Something else than a file could go on for ever.
     if !fs::metadata(path)?.is_file() {
@@ -160,6 +178,12 @@ fn read_whole(path: &Path) -> io::Result<Vec<u8>> {
 
 /// What is between the layout and the checksum.
 fn body<'a>(bytes: &'a [u8], layout: &[u8; LAYOUT]) -> Result<&'a [u8], CheckpointFault> {
+    let (found, body) = content(bytes)?;
+    if found == layout { Ok(body) } else { Err(CheckpointFault::Layout) }
+}
+
+/// The layout, and what is between it and the checksum.
+fn content(bytes: &[u8]) -> Result<(&[u8], &[u8]), CheckpointFault> {
     if bytes.len() < SHORTEST || !bytes.starts_with(&MAGIC) {
         return Err(CheckpointFault::Foreign);
     }
@@ -172,8 +196,7 @@ fn body<'a>(bytes: &'a [u8], layout: &[u8; LAYOUT]) -> Result<&'a [u8], Checkpoi
     if Sha256::digest(content).as_slice() != sum {
         return Err(CheckpointFault::Damaged);
     }
-    let (found, body) = rest.split_at(LAYOUT);
-    if found == layout { Ok(body) } else { Err(CheckpointFault::Layout) }
+    Ok(rest.split_at(LAYOUT))
 }
 
 /// A file that is summed up as it is written, and keeps the error that an encoder hides.
@@ -229,6 +252,19 @@ mod tests {
         assert_eq!((found, number), (head(), Some(3)));
         let bits: Vec<u64> = numbers.iter().map(|x| x.to_bits()).collect();
         assert_eq!(bits, [0.1_f64, f64::NAN, -0.0].map(f64::to_bits));
+    }
+
+    #[test]
+    fn only_the_case_changes() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("a.ckpt");
+        fs::write(&path, written()).unwrap();
+        change_case(&path, [8; 32]).unwrap();
+        let (found, state) = read::<(Vec<f64>, Option<u64>)>(&path).unwrap();
+        assert_eq!(found, Head { case: [8; 32], ..head() });
+        assert_eq!((state.0[0], state.1), (0.1, Some(3)));
+        change_case(&path, [7; 32]).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), written());
     }
 
     #[test]

@@ -5,6 +5,8 @@ use std::path::Path;
 use hdf5::types::VarLenUnicode;
 use hdf5::{File, Location};
 
+use super::{OutputError, safe_file};
+
 /// Attaches `value` to an object as the text attribute `name`; one that exists is overwritten.
 pub(super) fn set_text(location: &Location, name: &str, value: &str) -> hdf5::Result<()> {
     let text: VarLenUnicode =
@@ -18,6 +20,18 @@ pub(super) fn set_text(location: &Location, name: &str, value: &str) -> hdf5::Re
 /// Attaches all of `attributes`, pairs of name and value.
 pub(super) fn set_texts(location: &Location, attributes: &[(&str, &str)]) -> hdf5::Result<()> {
     attributes.iter().try_for_each(|(name, value)| set_text(location, name, value))
+}
+
+/// Attaches all of `attributes` to an existing file as a whole.
+pub fn set_of_file(path: &Path, attributes: &[(&str, &str)]) -> Result<(), OutputError> {
+    safe_file::update_hdf5(path, safe_file::HDF5_OVERHEAD, |copy| {
+        let set = || -> hdf5::Result<()> {
+            let file = File::open_rw(copy)?;
+            set_texts(&file, attributes)?;
+            file.close()
+        };
+        set().map_err(OutputError::hdf5(path, "set attributes of"))
+    })
 }
 
 /// The text attribute `name`, or `None` where there is none or it is not a text.

@@ -44,7 +44,7 @@ pub use background::{BackgroundWriter, Snapshot};
 pub use cell_mesh::{BlockMesh, CellMesh, OwnedQuadMesh};
 pub use cell_values::CellValues;
 pub use error::OutputError;
-pub use hdf5_attributes::root_attribute;
+pub use hdf5_attributes::{root_attribute, set_of_file};
 pub use history::{BufferedColumn, Column, HistoryFile, SeriesId};
 pub use join::{Join, dataset_if_there, join_histories};
 pub use progress::Progress;

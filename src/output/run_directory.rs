@@ -32,7 +32,7 @@ pub const SUMMARY: &str = "summary.json";
 pub const CASE: &str = "case.toml";
 /// What stays in a wall that can yield, for a run that goes on from it.
 pub const WALL: &str = "wall.state";
-/// The checkpoints of both sides, while the run is not finished.
+/// The checkpoints of both sides.
 pub const CHECKPOINTS: &str = "checkpoints";
 /// What a study of grid convergence came to, in the study's directory.
 pub const CONVERGENCE: &str = "convergence.json";
@@ -98,11 +98,18 @@ impl RunDirectory {
         fs::create_dir_all(&path).map_err(OutputError::io(&path, "make the run directory"))?;
         let held = lock(&path)?;
         let directory = Self { path, kept_aside, _lock: held };
-        // Shows at once whether the directory can be written to, and marks it as a run's that is not finished.
+        // Shows at once whether the directory can be written to.
+        directory.mark_unfinished()?;
+        Ok(directory)
+    }
+
+    /// Marks it as that of a run that is not finished.
+    pub fn mark_unfinished(&self) -> Result<(), OutputError> {
         let mut begun = summary::origin();
         begun.insert("completed".to_owned(), Value::Bool(false));
-        summary::write(&directory, SUMMARY, &begun)?;
-        Ok(directory)
+        summary::write(self, SUMMARY, &begun)?;
+        // The parts of what it came to before would say something else.
+        [FLUID_SUMMARY, SOLID_SUMMARY].iter().try_for_each(|name| remove_if_there(&self.file(name), "remove"))
     }
 
     /// The directory of a run that somebody else has prepared: for the sides' processes and for reading.
@@ -137,11 +144,6 @@ impl RunDirectory {
             remove_if_there(&self.file(&format!("{name}{}", safe_file::TEMPORARY_SUFFIX)), "remove")?;
         }
         Ok(())
-    }
-
-    /// Removes the checkpoints: the run is finished.
-    pub fn remove_checkpoints(&self) -> Result<(), OutputError> {
-        remove_checkpoints(&self.path)
     }
 
     /// Removes what says how far the run is: the run is finished.

@@ -2,7 +2,8 @@
 //!
 //! In a coupled run each side writes its own part, at the same coupled time: the fluid before the step that it is about to
 //! plan, the solid when the fluid's next frame tells it to, before it looks at anything else in it. A checkpoint counts when
-//! all parts are there. The last two are kept.
+//! all parts are there. The last two are kept, and of a finished run the last: it is taken shortly before the end, where all is
+//! still as in a run that ends later.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -35,6 +36,8 @@ const SUFFIX: &str = ".ckpt";
 pub struct Checkpoints {
     directory: PathBuf,
     case: [u8; 32],
+    /// The case that they may be of besides: the same with an earlier end.
+    shorter: Option<[u8; 32]>,
     sides: Vec<Participant>,
 }
 
@@ -44,6 +47,8 @@ pub struct Keeper {
     checkpoints: Checkpoints,
     every: Duration,
     last: Instant,
+    /// Whether there is one from shortly before the end.
+    is_before_end: bool,
 }
 
 impl Checkpoints {
@@ -54,9 +59,15 @@ impl Checkpoints {
         Self {
             directory: directory.file(CHECKPOINTS),
             case: case.fingerprint(),
+            shorter: None,
             // In the order in which the parts are written.
             sides: fluid.into_iter().chain(solid).collect(),
         }
+    }
+
+    /// The same, which may also be those of the case as it was when it ended earlier.
+    pub fn or_of(self, shorter: &Case) -> Self {
+        Self { shorter: Some(shorter.fingerprint()), ..self }
     }
 
     /// Where a part is.
@@ -132,6 +143,27 @@ impl Checkpoints {
         Ok(found)
     }
 
+    /// Makes the newest checkpoint, if it is of the case that ended earlier, one of the case itself, and forgets all others.
+    ///
+    /// - errors: a part cannot be read, or written.
+    pub fn take_over(&self, step: u64) -> Result<(), RunError> {
+        for side in &self.sides {
+            let path = self.path(*side, step);
+            checkpoint::change_case(&path, self.case)
+                .map_err(|fault| RunError::Resume { path: path.clone(), reason: fault.to_string() })?;
+        }
+        Ok(self.keep_newest()?)
+    }
+
+    /// Forgets all but the newest: the run is finished.
+    pub fn keep_newest(&self) -> Result<(), OutputError> {
+        let newest = self.whole()?.pop();
+        self.forget(|side, step| side.is_none() || Some(step) != newest)?;
+        // Without any there is nothing in it.
+        let _ = fs::remove_dir(&self.directory);
+        Ok(())
+    }
+
     /// Whether there is one that has all parts.
     pub fn are_there(&self) -> bool {
         self.whole().is_ok_and(|whole| !whole.is_empty())
@@ -160,7 +192,7 @@ impl Checkpoints {
             let reason = format!("it is the {}'s of step {}, under another name", head.side, head.step);
             return Err(RunError::Resume { path: path.to_path_buf(), reason });
         }
-        if head.case != self.case {
+        if head.case != self.case && Some(head.case) != self.shorter {
             let reason = format!(
                 "it is of another case than case.toml beside it, or of another wall or load that this begins from, or written by \
                  another version ({}); put these back as they were, or run the changed case in another directory",
@@ -219,12 +251,15 @@ impl Checkpoints {
 impl Keeper {
     /// The first is due in `every` from now.
     pub fn new(checkpoints: Checkpoints, every: Duration) -> Self {
-        Self { checkpoints, every, last: Instant::now() }
+        Self { checkpoints, every, last: Instant::now(), is_before_end: false }
     }
 
-    /// Whether it is time for the next one.
-    pub fn is_due(&self) -> bool {
-        self.last.elapsed() >= self.every
+    /// Whether it is time for the next one; to be asked before each step, and followed where it is.
+    ///
+    /// - `ends`: whether the step is one of the run's last.
+    pub fn is_due(&mut self, ends: bool) -> bool {
+        let is_last = ends && !std::mem::replace(&mut self.is_before_end, ends);
+        is_last || self.last.elapsed() >= self.every
     }
 
     /// Writes a side's part.

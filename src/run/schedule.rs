@@ -57,6 +57,11 @@ impl Schedule {
         self.next == self.times.len()
     }
 
+    /// The time at which the run ends.
+    pub fn end_time(&self) -> f64 {
+        self.times.last().copied().unwrap_or(0.0)
+    }
+
     /// Ends the run with the step that has been made.
     pub fn end(&mut self) {
         self.next = self.times.len();

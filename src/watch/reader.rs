@@ -71,7 +71,7 @@ impl Reader {
                 .filter(|_| is_over)
                 .filter_map(text)
                 .collect(),
-            can_go_on: is_over && has_checkpoints(&self.run),
+            can_go_on: is_over && state != RunState::Finished && has_checkpoints(&self.run),
             trouble: read.into_iter().find_map(Result::err),
         })
     }

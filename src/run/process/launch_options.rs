@@ -23,6 +23,8 @@ pub struct Options {
     pub threads: Option<usize>,
     /// `--checkpoint-every`; `None` for no checkpoints.
     pub checkpoint_every: Option<Duration>,
+    /// `--end`: when a run that is gone on with is to end, s; at least as late as its case says.
+    pub end: Option<f64>,
     /// The step of the checkpoint to go on from.
     pub from: Option<u64>,
     /// What the case is called, if not as its file.

@@ -12,6 +12,7 @@ use crate::output::{Join, OutputError, Progress, RunDirectory, history, join_his
 use crate::run::checkpoints::Checkpoints;
 use crate::run::process::launch::carry_out;
 use crate::run::process::launch_options::Options;
+use crate::run::process::longer;
 use crate::run::process::stop::Stop;
 use crate::run::{RunError, wall};
 
@@ -19,10 +20,11 @@ use crate::run::{RunError, wall};
 const PATIENCE: Duration = Duration::from_secs(60);
 const LOOK_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Goes on with the run in a directory, from its newest checkpoint that is whole; without any it begins again. Does nothing if it
-/// is finished.
+/// Goes on with the run in a directory, from its newest checkpoint that is whole; without any it begins again. One that is finished
+/// goes on only to a later end, [`Options::end`].
 ///
-/// - errors: it is no run's directory, its case was changed, none of its checkpoints can be used; else as [`crate::run::run`].
+/// - errors: it is no run's directory, its case was changed, none of its checkpoints can be used; it is finished and cannot go on to
+///   that end; else as [`crate::run::run`].
 pub fn resume(
     path: &Path,
     options: &Options,
@@ -36,23 +38,48 @@ pub fn resume(
     let mut progress = Progress::new(0.0, options.quiet, options.verbosity);
     let directory = take_up(path, stop, &mut progress)?;
     on_directory(directory.path());
-    if summary::read(&directory.file(SUMMARY)).is_ok_and(|summary| summary["completed"] == json!(true)) {
-        let words = format!("the run in {} is finished; there is nothing to do", path.display());
+    let summary = summary::read(&directory.file(SUMMARY)).unwrap_or_default();
+    let is_finished = summary.get("completed") == Some(&json!(true));
+    if is_finished && options.end.is_none() {
+        let words = format!(
+            "the run in {} is finished; there is nothing to do (--end TIME lets it end later)",
+            path.display()
+        );
         tracing::info!("{words}");
         progress.message(&words);
         return Ok(directory.path().to_path_buf());
     }
-    let case = case_of(&directory)?;
+    let before = case_of(&directory)?;
+    let case = match options.end {
+        Some(_) if summary.get("settled") == Some(&json!(true)) => {
+            return Err(refuse("its surface is still, which it waited for; there is nothing to go on for"));
+        }
+        Some(end) if end < before.time.end || is_finished && end == before.time.end => {
+            let reason = format!("it ends at {:?} s; --end {end:?} is no later", before.time.end);
+            return Err(refuse(&reason));
+        }
+        Some(end) => longer::with_end(&before, end, &directory.file(CASE).display().to_string())?,
+        None => before.clone(),
+    };
     // What it begins from is needed again, and has a say in which case it is.
     wall::check(&case)?;
     case.fits_memory([true; 2])?;
     directory.tidy()?;
-    let from = Checkpoints::of(&case, &directory).newest(|warning| {
+    let checkpoints = Checkpoints::of(&case, &directory).or_of(&before);
+    let from = checkpoints.newest(|warning| {
         tracing::warn!("{warning}");
         progress.message(&format!("warning: {warning}"));
     })?;
     if let Some(step) = from {
-        room_for(&case, &Checkpoints::of(&case, &directory), step)?;
+        room_for(&case, &checkpoints, step)?;
+    } else if is_finished {
+        return Err(refuse(
+            "it is finished and has no checkpoint to go on from (it had one step, or was made with --checkpoint-every off, or its \
+             directory checkpoints/ was removed); run its case.toml with a later time.end in another directory",
+        ));
+    }
+    if options.end.is_some() {
+        longer::take_over(&directory, &case, &checkpoints, from)?;
     }
     let words = match from {
         Some(step) => format!("going on from the checkpoint of step {step}"),

@@ -89,12 +89,9 @@ pub struct Ticker {
 }
 
 impl Ticker {
-    /// Shares of the run after which the slower histories are written where the case does not say.
-    const DEFAULT_SHARE: f64 = 1e-3;
-
-    /// With the case's `output.interface_every`, or a thousandth of the run.
+    /// Of the slower histories.
     pub fn of(case: &Case) -> Self {
-        Self { every: case.output.interface_every.unwrap_or(Self::DEFAULT_SHARE * case.time.end), next: 0.0 }
+        Self { every: case.interface_every(), next: 0.0 }
     }
 
     /// Whether an event is due at `time`.

@@ -203,9 +203,12 @@ impl<R: Record<Solver: CoupledSolver>> InRun<R> {
         coupled_solver::short_steps(solver, meeting, (plan.dt, *star), rule, answer, after)
     }
 
-    /// Whether it is time to keep a checkpoint.
-    fn checkpoint_is_due(&self) -> bool {
-        self.keeper.as_ref().is_some_and(Keeper::is_due)
+    /// Whether it is time to keep a checkpoint, before the next step.
+    fn checkpoint_is_due(&mut self) -> bool {
+        // No more than two steps such as the last are left.
+        let left = self.schedule.end_time() - self.solver.time();
+        let ends = left > 0.0 && left <= 2.0 * self.last_dt * (1.0 + 1e-9);
+        self.keeper.as_mut().is_some_and(|keeper| keeper.is_due(ends))
     }
 }
 

@@ -26,7 +26,9 @@ impl RunSide for FluidSide {
         let timed = Timed::new(&mut self.own.clock);
         let after = timed.recorded(&mut self.own.record, plan);
         coupled_solver::step_alone(&mut self.own.solver, plan.dt, &self.own.rule, |_, _| (), after)?;
-        self.adapt_if_due()?;
+        if !self.own.schedule.is_over() {
+            self.adapt_if_due()?;
+        }
         Ok(true)
     }
 
