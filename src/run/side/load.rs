@@ -69,14 +69,14 @@ impl Load {
         Some(load)
     }
 
-    /// Sets the surface's state for the next step of a level: the pressure at mid-step, and the velocity that it gives to
-    /// the solid's own trace.
+    /// Sets the surface's state for the next step of a level: the pressure at mid-step, of a recorded one the mean over the step, and
+    /// the velocity that it gives to the solid's own trace.
     pub fn press(&mut self, solver: &mut SolidSolver<BLOCK>, step: GroupStep) {
         if self.faces.update(solver.mesh().generation(), || solver.interface_edges()) {
             self.measure();
         }
         solver.group_traces_at_mid_step(step, &mut self.traces);
-        self.at(step.begin + 0.5 * step.dt);
+        self.during(step.begin, step.dt);
         for (face, &SurfaceTrace { pressure, velocity, impedance, .. }) in self.traces.iter().enumerate() {
             if solver.group_of_face(face) == step.group {
                 let trace = SolidTrace { pressure, velocity, impedance };
@@ -87,18 +87,17 @@ impl Load {
         }
     }
 
-    /// The pressure on the faces at a time.
-    fn at(&mut self, time: f64) {
+    /// The pressure on the faces in a step.
+    fn during(&mut self, begin: f64, length: f64) {
         self.on_faces.clear();
         let on_faces = &mut self.on_faces;
         match &mut self.pressure {
             Pressure::Gaussian { amplitude, factor, profile, .. } => {
-                let now = *amplitude * factor.at(time);
+                let now = *amplitude * factor.at(begin + 0.5 * length);
                 on_faces.extend(profile.iter().map(|share| now * share));
             }
             Pressure::Recorded { load, map, in_cells } => {
-                in_cells.clear();
-                load.at(time, |_, pressure| in_cells.push(pressure));
+                load.mean(begin, length, in_cells);
                 // Beyond what was recorded.
                 in_cells.push(load.ambient());
                 on_faces.resize(self.faces.edges().len(), load.ambient());
