@@ -142,7 +142,6 @@ fn near_wall(text: &mut String, near: &NearWall) {
 fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
     let [h_z, h_r] = fluid.grid.cell_size();
     let level = if fluid.grid.adaptation.is_some() { " at the finest level" } else { "" };
-    let ambient = &fluid.initial.ambient;
     for (number, region) in fluid.initial.regions.iter().enumerate() {
         let Shape::Sphere { centre, radius } = region.shape else { continue };
         let mut parts =
@@ -153,7 +152,9 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
         }
         // A cylinder's collapse has no time of its own: it depends on how far away the sides are.
         let is_sphere = case.geometry == Geometry::Axisymmetric;
-        if let Some(time) = rayleigh_time(ambient, &region.state, radius).filter(|_| is_sphere) {
+        if let Some(time) =
+            rayleigh_time(&fluid.ambient_at(centre[0]), &region.state, radius).filter(|_| is_sphere)
+        {
             parts.push(format!("Rayleigh collapse time {}", si(time, "s")));
         }
         line(text, &format!("region {number}"), &parts.join(", "));
@@ -161,7 +162,7 @@ fn regions(text: &mut String, case: &Case, fluid: &FluidCase) {
     // The case was read, so it has the field that it asks for.
     let z_min = fluid.grid.z[0];
     let domain = Domain { geometry: case.geometry, z: fluid.grid.z, r: fluid.grid.r };
-    let field = RayleighField::of(&fluid.initial, &domain, fluid.boundary);
+    let field = RayleighField::of(&fluid.initial, fluid.gravity, &domain, fluid.boundary);
     if let Ok(Some(field)) = field {
         let numbers = format!(
             "rayleigh, {} at z_min on the axis, on the bubbles that of the gas to {:.0e}{}",

@@ -1,6 +1,6 @@
 //! `fluid.initial_pressure`: whether the case has the field that it asks for.
 
-use fluid::{Boundary, InitialCondition, InitialPressure, RayleighError, RayleighField};
+use fluid::{Boundary, Gravity, InitialCondition, InitialPressure, RayleighError, RayleighField};
 use mesh::Domain;
 
 use super::GridCase;
@@ -10,7 +10,7 @@ use super::shared::Context;
 /// Records why the case cannot begin with Rayleigh's pressure, if that is what it asks for.
 pub(super) fn check(
     given: Option<&Given<InitialPressure>>,
-    initial: &InitialCondition,
+    (initial, gravity): (&InitialCondition, Option<Gravity>),
     grid: &GridCase,
     boundary: [Boundary; 4],
     context: Context,
@@ -22,7 +22,7 @@ pub(super) fn check(
         return;
     }
     let domain = Domain { geometry: context.geometry, z: grid.z, r: grid.r };
-    if let Err(error) = RayleighField::of(initial, &domain, boundary) {
+    if let Err(error) = RayleighField::of(initial, gravity, &domain, boundary) {
         faults.of(given, format!("\"rayleigh\" does not go with this case: {error}"), remedy(error));
     }
 }
@@ -33,12 +33,14 @@ pub(super) fn check(
 pub(super) fn at_rest(
     is_free: bool,
     initial: &mut InitialCondition,
+    gravity: Option<Gravity>,
     grid: &GridCase,
     boundary: [Boundary; 4],
     context: Context,
 ) {
     let domain = Domain { geometry: context.geometry, z: grid.z, r: grid.r };
-    if is_free && context.scheme.is_some() && RayleighField::between(initial, &domain, boundary).is_ok() {
+    let weightless = initial.weightless(gravity);
+    if is_free && context.scheme.is_some() && RayleighField::between(&weightless, &domain, boundary).is_ok() {
         initial.pressure = InitialPressure::Rayleigh;
     }
 }

@@ -1,8 +1,8 @@
 //! `[fluid.bubble]`: a bubble by what is in it.
 
 use fluid::{
-    BubbleContent, GasState, InitialCondition, NobleAbelStiffenedGas, Phase, PhaseState, Region, Saturation,
-    Shape,
+    BubbleContent, GasState, Gravity, InitialCondition, NobleAbelStiffenedGas, Phase, PhaseState, Region,
+    Saturation, Shape,
 };
 use mesh::Geometry;
 
@@ -16,6 +16,7 @@ use super::shared::not_below_zero;
 /// What a bubble is described against, as far as it could be read.
 pub(super) struct Surroundings<'a> {
     pub ambient: Option<PhaseState>,
+    pub gravity: Option<Gravity>,
     pub gas: Option<NobleAbelStiffenedGas>,
     pub grid: Option<&'a GridCase>,
     pub geometry: Geometry,
@@ -220,7 +221,11 @@ fn region(
             faults.of(centre, format!("the centre ({z:?}, {r:?}) m is outside the fluid"), extent(grid));
         }
     }
-    let (ambient, gas) = (around.ambient?, around.gas?);
+    let (mut ambient, gas) = (around.ambient?, around.gas?);
+    // The liquid is that at the bubble's height.
+    if let Some((gravity, centre)) = around.gravity.zip(numbers.centre.as_ref()) {
+        ambient = gravity.at_height(ambient, centre.value[0]);
+    }
     if ambient.phase == Phase::Gas {
         let help = "make the ambient phase \"liquid\"";
         faults.at(&table.path, &table.span, "a bubble is in a liquid, and the ambient phase is gas", help);
@@ -233,7 +238,7 @@ fn region(
     }
     if let Some(vapour) = vapour.filter(|vapour| vapour.value >= ambient.pressure) {
         let message = format!(
-            "the vapour's {:?} Pa are not below fluid.ambient.pressure = {:?} Pa: the liquid would boil",
+            "the vapour's {:?} Pa are not below the {:?} Pa of the liquid about it: it would boil",
             vapour.value, ambient.pressure
         );
         faults.of(

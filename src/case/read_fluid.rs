@@ -28,6 +28,8 @@ struct Setting {
     gas: Option<NobleAbelStiffenedGas>,
     grid: Option<GridCase>,
     geometry: Geometry,
+    /// Gravity along z as it is given, m/s².
+    gravity: Option<Given<f64>>,
 }
 
 impl Setting {
@@ -68,6 +70,7 @@ pub(super) fn fluid(
         gas,
         grid: placed.as_ref().map(|(grid, _)| grid.clone()),
         geometry: context.geometry,
+        gravity: table.number("gravity", faults).filter(|given| given.value != 0.0),
     };
     let acting = (table.path_of("terms"), table.place("terms").map_or(0..0, |place| place.span));
     let (mut terms, mut pending) = terms(&mut table, faults);
@@ -79,17 +82,14 @@ pub(super) fn fluid(
         change.value.vapour_fraction = share;
         terms.phase_change = Some(change.value);
     }
-    let gravity = match &initial {
-        Some(initial) => gravity(&mut table, initial, &setting, faults),
-        None => table.number("gravity", faults).and(None),
-    };
+    let gravity = initial.as_ref().and_then(|initial| gravity(initial, &setting, faults));
     let tracer = table.table("tracer", faults).and_then(|table| tracer(table, &setting, faults));
     let (mut boundary, named) = sides(&mut table, context, faults);
     let gas = setting.gas;
     if let (Some(initial), Some(grid)) = (&mut initial, &setting.grid) {
-        initial_pressure::check(pressure.as_ref(), initial, grid, boundary, context, faults);
+        initial_pressure::check(pressure.as_ref(), (initial, gravity), grid, boundary, context, faults);
         let is_free = pressure.is_none() && bubble.as_ref().is_some_and(|bubble| bubble.is_largest);
-        initial_pressure::at_rest(is_free, initial, grid, boundary, context);
+        initial_pressure::at_rest(is_free, initial, gravity, grid, boundary, context);
         if context.scheme.is_some() {
             contact::check((&acting.0, &acting.1), &terms, initial, grid, boundary, faults);
         }
@@ -155,19 +155,19 @@ pub(super) fn fluid(
     Some((case, place, pending.conduction))
 }
 
+/// Gravity along z in a grid, at whose z_min the liquid has the ambient pressure.
+fn under(acceleration: f64, grid: &GridCase) -> Gravity {
+    Gravity { acceleration, level: grid.z[0] }
+}
+
 /// Gravity along z, under which the pressure of the ambient liquid is that of the case on z_min.
-fn gravity(
-    table: &mut Table<'_>,
-    initial: &InitialCondition,
-    setting: &Setting,
-    faults: &mut Faults,
-) -> Option<Gravity> {
-    let given = table.number("gravity", faults).filter(|given| given.value != 0.0)?;
+fn gravity(initial: &InitialCondition, setting: &Setting, faults: &mut Faults) -> Option<Gravity> {
+    let given = setting.gravity.as_ref()?;
     let (ambient, grid) = (&initial.ambient, setting.grid.as_ref()?);
-    let gravity = Gravity { acceleration: given.value, level: grid.z[0] };
+    let gravity = under(given.value, grid);
     if ambient.phase == Phase::Gas {
         let message = "fills the ambient liquid with a hydrostatic pressure, and the ambient phase is gas";
-        faults.of(&given, message, "remove it, or make the ambient phase \"liquid\"");
+        faults.of(given, message, "remove it, or make the ambient phase \"liquid\"");
         return None;
     }
     // As much as the pressure that the liquid can lose, either way.
@@ -181,7 +181,7 @@ fn gravity(
         let most = bearable / (density * (z - grid.z[0]));
         let bears = format!("fluid.ambient.pressure + fluid.liquid.pi = {bearable:?} Pa");
         faults.of(
-            &given,
+            given,
             message,
             format!("the liquid bears less than {bears}: give less than {most:?} m/s2"),
         );
@@ -247,9 +247,11 @@ fn bubble(
     faults: &mut Faults,
 ) -> Option<Described> {
     let table = table.table("bubble", faults)?;
-    let Setting { gas, grid, geometry, .. } = setting;
+    let Setting { gas, grid, geometry, gravity, .. } = setting;
+    let gravity = gravity.as_ref().zip(grid.as_ref()).map(|(given, grid)| under(given.value, grid));
     let around = Surroundings {
         ambient,
+        gravity,
         gas: *gas,
         grid: grid.as_ref(),
         geometry: *geometry,

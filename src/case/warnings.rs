@@ -44,6 +44,15 @@ impl Case {
             near_sides(fluid, self.geometry, &mut warnings);
             across_periodic_sides(fluid, &mut warnings);
             implausible::fluid(fluid, &mut warnings);
+            if fluid.boundary[Side::ZMax as usize] == Boundary::Wall
+                && !fluid.boundary[Side::ZMin as usize].is_wall()
+            {
+                warnings.push(
+                    "fluid.boundary.z_max is a wall and z_min is none: pressures on a wall and jets towards it are \
+                     recorded at z_min alone; turn the case over"
+                        .to_owned(),
+                );
+            }
         }
         if let Some(solid) = &self.solid {
             implausible::solid(solid, &mut warnings);
@@ -117,7 +126,7 @@ fn near_sides(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>)
         if region.state.phase != Phase::Gas {
             continue;
         }
-        let driving = (ambient.pressure - region.state.pressure).abs();
+        let driving = (fluid.ambient_at(z).pressure - region.state.pressure).abs();
         for (key, side) in Side::NAMES {
             let distance = match side {
                 Side::ZMin => z - fluid.grid.z[0],

@@ -85,7 +85,8 @@ fn rayleigh_field(case: &Case) -> Result<Option<(RayleighField, f64)>, RunError>
         if let Some(fluid) = &own.fluid {
             let domain = Domain { geometry: own.geometry, z: fluid.grid.z, r: fluid.grid.r };
             // A case is refused in reading if it has not the field that it asks for.
-            let field = RayleighField::of(&fluid.initial, &domain, fluid.boundary).ok().flatten();
+            let field =
+                RayleighField::of(&fluid.initial, fluid.gravity, &domain, fluid.boundary).ok().flatten();
             return Ok(field.map(|field| (field, fluid.grid.z[0])));
         }
         // Runs that repeat each other's load in a circle have been refused in reading.

@@ -46,7 +46,7 @@ impl<const N: usize> FluidSolver<N> {
     pub fn new(setup: &FluidSetup, initial: &InitialCondition) -> Result<Self, FluidError> {
         let mixture = Mixture::new(setup.liquid, setup.gas);
         let (Domain { geometry, .. }, gravity) = (setup.domain, setup.gravity);
-        let field = RayleighField::of(initial, &setup.domain, setup.boundaries)?;
+        let field = RayleighField::of(initial, gravity, &setup.domain, setup.boundaries)?;
         Self::with(
             setup,
             &|centre, widths| {

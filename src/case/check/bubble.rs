@@ -8,7 +8,8 @@ use crate::case::{FluidCase, ResetCase};
 pub(super) fn bubble(text: &mut String, fluid: &FluidCase) {
     let Some(bubble) = &fluid.bubble else { return };
     let Some(region) = fluid.initial.regions.get(bubble.region) else { return };
-    let (far, pressure) = (fluid.initial.ambient.pressure, region.state.pressure);
+    let Some(([z, _], _)) = fluid.bubble_sphere() else { return };
+    let (far, pressure) = (fluid.ambient_at(z).pressure, region.state.pressure);
     let vapour = match bubble.vapour_pressure {
         0.0 => String::new(),
         vapour => format!(", {} of it vapour", si(vapour, "Pa")),

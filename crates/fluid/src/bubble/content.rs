@@ -86,14 +86,16 @@ impl BubbleContent {
         compressed(&self.gas, rest, density)
     }
 
-    /// The vapour: at its pressure and the temperature T, an ideal gas.
+    /// The vapour: at its pressure and the temperature T, an ideal gas; where the gas has a heat capacity, which says what temperature
+    /// it has, of that R_s = (γ − 1) c_v, else of that of water.
     ///
-    /// - valid for: p_v ≥ 0. errors: none. tested by: water at 20 °C.
+    /// - valid for: p_v ≥ 0. errors: none. tested by: water at 20 °C, the temperature of vapour and gas together.
     #[must_use]
     pub fn vapour(&self) -> GasState {
         GasState {
             pressure: self.vapour_pressure,
-            density: self.vapour_pressure / (WATER_VAPOUR * self.temperature),
+            density: (self.gas.density_at(self.vapour_pressure, self.temperature))
+                .unwrap_or(self.vapour_pressure / (WATER_VAPOUR * self.temperature)),
         }
     }
 
@@ -166,6 +168,16 @@ mod tests {
         let cut = content.cut(wide, 40e-6, 5e-6);
         let of_gas = (1e5 + 28800.0 - 2339.0) * 0.125_f64.powf(4.2);
         assert_relative_eq!(cut.pressure, of_gas + 2339.0, max_relative = 1e-13);
+    }
+
+    #[test]
+    fn a_gas_with_a_heat_capacity_has_its_vapour_at_the_temperature() {
+        let law = crate::NamedFluid::of("water-vapour").unwrap().law;
+        let content = BubbleContent { gas: law, vapour_pressure: 2339.0, ..LABORATORY };
+        for state in [content.vapour(), content.at_temperature(1e4) + content.vapour()] {
+            let temperature = law.temperature(state.density, state.pressure).unwrap();
+            assert_relative_eq!(temperature, 293.15, max_relative = 1e-14);
+        }
     }
 
     #[test]

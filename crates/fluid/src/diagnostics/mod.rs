@@ -174,6 +174,21 @@ impl<const N: usize> FluidSolver<N> {
         }
     }
 
+    /// Pressure on each face of z_min of a fluid that no step has been made of, in the order of r, Pa: that of its cell, and of the weight
+    /// between the cell's centre and the face.
+    pub fn first_wall_face_pressures(&self, pressures: &mut Vec<f64>) {
+        pressures.clear();
+        let acceleration = self.model().terms.acceleration()[0];
+        for &slot in self.interface().blocks() {
+            let level = self.mesh().tree().leaves()[slot].level;
+            let below = 0.5 * self.mesh().widths(level)[0];
+            pressures.extend((0..N).map(|j| {
+                let cell = self.cell_of(self.state().block(slot), 0, j);
+                cell.pressure - cell.density * acceleration * below
+            }));
+        }
+    }
+
     /// Mean shear stress σ_zr of its level's present or last step on each face of z_min, in the order of r, Pa: positive where the fluid
     /// drags the wall along +r. None without viscosity.
     pub fn wall_face_shears(&self, shears: &mut Vec<f64>) {

@@ -284,7 +284,7 @@ mod tests {
         let mut state = Field::zeros(mesh.blocks(), 64, 5);
         let open = Boundary::NonReflecting;
         let sides = [Boundary::Wall, open, Boundary::Axis, open];
-        let field = RayleighField::of(initial, &domain, sides).unwrap();
+        let field = RayleighField::of(initial, None, &domain, sides).unwrap();
         fill(&mesh, &mixture, &mut state, &|centre, widths| {
             average(initial, field.as_ref(), Geometry::Axisymmetric, &mixture, centre, widths)
         });

@@ -6,6 +6,10 @@ pub(crate) mod mesh;
 pub(crate) mod rayleigh;
 pub(crate) mod shapes;
 
+use std::borrow::Cow;
+
+use crate::Gravity;
+
 ::mesh::named! {
     /// Which of the two fluids.
     pub enum Phase {
@@ -104,6 +108,23 @@ pub struct InitialCondition {
     pub regions: Vec<Region>,
     /// Added last.
     pub pulses: Vec<Pulse>,
+}
+
+impl InitialCondition {
+    /// What it would be if the liquid had no weight: gas at the pressure that it has beyond the liquid's at its centre, from that
+    /// of the ambient state on.
+    pub fn weightless(&self, gravity: Option<Gravity>) -> Cow<'_, Self> {
+        let Some(gravity) = gravity else { return Cow::Borrowed(self) };
+        let mut weightless = self.clone();
+        for region in weightless.regions.iter_mut().filter(|region| region.state.phase == Phase::Gas) {
+            let z = match region.shape {
+                Shape::Sphere { centre, .. } => centre[0],
+                Shape::Box { z: [low, high], .. } => 0.5 * (low + high),
+            };
+            region.state.pressure -= gravity.head(self.ambient.density, z);
+        }
+        Cow::Owned(weightless)
+    }
 }
 
 #[cfg(test)]

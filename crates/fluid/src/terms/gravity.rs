@@ -1,6 +1,7 @@
 //! Gravity along the axis.
 
 use super::{Term, TermBlock};
+use crate::PhaseState;
 use crate::state::conserved::{ENERGY, MOMENTUM_Z, RHO};
 use crate::state::primitive::V_Z;
 use crate::step::face_rows::FaceRows;
@@ -24,6 +25,11 @@ impl Gravity {
     /// How much higher the pressure of liquid at rest is at z than at the level, Pa: ρg(z − z₀).
     pub fn head(&self, density: f64, z: f64) -> f64 {
         density * self.acceleration * (z - self.level)
+    }
+
+    /// The ambient liquid at a height.
+    pub fn at_height(&self, ambient: PhaseState, z: f64) -> PhaseState {
+        PhaseState { pressure: ambient.pressure + self.head(ambient.density, z), ..ambient }
     }
 }
 

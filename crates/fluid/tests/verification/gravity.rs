@@ -76,6 +76,9 @@ fn what_the_case_fills_rests_too() {
     };
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
     approx::assert_relative_eq!(fluid.cell(0, 0, 0).pressure, 2e9 - 1e9 / 64.0, max_relative = 1e-12);
+    let mut on_wall = vec![];
+    fluid.first_wall_face_pressures(&mut on_wall);
+    assert!(on_wall.len() == 32 && on_wall.iter().all(|p| (p / 2e9 - 1.0).abs() < 1e-12), "{on_wall:?}");
     run_steps(&mut fluid, 100);
     each_cell(&fluid, |_, _, w| assert!(w.v_z.abs() < 1e-11 * 1e6 * fluid.time(), "{w:?}"));
 }

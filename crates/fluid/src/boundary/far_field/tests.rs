@@ -140,7 +140,7 @@ fn a_face_begins_with_its_initial_state() {
     ] {
         let start = initial(&places, pressure);
         let far_field = far_field(&start, boundaries).unwrap();
-        let field = crate::RayleighField::of(&start, &DOMAIN, boundaries).unwrap();
+        let field = crate::RayleighField::of(&start, None, &DOMAIN, boundaries).unwrap();
         for (side, face) in
             FACES.into_iter().filter(|(side, _)| boundaries[*side as usize] == Boundary::FarField)
         {
@@ -170,7 +170,7 @@ fn cut_bubbles_draw_in_what_their_field_says() {
     ] {
         let start = initial(&places, InitialPressure::Rayleigh);
         let far_field = far_field(&start, boundaries).unwrap();
-        let field = crate::RayleighField::of(&start, &DOMAIN, boundaries).unwrap().unwrap();
+        let field = crate::RayleighField::of(&start, None, &DOMAIN, boundaries).unwrap().unwrap();
         let s = 100.0;
         let of_sources: f64 =
             far_field.bubbles.iter().map(|bubble| 2.0 * RHO * bubble.acceleration / (4.0 * PI * s)).sum();

@@ -16,7 +16,7 @@ mod space;
 
 use mesh::{Domain, Geometry};
 
-use crate::{Boundary, InitialCondition, InitialPressure};
+use crate::{Boundary, Gravity, InitialCondition, InitialPressure};
 pub use beneath::{Beneath, HarmonicBeneath};
 use bubbles::{Bubble, all_clear, bubbles};
 pub use error::RayleighError;
@@ -57,16 +57,24 @@ pub struct RayleighField {
 impl RayleighField {
     /// The field that an initial condition begins with; `None` if its pressure is to be uniform.
     ///
+    /// Under gravity it is that of the pressure beyond the hydrostatic one, and on a bubble what the gas has beyond that at the
+    /// bubble's centre: a bubble that is in equilibrium there has none. The ρgR by which the liquid's weight differs along its
+    /// surface begins to act with the first steps.
+    ///
+    /// - `gravity`: of the liquid; the caller adds the hydrostatic pressure.
     /// - `boundaries`: what bounds the domain, in the order of [`mesh::Side::ALL`].
     /// - errors: [`RayleighError`] where there is no such field.
     pub fn of(
         initial: &InitialCondition,
+        gravity: Option<Gravity>,
         domain: &Domain,
         boundaries: [Boundary; 4],
     ) -> Result<Option<Self>, RayleighError> {
         match initial.pressure {
             InitialPressure::Uniform => Ok(None),
-            InitialPressure::Rayleigh => Self::between(initial, domain, boundaries).map(Some),
+            InitialPressure::Rayleigh => {
+                Self::between(&initial.weightless(gravity), domain, boundaries).map(Some)
+            }
         }
     }
 

@@ -152,10 +152,33 @@ fn what_has_no_such_field_is_refused() {
     // A uniform pressure asks for no field, whatever there is.
     let uniform = InitialCondition { pressure: InitialPressure::Uniform, ..near };
     let none =
-        RayleighField::of(&uniform, &Domain { geometry: Geometry::Planar, ..BOX }, [Boundary::Wall; 4]);
+        RayleighField::of(&uniform, None, &Domain { geometry: Geometry::Planar, ..BOX }, [Boundary::Wall; 4]);
     assert_eq!(none, Ok(None));
     // At the liquid's own pressure there is nothing to start.
     assert_eq!(field(&[[2.0, 1.0, FAR]], Some(0.0)).pressure([0.0, 0.5]), FAR);
+}
+
+/// The caller adds the hydrostatic pressure: 1e5 Pa/m downwards here.
+#[test]
+fn under_gravity_the_field_is_that_of_what_the_gas_lacks_at_its_height() {
+    let gravity = Some(Gravity { acceleration: -100.0, level: 0.0 });
+    let sides = [Boundary::Wall, Boundary::NonReflecting, Boundary::Axis, Boundary::NonReflecting];
+    let of = |gas: f64| {
+        let field = RayleighField::of(&bubbles(&[[0.6, 0.1, gas]]), gravity, &BOX, sides);
+        field.expect("a field").expect("asked for")
+    };
+    let balanced = of(FAR - 6e4);
+    assert!(
+        [[0.0, 0.0], [0.48, 0.0], [2.0, 1.0]]
+            .iter()
+            .all(|point| (balanced.pressure(*point) - FAR).abs() < 1e-9)
+    );
+    let collapses = of(1e4);
+    assert!(
+        (collapses.pressure([0.71, 0.0]) - (FAR - 3e4)).abs() < 4e3,
+        "{}",
+        collapses.pressure([0.71, 0.0])
+    );
 }
 
 #[test]
@@ -163,7 +186,8 @@ fn walls_and_solids_have_images_and_open_sides_none() {
     let initial = bubbles(&[[2.0, 1.0, 2e3]]);
     let on_axis = |side| {
         let open = Boundary::NonReflecting;
-        let field = RayleighField::of(&initial, &BOX, [side, open, Boundary::Axis, open]).expect("a field");
+        let field =
+            RayleighField::of(&initial, None, &BOX, [side, open, Boundary::Axis, open]).expect("a field");
         field.expect("asked for").pressure([0.0, 0.0])
     };
     let free = FAR + (2e3 - FAR) / 2.0;
