@@ -1,6 +1,8 @@
 //! What a case says of a bubble that is followed, and what of it the solver needs.
 
-use fluid::{BubbleContent, BubbleCuts, BubbleReset, FollowedBubble, NobleAbelStiffenedGas, Shape};
+use fluid::{
+    BubbleContent, BubbleCuts, BubbleReset, FollowedBubble, NobleAbelStiffenedGas, PhaseState, Shape,
+};
 
 use super::FluidCase;
 
@@ -44,6 +46,12 @@ impl BubbleCase {
 }
 
 impl FluidCase {
+    /// The ambient state at a height: under gravity of the hydrostatic pressure there.
+    pub fn ambient_at(&self, z: f64) -> PhaseState {
+        let ambient = self.initial.ambient;
+        self.gravity.map_or(ambient, |gravity| gravity.at_height(ambient, z))
+    }
+
     /// Centre (z, r) and radius of the bubble that is described, at t = 0, m.
     pub fn bubble_sphere(&self) -> Option<([f64; 2], f64)> {
         match self.initial.regions.get(self.bubble?.region)?.shape {
@@ -58,7 +66,7 @@ impl FluidCase {
         if bubble.cells_per_radius.is_none() && bubble.reset.is_none() {
             return None;
         }
-        let content = bubble.content(self.initial.ambient.pressure, self.gas);
+        let content = bubble.content(self.ambient_at(centre[0]).pressure, self.gas);
         let cuts = BubbleCuts::of(&self.initial);
         let number = cuts.positions().partition_point(|cut| *cut < centre[0]);
         let reset = bubble.reset.map(|reset| match reset {
@@ -78,10 +86,41 @@ impl FluidCase {
 
     /// The finest level that details may ask for at t = 0.
     pub fn first_level(&self) -> usize {
+        let radius = self.bubble_sphere().map_or(f64::INFINITY, |(_, radius)| radius);
+        self.level_about(radius)
+    }
+
+    /// The finest level that details may ask for when the bubble has a radius, m.
+    pub fn level_about(&self, radius: f64) -> usize {
         let (grid, finest) = (&self.grid, self.grid.levels);
         let (Some(followed), Some(_)) = (self.followed_bubble(), &grid.adaptation) else { return finest };
         let [h_z, h_r] = grid.cell_size();
         let width = |level: u8| h_z.max(h_r) * ((finest - usize::from(level)) as f64).exp2();
-        usize::from(followed.finest_level(followed.radius, width, finest as u8)).max(grid.root_level())
+        usize::from(followed.finest_level(radius, width, finest as u8)).max(grid.root_level())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Case;
+
+    #[test]
+    fn a_bubble_is_in_the_liquid_of_its_height() {
+        let text = "[time]\nend = 1e-6\n[fluid]\nz = [0.0, 16e-3]\nr = [0.0, 8e-3]\ncells = [64, 32]\ngravity = -1e5\n\
+                    [fluid.liquid]\ngamma = 7.15\npi = 3e8\n[fluid.ambient]\ndensity = 1000.0\npressure = 2e6\n\
+                    [fluid.bubble]\ncentre = [8e-3, 0.0]\nradius = 1e-3\nequilibrium_radius = 1e-3\n\
+                    [coupling]\nscheme = \"rigid\"\n";
+        let read = |sets: &[&str]| {
+            let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+            Case::from_toml(text, "deep", &sets).map(|case| case.fluid.expect("a fluid"))
+        };
+        let fluid = read(&[]).unwrap_or_else(|errors| panic!("{errors}"));
+        // ρgh is 0.8 MPa.
+        assert!((fluid.initial.regions[0].state.pressure - 1.2e6).abs() < 1e-6);
+        assert!((fluid.ambient_at(8e-3).pressure - 1.2e6).abs() < 1e-6);
+        let grows = ["fluid.bubble={ centre = [8e-3, 0.0], radius_max = 1e-3, gas_pressure = 1.5e6 }"];
+        assert!(
+            read(&grows).is_err_and(|errors| errors.to_string().contains("not less than the liquid's 12"))
+        );
     }
 }

@@ -17,7 +17,8 @@ pub(super) fn region_of_interest(
     let Some(mut table) = root.table("region_of_interest", faults) else { return };
     let (place, span) = (table.path.clone(), table.span.clone());
     let radius = table.required_positive("radius", faults);
-    let corner = wall.zip(grids.iter().flatten().next()).map(|(z, grid)| [z, grid.r[0]]);
+    let corner =
+        wall.zip(grids.iter().flatten().next()).map(|(z, grid)| [z, 0.0_f64.clamp(grid.r[0], grid.r[1])]);
     // A side that is faulty has no grid here; its own faults are enough.
     if wall.is_none() && grids.iter().any(Option::is_some) && !table.has("centre") {
         let help = "give `centre = [z, r]`; by default it is where the wall meets the axis, and this case has no wall";

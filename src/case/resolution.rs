@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use fluid::{Phase, Shape};
+use fluid::{BubbleCuts, Phase, Shape};
 use mesh::Geometry;
 
 use super::Case;
@@ -17,6 +17,15 @@ impl Case {
         let region = fluid.initial.regions.first().filter(|region| region.state.phase == Phase::Gas)?;
         let Shape::Sphere { radius, .. } = region.shape else { return None };
         Some(radius / fluid.first_cell())
+    }
+
+    /// The same where the bubble is smallest, on the level that the grid has about it then; `None` also where several are in the fluid.
+    ///
+    /// - `first`, `smallest`: equivalent radius of all gas at the start and then, m.
+    pub fn cells_per_smallest_radius(&self, first: f64, smallest: f64) -> Option<f64> {
+        let fluid = self.fluid.as_ref().filter(|fluid| BubbleCuts::of(&fluid.initial).bubbles() < 2)?;
+        let finer = fluid.level_about(smallest) as f64 - fluid.first_level() as f64;
+        Some(self.cells_per_radius()? * smallest / first * finer.exp2())
     }
 
     /// Over how long the wall pressure's running mean is taken, s: `output.mean_time`, else R/(12 c) with the equivalent radius R of the

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 /// Keys of `summary.json` with their units, in the order in which they are told. Energies, forces, impulses and volumes of planar runs
 /// are per metre of depth.
-pub const KEY_NUMBERS: [(&str, &str); 50] = [
+pub const KEY_NUMBERS: [(&str, &str); 52] = [
     ("wall_pressure_peak", "Pa"),
     ("wall_pressure_peak_time", "s"),
     ("wall_pressure_peak_interface", "Pa"),
@@ -53,6 +53,8 @@ pub const KEY_NUMBERS: [(&str, &str); 50] = [
     ("pit_volume", "m3"),
     ("pit_rim", "m"),
     ("indentation_peak", "m"),
+    ("load_impulse", "Pa s"),
+    ("load_impulse_time", "s"),
     ("load_amplitude", "Pa"),
     ("load_radius", "m"),
     ("load_duration", "s"),

@@ -22,7 +22,7 @@ const RESOLUTION: &str = "cells_per_radius";
 /// Numbers that a narrow table has room for, the most wanted first.
 const IN_TABLE: [&str; 8] = [
     "wall_pressure_peak",
-    "wall_impulse",
+    "load_impulse",
     "von_mises_peak",
     "plastic_strain_peak",
     "pit_depth",

@@ -18,6 +18,14 @@ fn grids_that_adapt_follow_the_region_of_interest() {
     // By default it lies around where the wall meets the axis.
     let wall = good().fluid.map_or(0.0, |fluid| fluid.grid.z[0]);
     assert_eq!(interest(&["region_of_interest={ radius = 1e-3 }"]), [region([wall, 0.0]); 2]);
+    // The axis of a planar domain is where r = 0.
+    let planar = [
+        "geometry=planar",
+        "fluid.r=[-4e-3, 6e-3]",
+        "solid.r=[-4e-3, 6e-3]",
+        "region_of_interest={ radius = 1e-3 }",
+    ];
+    assert_eq!(interest(&planar), [region([wall, 0.0]); 2]);
     let elsewhere = ["region_of_interest={ radius = 1e-3, centre = [1e-3, 2e-3] }", "solid.adapt=false"];
     assert_eq!(interest(&elsewhere), [region([1e-3, 2e-3]), None]);
     // It changes what a run computes.

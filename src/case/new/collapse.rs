@@ -8,7 +8,7 @@ use super::checks::Checks;
 use super::grid::Blocks;
 use super::parts::{Bubble, OF_COLLAPSE, VAPOUR, sound, times};
 use super::quantity::Dimension;
-use super::wall::{TWICE, Wall};
+use super::wall::{Wall, twice_as_wide};
 
 /// Radii from the bubble to open sides, where a far field is as good as one far away (docs/theory/far-field.md).
 const CLEAR: f64 = 4.0;
@@ -87,7 +87,8 @@ impl Collapse {
         text += &blocks.keys(0.0, height + CLEAR * radius, ACROSS * radius, &finest);
         text += "initial_pressure = \"rayleigh\"   # the bubble starts from rest, without a water hammer\n";
         text += &bubble.keys(height);
-        text += &self.wall.keys((&blocks.coarser(1), TWICE), [ACROSS * radius; 2], "", self.elastic);
+        let (solid, about) = twice_as_wide(&blocks);
+        text += &self.wall.keys((&solid, about), [ACROSS * radius; 2], "", self.elastic);
         let _ = write!(
             text,
             "

@@ -8,6 +8,7 @@ use super::parts::number;
 const WIDEST_BLOCK: f64 = 2.0;
 
 /// Blocks of the coarsest level, and how often they are halved.
+#[derive(PartialEq)]
 pub(super) struct Blocks {
     /// Width of a coarsest block, m.
     width: f64,

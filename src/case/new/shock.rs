@@ -9,7 +9,7 @@ use super::checks::Checks;
 use super::grid::Blocks;
 use super::parts::{Bubble, number, sound, times};
 use super::quantity::Dimension;
-use super::wall::{TWICE, Wall};
+use super::wall::{Wall, twice_as_wide};
 
 /// Radii between the bubble and the side where the pulse comes in.
 const ABOVE: f64 = 4.0;
@@ -86,7 +86,8 @@ impl ShockedBubble {
         text += "\n[fluid.boundary]\nz_max = \"inflow\"                # where the pulse comes in\nr_max = \"wall\"                  # it runs along it\n";
         text += &self.pulse(end);
         let beside = "\n[solid.boundary]\nr_max = \"symmetry\"              # as the wall of the fluid\n";
-        text += &self.wall.keys((&blocks.coarser(1), TWICE), [DEEP * radius, ACROSS * radius], beside, false);
+        let (solid, about) = twice_as_wide(&blocks);
+        text += &self.wall.keys((&solid, about), [DEEP * radius, ACROSS * radius], beside, false);
         let _ = write!(
             text,
             "\n[[probe]]                       # the pulse before it meets the bubble\nname = \"incident\"\nposition = [{}, 0.0]\nmedium = \"fluid\"\n",

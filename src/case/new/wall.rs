@@ -27,8 +27,14 @@ pub enum Wall {
     Solid(Box<Material>),
 }
 
-/// What there is to say of a solid's cells that have the width of the fluid's second finest.
-pub(super) const TWICE: &str = "cells twice as wide as the fluid's";
+/// Blocks of a solid whose cells have the width of the fluid's second finest, and what there is to say of them.
+pub(super) fn twice_as_wide(fluid: &Blocks) -> (Blocks, &'static str) {
+    let blocks = fluid.coarser(1);
+    // Blocks as wide as the domain have no coarser ones.
+    let about =
+        if blocks == *fluid { "cells as wide as the fluid's" } else { "cells twice as wide as the fluid's" };
+    (blocks, about)
+}
 
 impl Wall {
     /// By the name of a material of the library, a short one (`steel`), or `rigid`.

@@ -134,8 +134,8 @@ fn wall(summary: Summary<'_>) -> Option<String> {
         words += &format!("; averaged over {over} it is {mean}");
     }
     words.push('.');
-    if let Some(impulse) = summary.said("wall_impulse", "Pa s") {
-        words += &format!(" The impulse there is {impulse}.");
+    if let Some(impulse) = summary.said("load_impulse", "Pa s") {
+        words += &format!(" Beyond the pressure far away its impulse is {impulse}.");
     }
     Some(words)
 }
@@ -156,11 +156,11 @@ fn solid(summary: Summary<'_>) -> Option<String> {
         // A strain below that of the zone's bound has no zone.
         let deep = summary.number("plastic_zone_depth").filter(|deep| *deep > 0.0);
         let deep = deep.map_or(String::new(), |deep| format!(", down to {}", si(deep, "m")));
-        return Some(format!(
-            "The solid yields{deep}: plastic strain up to {}. {}",
-            percent(strain),
-            pit(summary)
-        ));
+        let yields = match summary.number("plastic_work") {
+            Some(work) if work <= 0.0 => "The solid yields no further than it had before",
+            _ => "The solid yields",
+        };
+        return Some(format!("{yields}{deep}: plastic strain up to {}. {}", percent(strain), pit(summary)));
     }
     let Some(strength) = summary.number("yield_strength") else {
         return Some(format!("The largest von Mises stress in the solid is {said} at {time}."));
@@ -182,11 +182,17 @@ fn solid(summary: Summary<'_>) -> Option<String> {
 /// The pit that stays, once the surface is still.
 fn pit(summary: Summary<'_>) -> String {
     let still = summary.number("surface_still").is_some_and(|still| still <= ALMOST_STILL);
+    let waits = summary.0.contains_key("settled");
     match summary.said("pit_depth", "m").zip(summary.said("pit_radius", "m")) {
-        Some((depth, radius)) if still => {
-            format!("A pit stays, {depth} deep and {radius} in radius at half of that.")
+        _ if !still && summary.0.get("settled") != Some(&Value::Bool(true)) => {
+            let key = if waits { "time.longest" } else { "time.end" };
+            format!("The surface still moves at the end, so no pit is given: make {key} later.")
         }
-        _ => "The surface still moves at the end, so no pit is given: make time.end later.".to_owned(),
+        Some((depth, radius)) => format!("A pit stays, {depth} deep and {radius} in radius at half of that."),
+        None => match summary.said("pit_floor", "m") {
+            Some(floor) => format!("No pit deeper than {floor} stays, and no shallower one could be told."),
+            None => "No pit stays that could be told.".to_owned(),
+        },
     }
 }
 
@@ -208,11 +214,8 @@ fn cells(summary: Summary<'_>) -> Option<String> {
     let count = |cells: f64| if cells < 9.5 { format!("{cells:.1}") } else { format!("{cells:.0}") };
     let cells = summary.number("cells_per_radius")?;
     let mut words = format!("{} cells per radius", count(cells));
-    let [smallest, first] =
-        ["min_equivalent_radius", "initial_equivalent_radius"].map(|key| summary.number(key));
-    // Of several each has a smallest radius of its own.
-    if let Some((smallest, first)) = smallest.zip(first).filter(|_| several(summary).is_none()) {
-        words += &format!(", {} where it is smallest", count(cells * smallest / first));
+    if let Some(smallest) = summary.number("cells_per_smallest_radius") {
+        words += &format!(", {} where it is smallest", count(smallest));
     }
     if let Some(film) = summary.number("film_cells_min").filter(|film| *film < RESOLVED_FILM) {
         words += &format!(", {} across the film of liquid at the wall", count(film));
@@ -254,10 +257,10 @@ mod tests {
             "initial_equivalent_radius": 1e-3, "min_equivalent_radius": 7.8e-5, "collapse_time": 7.82e-6,
             "jet_velocity_peak": 1791.0, "wall_pressure_peak": 4.46e8, "wall_pressure_peak_time": 8.268e-6,
             "wall_pressure_peak_anywhere": 4.5e8, "wall_pressure_peak_anywhere_time": 8.3e-6,
-            "wall_pressure_mean_peak": 4.18e8, "wall_pressure_mean_time": 8.3e-8, "wall_impulse": 695.8,
+            "wall_pressure_mean_peak": 4.18e8, "wall_pressure_mean_time": 8.3e-8, "load_impulse": 695.8,
             "von_mises_peak": 7.9e7, "von_mises_peak_time": 8.4e-6, "yield_strength": 3.4e7,
             "plastic_strain_peak": 0.01166, "plastic_zone_depth": 1.9e-3, "pit_depth": 1.193e-5, "pit_radius": 7.443e-4,
-            "surface_still": 0.0127, "cells_per_radius": 40.0, "warnings": [], "cells": {"fluid": {}, "solid": {}},
+            "surface_still": 0.0127, "cells_per_radius": 40.0, "cells_per_smallest_radius": 3.12, "warnings": [], "cells": {"fluid": {}, "solid": {}},
         });
         let text = told(&summary);
         for words in [
@@ -265,7 +268,7 @@ mod tests {
             "1.79 km/s",
             "446 MPa on the axis at 8.27 µs, 448 ns after",
             "averaged over 83 ns it is 418 MPa",
-            "696 Pa s",
+            "its impulse is 696 Pa s",
             "yields, down to 1.9 mm: plastic strain up to 1.2 %",
             "A pit stays, 11.9 µm deep and 744 µm in radius",
             "How sure: 40 cells per radius, 3.1 where it is smallest, no warning; cav run",
@@ -282,6 +285,7 @@ mod tests {
             assert!(told(&summary).contains(said), "{face}");
         }
         summary["bubbles"] = json!(2);
+        summary.as_object_mut().expect("an object").remove("cells_per_smallest_radius");
         let both = told(&summary);
         assert!(
             both.contains("All gas of 2 bubbles is smallest")
@@ -289,6 +293,7 @@ mod tests {
             "{both}"
         );
         summary["bubbles"] = json!(1);
+        summary["cells_per_smallest_radius"] = json!(3.12);
         summary["wall_pressure_peak_interface"] = json!(9.2e8);
         let words = "3.1 where it is smallest, a peak on the wall 2.2 times its mean, which grows with the resolution";
         assert!(told(&summary).contains(words), "{}", told(&summary));

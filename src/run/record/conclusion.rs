@@ -12,6 +12,7 @@ use crate::output::run_directory::{
 };
 use crate::output::{Join, RunDirectory, join_histories, safe_file, summary};
 use crate::run::RunError;
+use crate::run::checkpoints::Checkpoints;
 use crate::run::record::answer::{answer, look_next};
 use crate::run::record::how_sure::how_sure;
 use crate::run::record::{equivalent_load, two_collapses};
@@ -54,9 +55,12 @@ pub fn conclude(
     whole.extend(two_collapses::summary(&history, whole.get("collapse_time").and_then(Value::as_f64)));
     whole.extend(equivalent_load::summary(&history));
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
-    if let Some((work, volume)) = number("work_on_solid").zip(number("pit_volume")) {
-        whole.insert("work_per_pit_volume".to_owned(), json!((volume > 0.0).then_some(work / volume)));
-    }
+    let per_volume = number("work_on_solid").zip(number("pit_volume"));
+    let per_volume = per_volume.map(|(work, volume)| json!((volume > 0.0).then_some(work / volume)));
+    let radii = number("initial_equivalent_radius").zip(number("min_equivalent_radius"));
+    let cells = radii.and_then(|(first, smallest)| case.cells_per_smallest_radius(first, smallest));
+    whole.extend(per_volume.map(|work| ("work_per_pit_volume".to_owned(), work)));
+    whole.extend(cells.map(|cells| ("cells_per_smallest_radius".to_owned(), json!(cells))));
     let zone = case.solid.as_ref().and_then(|solid| zone_warning(&whole, solid));
     let warnings: Vec<String> = warnings(&whole).into_iter().chain(zone).collect();
     for warning in &warnings {
@@ -67,7 +71,7 @@ pub fn conclude(
     put_answer(directory.path(), &mut whole);
     summary::write(directory, SUMMARY, &whole)?;
     if completed {
-        directory.remove_checkpoints()?;
+        Checkpoints::of(case, directory).keep_newest()?;
         directory.remove_progress()?;
     }
     Ok(whole)
@@ -167,8 +171,8 @@ fn warnings(whole: &Map<String, Value>) -> Vec<String> {
     let share = whole.get("fixups").and_then(|fixups| fixups.get("floor_energy_share")?.as_f64());
     let floor = share.filter(|share| *share > FLOOR_BUDGET).map(|share| {
         format!(
-            "the pressure floor added {:.2} % of the energy of the collapse (p V of the gas at the start); more than \
-             {:.0} % is too much to trust what follows the collapse: refine, or use model = \"five-equation\" where it is another",
+            "the pressure floor added {:.2} % of the energy of the collapse (the pressure far away times the gas's largest volume); \
+             more than {:.0} % is too much to trust what follows the collapse: refine, or use model = \"five-equation\" where it is another",
             100.0 * share,
             100.0 * FLOOR_BUDGET
         )

@@ -106,7 +106,7 @@ impl FluidRecord {
         let film = FilmRecord::create(history)?;
         let faces = WallFaces::new(mesh.generation(), mesh.domain().r[0], solver.interface_edges());
         let mut wall_pressures = Vec::new();
-        solver.wall_cells(false, |_, pressure, _| wall_pressures.push(pressure));
+        solver.first_wall_face_pressures(&mut wall_pressures);
         // With a boundary of its own at z_min there is no wall to record.
         let wall = case.fluid.as_ref().filter(|fluid| fluid.boundary[Side::ZMin as usize].is_wall());
         let interface = match wall {
@@ -177,8 +177,9 @@ impl FluidRecord {
         self.seen.largest_thin_volume = self.seen.largest_thin_volume.max(bubble.thin_volume);
         let peaks = &mut self.seen.peaks;
         if self.cells_per_radius.is_some() && self.seen.collapse.is_growing() {
-            // What a bubble pushes away in its growth is no jet.
+            // What a bubble pushes away in its growth is no jet, and no load that its collapse puts on the wall.
             peaks.jet = [0.0; 2];
+            self.interface.iter_mut().for_each(InterfaceHistory::forget_load);
         }
         for (peak, value) in [
             (&mut peaks.wall, wall.axis),

@@ -11,7 +11,7 @@ use crate::run::record::answer::percent;
 /// Numbers that are told, the first of each row that a run has, and what they are called.
 const TOLD: [&[(&str, &str)]; 4] = [
     &[("wall_pressure_mean_peak", "the mean wall pressure"), ("wall_pressure_peak", "the wall pressure")],
-    &[("wall_impulse", "the impulse")],
+    &[("load_impulse", "the impulse")],
     &[("von_mises_peak", "the von Mises stress")],
     &[("pit_depth", "the pit")],
 ];
@@ -83,12 +83,12 @@ mod tests {
             "grids": [grid("a", true), grid("b", true)],
             "numbers": {
                 "wall_pressure_mean_peak": {"values": [4e8, 5e8], "uncertainties": [4e7, 2e7], "convergence": "monotone"},
-                "wall_impulse": {"values": [1.0, 2.0], "uncertainties": [1.0, 0.5], "convergence": "slow"},
+                "load_impulse": {"values": [1.0, 2.0], "uncertainties": [1.0, 0.5], "convergence": "slow"},
                 "von_mises_peak": {"values": [1e8, 9e7], "uncertainties": [null, null], "convergence": "oscillatory-divergent"},
                 "pit_depth": {"values": [1e-6, 2e-6], "uncertainties": [1e-7, 1e-7], "convergence": "monotone"},
             },
         });
-        let whole = json!({"wall_pressure_mean_peak": 5e8, "wall_pressure_peak": 6e8, "wall_impulse": 2.0,
+        let whole = json!({"wall_pressure_mean_peak": 5e8, "wall_pressure_peak": 6e8, "load_impulse": 2.0,
                            "von_mises_peak": 9e7, "pit_depth": 3e-6});
         let object = |value: &Value| value.as_object().expect("an object").clone();
         let grid = grid_of(&object(&record), "b");
@@ -103,7 +103,7 @@ mod tests {
         );
         record["numbers"]["pit_depth"] =
             json!({"values": [0.0, 0.0], "uncertainties": [0.0, 0.0], "convergence": "unchanged"});
-        let elastic = object(&json!({"wall_impulse": 3.0, "pit_depth": 0.0}));
+        let elastic = object(&json!({"load_impulse": 3.0, "pit_depth": 0.0}));
         assert_eq!(words(&object(&record), 1, &elastic), None, "there is no pit");
         assert_eq!(grid_of(&object(&record), "c"), None);
         record["grids"][0]["completed"] = json!(false);

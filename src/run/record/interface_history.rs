@@ -159,7 +159,7 @@ impl InterfaceHistory {
             pressure: zero.clone(),
             impulse: zero,
             sensors: Sensors::create(case, faces, pressures, history)?,
-            axis: WallAxis::new(case.mean_time(), faces.on_axis(pressures)),
+            axis: WallAxis::new(case.mean_time(), faces.on_axis(pressures), case.ambient_pressure()),
             shear: is_viscous.then(|| WallShear::new(cells)),
             heat: conducts.then(|| WallHeat::new(cells)),
         };
@@ -191,6 +191,11 @@ impl InterfaceHistory {
         }
         self.axis.after_step(faces.on_axis(pressures), (time, dt));
         self.sensors.after_step(faces, pressures, (time, dt), history)
+    }
+
+    /// Forgets the load so far, see [`WallAxis::forget_load`].
+    pub fn forget_load(&mut self) {
+        self.axis.forget_load();
     }
 
     /// Its part of the summary.

@@ -95,6 +95,8 @@ fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
             let own = times.iter().zip(&pressure).filter(|(time, _)| before(**time) == of_first);
             own.map(|(_, pressure)| *pressure).reduce(f64::max)
         };
+        // Fewer rows tell of neither.
+        let is_told = ends.len() >= FEWEST_ROWS;
         let axis = rows("interface/r").map_or(0, |r| on_axis(&r));
         let at = |row: Option<usize>| impulse.get([row?, axis]).copied();
         let last_of_first = ends.iter().rposition(|time| before(*time)).filter(|row| *row < impulse.nrows());
@@ -102,11 +104,15 @@ fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
         let first = at(last_of_first);
         put("wall_pressure_peak_first", peak(true));
         put("wall_pressure_peak_second", split.and_then(|_| peak(false)));
+        let first = first.filter(|_| is_told);
         put("wall_impulse_first", first);
         put("wall_impulse_second", split.and(whole.zip(first)).map(|(whole, first)| whole - first));
     }
     Some(part)
 }
+
+/// Rows of `/interface` in a run that are enough to tell one impulse from the next.
+const FEWEST_ROWS: usize = 10;
 
 /// Which of these centres of cells of equal width is that of the cell with r = 0, or of the nearest to it.
 fn on_axis(r: &[f64]) -> usize {

@@ -1,6 +1,6 @@
 //! The wall pressure on the axis, beyond its peak in one step: its largest mean over a while, and its impulse.
 //!
-//! Both are of p* on the wall's face at the axis, which is known as the mean over each step: sums over all steps, whatever is written.
+//! All are of p* on the wall's face at the axis, which is known as the mean over each step: sums over all steps, whatever is written.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -14,18 +14,49 @@ pub struct WallAxis {
     window: Option<f64>,
     /// Pressure at t = 0, Pa.
     initial: f64,
+    /// Pressure far away, Pa.
+    ambient: f64,
     /// Of the pressure beyond the initial one.
     mean: RunningMean,
     /// Largest mean over the whole while so far, Pa, and at its end, s.
     mean_peak: Option<[f64; 2]>,
     /// Largest impulse so far, Pa s, and when, s; 0 at t = 0.
     impulse_peak: [f64; 2],
+    load: Load,
+}
+
+/// The impulse of what is beyond the pressure far away: its largest rise.
+///
+/// Where the run begins with another pressure than that far away, the impulse beyond the first one grows for as long as the run goes
+/// on; this does not.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Load {
+    /// Time integral since t = 0, and the least of it so far, Pa s.
+    integral: f64,
+    lowest: f64,
+    /// Largest rise so far, Pa s, and at its end, s.
+    peak: [f64; 2],
+}
+
+impl Load {
+    fn after_step(&mut self, beyond: f64, (time, dt): (f64, f64)) {
+        self.integral += dt * beyond;
+        self.lowest = self.lowest.min(self.integral);
+        if self.integral - self.lowest > self.peak[0] {
+            self.peak = [self.integral - self.lowest, time];
+        }
+    }
 }
 
 impl WallAxis {
-    /// Of a wall with this pressure on the axis at t = 0.
-    pub fn new(window: Option<f64>, pressure: Option<f64>) -> Self {
-        Self { window, initial: pressure.unwrap_or(0.0), ..Self::default() }
+    /// Of a wall with this pressure on the axis at t = 0, and that far away.
+    pub fn new(window: Option<f64>, pressure: Option<f64>, ambient: f64) -> Self {
+        Self { window, initial: pressure.unwrap_or(0.0), ambient, ..Self::default() }
+    }
+
+    /// Forgets the load so far: a bubble that grows pushes on the wall before its collapse does.
+    pub fn forget_load(&mut self) {
+        self.load = Load::default();
     }
 
     /// Takes notice of a step of length `dt` that ended at `time` with this mean pressure on the axis.
@@ -41,6 +72,7 @@ impl WallAxis {
         if self.mean.integral() > self.impulse_peak[0] {
             self.impulse_peak = [self.mean.integral(), time];
         }
+        self.load.after_step(pressure - self.ambient, (time, dt));
     }
 
     /// Its part of the summary.
@@ -54,6 +86,8 @@ impl WallAxis {
         }
         part.insert("wall_impulse".to_owned(), json!(self.impulse_peak[0]));
         part.insert("wall_impulse_time".to_owned(), json!(self.impulse_peak[1]));
+        part.insert("load_impulse".to_owned(), json!(self.load.peak[0]));
+        part.insert("load_impulse_time".to_owned(), json!(self.load.peak[1]));
         part
     }
 }
@@ -64,7 +98,7 @@ mod tests {
 
     /// The wall's numbers after steps of these lengths with these pressures.
     fn after(window: Option<f64>, steps: &[[f64; 2]]) -> Map<String, Value> {
-        let mut axis = WallAxis::new(window, Some(1.0));
+        let mut axis = WallAxis::new(window, Some(1.0), 2.5);
         let mut time = 0.0;
         for [dt, pressure] in steps {
             time += dt;
@@ -87,6 +121,8 @@ mod tests {
             (number("wall_impulse") - (3.5 + 1.0 + 3.0)).abs() < 1e-14 && number("wall_impulse_time") == 2.0
         );
         assert_eq!(number("wall_pressure_mean_time"), 1.0);
+        // Beyond 2.5.
+        assert_eq!([number("load_impulse"), number("load_impulse_time")], [2.75 + 0.25 + 1.5, 2.0]);
         // A while that is longer than the run, and none.
         assert_eq!(after(Some(9.0), &steps)["wall_pressure_mean_peak"], Value::Null);
         let without = after(None, &steps);
@@ -94,6 +130,20 @@ mod tests {
             !without.contains_key("wall_pressure_mean_peak")
                 && without["wall_impulse"] == found["wall_impulse"]
         );
+    }
+
+    #[test]
+    fn a_load_is_what_the_pressure_far_away_is_passed_by() {
+        // It begins below that, is hit, and ends at it: however long that lasts.
+        let steps = [[3.0, 1.0], [0.5, 7.5], [0.5, 3.5], [1.0, 1.5], [100.0, 2.5]];
+        let found = after(None, &steps);
+        assert_eq!([&found["load_impulse"], &found["load_impulse_time"]], [&json!(3.0), &json!(4.0)]);
+        assert!(found["wall_impulse"].as_f64().is_some_and(|beyond_the_first| beyond_the_first > 150.0));
+        let mut axis = WallAxis::new(None, Some(1.0), 2.5);
+        axis.after_step(Some(9.0), (1.0, 1.0));
+        axis.forget_load();
+        axis.after_step(Some(3.5), (2.0, 1.0));
+        assert_eq!(axis.summary()["load_impulse"], json!(1.0));
     }
 
     #[test]
