@@ -238,8 +238,10 @@ fn region(
     }
     if let Some(vapour) = vapour.filter(|vapour| vapour.value >= ambient.pressure) {
         let message = format!(
-            "the vapour's {:?} Pa are not below the {:?} Pa of the liquid about it: it would boil",
-            vapour.value, ambient.pressure
+            "the vapour's {:?} Pa are not below fluid.ambient.pressure = {:?} Pa{}: the liquid would boil",
+            vapour.value,
+            ambient.pressure,
+            if around.gravity.is_some() { " at its height" } else { "" }
         );
         faults.of(
             vapour,

@@ -134,8 +134,8 @@ fn wall(summary: Summary<'_>) -> Option<String> {
         words += &format!("; averaged over {over} it is {mean}");
     }
     words.push('.');
-    if let Some(impulse) = summary.said("load_impulse", "Pa s") {
-        words += &format!(" Beyond the pressure far away its impulse is {impulse}.");
+    if let Some(impulse) = summary.number("load_impulse").filter(|impulse| *impulse > 0.0) {
+        words += &format!(" Beyond the pressure far away its impulse is {}.", si(impulse, "Pa s"));
     }
     Some(words)
 }
