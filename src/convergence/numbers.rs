@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use mesh::Geometry;
 use serde_json::{Map, Value};
 
-/// Keys of `summary.json` with their units, in the order in which they are told. Energies, forces, impulses and volumes of planar runs
-/// are per metre of depth.
+use crate::output::per_depth;
+
+/// Keys of `summary.json` with their units, in the order in which they are told; of planar runs those are [`per_depth`].
 pub const KEY_NUMBERS: [(&str, &str); 52] = [
     ("wall_pressure_peak", "Pa"),
     ("wall_pressure_peak_time", "s"),
@@ -79,7 +81,8 @@ pub struct KeyNumber {
 /// The numbers that some grid has.
 ///
 /// - `summaries`: of the grids' runs; `None` for one that has not ended well.
-pub fn of_summaries(summaries: &[Option<&Map<String, Value>>]) -> Vec<KeyNumber> {
+/// - `geometry`: of all of them.
+pub fn of_summaries(summaries: &[Option<&Map<String, Value>>], geometry: Geometry) -> Vec<KeyNumber> {
     let plain = KEY_NUMBERS.iter().map(|(key, unit)| (vec![(*key).to_owned()], *unit));
     let sensors: BTreeSet<&String> = (summaries.iter().flatten())
         .filter_map(|summary| summary.get("sensors")?.as_object())
@@ -95,6 +98,7 @@ pub fn of_summaries(summaries: &[Option<&Map<String, Value>>]) -> Vec<KeyNumber>
         .chain(sensors.into_iter().flat_map(of_sensor))
         .map(|(path, unit)| {
             let values = summaries.iter().map(|summary| number(summary.as_ref()?, &path)).collect();
+            let unit = if geometry == Geometry::Planar { per_depth(unit) } else { unit };
             KeyNumber { name: path.join("."), unit, values }
         })
         .filter(|number| number.values.iter().any(Option::is_some))
@@ -118,7 +122,7 @@ mod tests {
                           "sensors": { "disc": { "impulse": 3.0, "radius": 1.0 } } });
         let two =
             json!({ "wall_pressure_peak": 3e8, "pit_depth": 1e-6, "von_mises_peak_position": [0.0, 1.0] });
-        let found = of_summaries(&[one.as_object(), None, two.as_object()]);
+        let found = of_summaries(&[one.as_object(), None, two.as_object()], Geometry::Axisymmetric);
         let expected = [
             ("wall_pressure_peak", "Pa", [Some(2e8), None, Some(3e8)]),
             ("pit_depth", "m", [None, None, Some(1e-6)]),
@@ -129,7 +133,10 @@ mod tests {
             .map(|(name, unit, values)| KeyNumber { name: name.to_owned(), unit, values: values.to_vec() })
             .collect();
         assert_eq!(found, expected);
-        assert!(of_summaries(&[None, None]).is_empty());
+        assert!(of_summaries(&[None, None], Geometry::Axisymmetric).is_empty());
+        let planar = of_summaries(&[one.as_object(), two.as_object()], Geometry::Planar);
+        let units: Vec<&str> = planar.iter().map(|number| number.unit).collect();
+        assert_eq!(units, ["Pa", "m", "N s/m"], "per metre of depth");
     }
 
     #[test]

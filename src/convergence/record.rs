@@ -1,5 +1,6 @@
 //! The record of a study, `convergence.json`; docs/reference/output-summary.md says what is in it.
 
+use mesh::Geometry;
 use serde_json::{Map, Value, json};
 
 use crate::case::GridCase;
@@ -11,7 +12,7 @@ use crate::convergence::plan::{End, Grid};
 const SCHEMA: u32 = 1;
 
 /// The numbers of all grids, and what they come to.
-pub fn numbers(ends: &[End]) -> Vec<(KeyNumber, Analysis)> {
+pub fn numbers(grids: &[Grid], ends: &[End]) -> Vec<(KeyNumber, Analysis)> {
     let summaries: Vec<_> = ends
         .iter()
         .map(|end| match end {
@@ -23,7 +24,8 @@ pub fn numbers(ends: &[End]) -> Vec<(KeyNumber, Analysis)> {
         let analysis = analyse(&number.values);
         (number, analysis)
     };
-    of_summaries(&summaries).into_iter().map(analysed).collect()
+    let geometry = grids.first().map_or(Geometry::Axisymmetric, |grid| grid.case.geometry);
+    of_summaries(&summaries, geometry).into_iter().map(analysed).collect()
 }
 
 /// The record.
@@ -50,7 +52,7 @@ pub fn of(grids: &[Grid], ends: &[End]) -> Map<String, Value> {
         ("case_name".to_owned(), json!(grids.first().map(|grid| &grid.case.name))),
         ("ratio".to_owned(), json!(RATIO)),
         ("grids".to_owned(), grids.iter().zip(ends).map(|(grid, end)| of_grid(grid, end)).collect()),
-        ("numbers".to_owned(), Value::Object(numbers(ends).into_iter().map(of_number).collect())),
+        ("numbers".to_owned(), Value::Object(numbers(grids, ends).into_iter().map(of_number).collect())),
     ])
 }
 

@@ -27,7 +27,7 @@ pub fn table(grids: &[Grid], ends: &[End]) -> String {
         ]
         .concat(),
     ];
-    let found = numbers(ends);
+    let found = numbers(grids, ends);
     rows.extend(found.iter().map(|(number, analysis)| row(number, analysis)));
     let mut text = aligned(&rows);
     for (grid, end) in grids.iter().zip(ends) {

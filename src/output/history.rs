@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use hdf5::File;
 
 use super::hdf5_attributes::{set_texts, text};
-use super::{OutputError, hdf5_memory, safe_file};
+use super::{OutputError, hdf5_memory, per_depth, safe_file};
 use series::{CHUNK_VALUES, OwnedColumn, Series, absolute, describe, make_parents};
 
 /// Shortest time between two batches that [`HistoryFile::flush_if_due`] writes.
@@ -66,6 +66,8 @@ pub struct BufferedColumn<'a> {
 pub struct HistoryFile {
     /// Whether it stays in memory; the buffers are then all there is, and the path is empty.
     in_memory: bool,
+    /// Whether what is a whole or per radian is per metre of depth.
+    is_planar: bool,
     path: PathBuf,
     series: Vec<Series>,
     arrays: Vec<StaticArray>,
@@ -114,6 +116,12 @@ impl HistoryFile {
         Self { in_memory: true, ..Self::at(Path::new("")) }
     }
 
+    /// The same of a planar run: units of what is a whole or per radian are per metre of depth.
+    #[must_use]
+    pub fn planar(self, is_planar: bool) -> Self {
+        Self { is_planar, ..self }
+    }
+
     /// Where the file is; `None` for one in memory.
     pub fn path(&self) -> Option<&Path> {
         (!self.in_memory).then_some(self.path.as_path())
@@ -135,6 +143,7 @@ impl HistoryFile {
     fn at(path: &Path) -> Self {
         Self {
             in_memory: false,
+            is_planar: false,
             path: path.to_path_buf(),
             series: Vec::new(),
             arrays: Vec::new(),
@@ -154,7 +163,7 @@ impl HistoryFile {
             .iter()
             .map(|column| OwnedColumn {
                 path: absolute(group, column.name),
-                unit: column.unit.to_owned(),
+                unit: self.unit(column.unit).to_owned(),
                 description: column.description.to_owned(),
                 width: column.width,
             })
@@ -174,13 +183,18 @@ impl HistoryFile {
 
     /// Sets the array `path`, which does not change in time; it is written with the next batch.
     pub fn put(&mut self, path: &str, unit: &str, description: &str, values: &[f64]) {
+        let unit = self.unit(unit).to_owned();
         self.pending = true;
         self.arrays.push(StaticArray {
             path: absolute("", path),
-            unit: unit.to_owned(),
+            unit,
             description: description.to_owned(),
             values: values.to_vec(),
         });
+    }
+
+    fn unit<'a>(&self, unit: &'a str) -> &'a str {
+        if self.is_planar { per_depth(unit) } else { unit }
     }
 
     /// Adds one row: the values of all columns, one column after the other.

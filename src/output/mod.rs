@@ -11,6 +11,7 @@
 //! | [`CellValues`] | their values |
 //! | [`background`] | the same on a thread of its own |
 //! | [`history`] | `fluid.h5`, `solid.h5`: named series over time |
+//! | [`per_depth`] | the units of planar runs |
 //! | [`join`] | `history.h5`: both sides' histories under one roof |
 //! | [`checkpoint`] | a side's state, to go on from; [`layout`] tells it from one of other types |
 //! | [`summary`] | `fluid.json`, `solid.json`, `summary.json` |
@@ -38,6 +39,7 @@ pub mod run_state;
 pub mod safe_file;
 pub mod summary;
 pub mod throttle;
+mod units;
 pub mod vtkhdf;
 
 pub use background::{BackgroundWriter, Snapshot};
@@ -51,4 +53,5 @@ pub use progress::Progress;
 pub use progress_line::ProgressLine;
 pub use run_directory::RunDirectory;
 pub use run_state::RunState;
+pub use units::per_depth;
 pub use vtkhdf::{FieldSpec, SeriesWriter, Storage};

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::convergence::numbers::KEY_NUMBERS;
+use crate::output::per_depth;
 use crate::runs::ListError;
 use crate::runs::flat::{Flat, Scalar};
 use crate::runs::listing::{Entry, Listing};
@@ -151,6 +152,21 @@ impl Listing {
         self.entries.iter().any(|entry| has(&entry.summary) || has(&entry.case))
     }
 
+    /// Unit of a key number of a run; empty for what has none or is not known to have one.
+    #[must_use]
+    pub fn unit_of(&self, entry: &Entry, key: &str) -> &'static str {
+        let is_planar = self.value(entry, "geometry") == Some(Scalar::Text("planar".to_owned()));
+        if is_planar { per_depth(unit(key)) } else { unit(key) }
+    }
+
+    /// The same of all runs listed; empty also where they differ in it.
+    #[must_use]
+    pub fn unit(&self, key: &str) -> &'static str {
+        let mut units = self.entries.iter().map(|entry| self.unit_of(entry, key));
+        let first = units.next().unwrap_or(unit(key));
+        if units.all(|unit| unit == first) { first } else { "" }
+    }
+
     /// What a run found, in sentences.
     #[must_use]
     pub fn answer(&self, entry: &Entry) -> Vec<String> {
@@ -166,9 +182,8 @@ impl Listing {
     }
 }
 
-/// Unit of a key number; empty for what has none or is not known to have one.
-#[must_use]
-pub fn unit(key: &str) -> &'static str {
+/// Unit of a key number of an axisymmetric run; empty for what is none.
+fn unit(key: &str) -> &'static str {
     KEY_NUMBERS.iter().find(|(name, _)| *name == key).map_or("", |(_, unit)| *unit)
 }
 

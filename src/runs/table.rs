@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use crate::output::RunState;
 use crate::output::progress::engineering;
-use crate::runs::columns::unit;
 use crate::runs::flat::Scalar;
 use crate::runs::listing::{Entry, Listing};
 
@@ -114,13 +113,15 @@ impl Listing {
             },
             // To the minute, in Greenwich.
             ("started", Some(Scalar::Text(when))) => when.replace('T', " ").chars().take(16).collect(),
-            (_, Some(value @ (Scalar::Float(_) | Scalar::Integer(_)))) => match (unit(key), value.number()) {
-                ("1", Some(share)) => format!("{:.3} %", 100.0 * share),
-                (unit @ ("Pa" | "Pa s" | "m" | "s" | "m/s" | "N" | "N s" | "J"), Some(number)) => {
-                    engineering(number, unit)
+            (_, Some(value @ (Scalar::Float(_) | Scalar::Integer(_)))) => {
+                match (self.unit_of(entry, key), value.number()) {
+                    ("1", Some(share)) => format!("{:.3} %", 100.0 * share),
+                    (unit @ ("Pa" | "Pa s" | "m" | "s" | "m/s" | "J" | "J/m"), Some(number)) => {
+                        engineering(number, unit)
+                    }
+                    _ => rounded(&value),
                 }
-                _ => rounded(&value),
-            },
+            }
             (_, value) => value.map_or_else(String::new, |value| value.to_string()),
         }
     }

@@ -57,6 +57,20 @@ fn solid(path: &Path, times: &[f64]) {
 }
 
 #[test]
+fn wholes_of_planar_runs_are_per_metre_of_depth() {
+    for (is_planar, units) in [(false, ["m3", "N s/rad", "Pa"]), (true, ["m2", "N s/m", "Pa"])] {
+        let mut file = HistoryFile::in_memory().planar(is_planar);
+        let columns =
+            [column("volume", "m3", 1), column("momentum", "N s/rad", 1), column("pressure", "Pa", 1)];
+        file.add_series("", &columns).unwrap();
+        file.put("/mass", "kg", "mass", &[1.0]);
+        let found: Vec<&str> = file.columns().map(|column| column.unit).collect();
+        assert_eq!(found[1..], units, "{is_planar}");
+        assert_eq!(found[0], if is_planar { "kg/m" } else { "kg" });
+    }
+}
+
+#[test]
 fn series_come_back_row_by_row_with_units_over_several_batches() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("fluid.h5");

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use cav::output::run_directory::SUMMARY;
 use cav::output::{RunState, summary};
-use cav::runs::columns::unit;
 use cav::runs::{Asked, ListError, Listing};
 use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
 use pyo3::prelude::*;
@@ -27,15 +26,16 @@ pub fn runs(
     let listed = py.detach(|| {
         let listing = Listing::of(&folder, &asked)?;
         let columns = listing.columns(columns.as_deref())?;
-        Ok((listing.json(&columns), columns, listing.notes))
+        let units: Vec<_> = (columns.iter())
+            .map(|key| (key.clone(), listing.unit(key)))
+            .filter(|(_, unit)| !unit.is_empty())
+            .collect();
+        Ok((listing.json(&columns), columns, units, listing.notes))
     });
-    let (text, columns, notes) = listed.map_err(|error: ListError| match error {
+    listed.map_err(|error: ListError| match error {
         ListError::Folder { .. } => PyFileNotFoundError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
-    })?;
-    let units = columns.iter().map(|key| (key.clone(), unit(key))).filter(|(_, unit)| !unit.is_empty());
-    let units = units.collect();
-    Ok((text, columns, units, notes))
+    })
 }
 
 /// The state of the run in a directory now, by the names that `runs` has.

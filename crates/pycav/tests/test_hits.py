@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import pycav
+from pycav.sweeps.measures import measures
 
 PULSE = {
     "time": {"end": 5e-6},
@@ -55,6 +56,22 @@ def test_perfect_plasticity_goes_on_and_changes_reach_every_hit(tmp_path: Path) 
         assert pycav.open(place).parameters["solid"]["plasticity"]["law"] == "perfect"
     first = pycav.open(tmp_path / "load").summary
     assert soft.plastic_strain_peak[0] > first["plastic_strain_peak"]
+
+
+def test_wholes_of_planar_runs_are_per_metre_of_depth(tmp_path: Path) -> None:
+    case = pycav.Case.from_dict({**PULSE, "geometry": "planar", "sensor": [{"name": "strip", "radius": 1e-3}]})
+    data = pycav.hits(case, 1, tmp_path)
+    assert [data[name].units for name in ("pit_volume", "plastic_work", "work_on_solid", "pit_depth")] == ["m2", "J/m", "J/m", "m"]
+    loading = pycav.open(tmp_path / "load")
+    found = measures(loading)
+    assert [found[name][1] for name in ("plastic_work", "pit_volume", "pit_depth")] == ["J/m", "m2", "m"]
+    assert found["sensors.strip.force_peak"][1] == "N/m" and found["sensors.strip.impulse"][1] == "N s/m"
+    table = loading.key_numbers
+    assert table.unit["plastic_work"] == "J/m" and table.unit["yielded_volume_peak"] == "m2"
+    assert "J/m" in repr(table) and "m²" in repr(table)
+    histories = {"solid/yielded_volume": "m2", "solid/plastic_work": "J/m", "sensors/strip/force": "N/m", "sensors/strip/impulse": "N s/m",
+                 "conservation/solid/mass": "kg/m", "conservation/solid/energy": "J/m", "conservation/solid/momentum_z": "N s/m"}
+    assert {name: loading.histories[name].units for name in histories} == histories
 
 
 def test_what_cannot_be_hit_is_refused(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use mesh::{BLOCK, CellField, CellSnapshot, Mesh};
+use mesh::{BLOCK, CellField, CellSnapshot, Geometry, Mesh};
 use serde::{Deserialize, Serialize};
 
 use crate::case::Case;
@@ -97,13 +97,14 @@ impl<S: CellSnapshot> SideFiles<S> {
         directory: Option<&RunDirectory>,
         names: SideNames<S>,
     ) -> Result<Self, OutputError> {
+        let is_planar = case.geometry == Geometry::Planar;
         let Some(directory) = directory else {
-            return Ok(Self::of(HistoryFile::in_memory(), None, vec![]));
+            return Ok(Self::of(HistoryFile::in_memory().planar(is_planar), None, vec![]));
         };
         let owned = attributes(case);
         let attributes: Vec<(&str, &str)> =
             owned.iter().map(|(name, value)| (*name, value.as_str())).collect();
-        let history = HistoryFile::create(&directory.file(names.history), &attributes)?;
+        let history = HistoryFile::create(&directory.file(names.history), &attributes)?.planar(is_planar);
         let fields = names.wanted(case);
         let specs: Vec<FieldSpec<'_>> = fields.iter().map(|field| spec(field)).collect();
         let path = directory.file(names.snapshots);
@@ -119,7 +120,8 @@ impl<S: CellSnapshot> SideFiles<S> {
         names: SideNames<S>,
         state: &FilesState,
     ) -> Result<Self, OutputError> {
-        let history = HistoryFile::open(&directory.file(names.history))?;
+        let is_planar = case.geometry == Geometry::Planar;
+        let history = HistoryFile::open(&directory.file(names.history))?.planar(is_planar);
         let mut writer = SeriesWriter::open(&directory.file(names.snapshots))?;
         writer.truncate(state.taken as usize)?;
         let writer = BackgroundWriter::start(writer.with_mesh(state.mesh_id))?;

@@ -15,6 +15,7 @@ import xarray
 
 from . import _pycav
 from ._given import count, positive
+from ._numbers import unit_in
 from ._run import run
 from .case import Case
 from .result import Result, open_run
@@ -25,7 +26,7 @@ MEASURES = {
     "pit_depth": "m", "pit_radius": "m", "pit_volume": "m3", "plastic_strain_peak": "1", "plastic_work": "J",
     "work_on_solid": "J", "surface_still": "1",
 }
-"""What is kept of a hit, with units; `plastic_work` and `work_on_solid` are of that hit alone."""
+"""What is kept of a hit, with units of axisymmetric runs; `plastic_work` and `work_on_solid` are of that hit alone."""
 
 
 def hits(
@@ -52,8 +53,8 @@ def hits(
       the load off, which is warned of.
     - `threads`: of each run. `progress`: called with the number of the hit and its result.
 
-    Returns a dataset over `hit` from 1 to n: pit_depth, pit_radius (m), pit_volume (m³), plastic_strain_peak, plastic_work,
-    work_on_solid (J, of the hit), surface_still, directory. Variables carry `units` and `long_name`, the dataset version, revision,
+    Returns a dataset over `hit` from 1 to n: pit_depth, pit_radius (m), pit_volume (m³; planar: m²), plastic_strain_peak,
+    plastic_work, work_on_solid (J, planar: J/m, of the hit), surface_still, directory. Variables carry `units` and `long_name`, the dataset version, revision,
     case of the load, its hash and date. Raises `ValueError` for a run without a wall that yields, for one that has not reached its end,
     and for an `out` that is the run's own directory.
     """
@@ -78,7 +79,8 @@ def hits(
         if progress is not None:
             progress(hit, results[-1])
     values: dict[str, Any] = {
-        name: ("hit", [_number(result.summary.get(name)) for result in results], {"units": unit, "long_name": _words(name)})
+        name: ("hit", [_number(result.summary.get(name)) for result in results],
+               {"units": unit_in(loading.parameters, unit), "long_name": _words(name)})
         for name, unit in MEASURES.items()}
     values["directory"] = ("hit", np.array([str(result.directory) for result in results], dtype=object), {"long_name": "directory"})
     places = ("hit", np.arange(1, n + 1), {"units": "1", "long_name": "number of the hit"})

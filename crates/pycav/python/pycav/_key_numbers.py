@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import pandas
 
-from ._numbers import si
+from ._numbers import si, unit_in
 
 KEY_NUMBERS = [
     ("wall_pressure_peak", "Pa", "wall_pressure_peak_time"),
@@ -22,18 +23,18 @@ KEY_NUMBERS = [
     ("min_equivalent_radius", "m", "collapse_time"),
     ("jet_velocity_peak", "m/s", "jet_velocity_peak_time"),
 ]
-"""Keys of the summary, their units, and the keys of their times."""
+"""Keys of the summary, their units in axisymmetric runs, and the keys of their times."""
 
 
 class KeyNumbers(pandas.DataFrame):
     """Columns `value`, `unit`, `time` (s). Printed, or in a notebook, it shows MPa and µs; what is made of it is a plain table."""
 
     @classmethod
-    def of(cls, summary: dict[str, Any]) -> KeyNumbers:
-        """Those that a summary has."""
+    def of(cls, summary: Mapping[str, Any], parameters: Mapping[str, Any]) -> KeyNumbers:
+        """Those that the summary of a run with these parameters has."""
         known = [row for row in KEY_NUMBERS if summary.get(row[0]) is not None
                  and not (row[0] == "yielded_volume_peak" and summary.get("yield_strength") is None)]
-        rows = {name: (summary[name], unit, summary.get(time)) for name, unit, time in known}
+        rows = {name: (summary[name], unit_in(parameters, unit), summary.get(time)) for name, unit, time in known}
         return cls(pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "unit", "time"]))
 
     @property
@@ -42,7 +43,7 @@ class KeyNumbers(pandas.DataFrame):
 
     def _read(self) -> pandas.DataFrame:
         """As it is read: text."""
-        units = {"1": "", "m3": "m³"}
+        units = {"1": "", "m2": "m²", "m3": "m³"}
         rows = {name: (si(row["value"], units.get(row["unit"], row["unit"])), "" if pandas.isna(row["time"]) else si(row["time"], "s"))
                 for name, row in self.iterrows()}
         return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "time"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
@@ -20,6 +21,15 @@ def number(value: float) -> str:
     """A number for a tick, with a true minus sign and without round-off."""
     rounded = float(f"{value:.10g}")
     return f"{rounded:g}".replace("-", "−") if rounded else "0"
+
+
+PER_DEPTH = {"m3": "m2", "m³": "m²", "kg": "kg/m", "N": "N/m", "N s": "N s/m", "J": "J/m"}
+"""The units of wholes, and those of the same in planar runs: per metre of depth."""
+
+
+def unit_in(parameters: Mapping[str, Any], unit: str) -> str:
+    """The unit in a run with these parameters of what is in `unit` in an axisymmetric one."""
+    return PER_DEPTH.get(unit, unit) if parameters.get("geometry") == "planar" else unit
 
 
 POWERS = {"m²": 2, "m³": 3}

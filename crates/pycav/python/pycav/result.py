@@ -305,7 +305,7 @@ class Result:
         """The peaks of the summary with their times: columns `value`, `unit`, `time` (s). Printed they are in MPa and µs."""
         from ._key_numbers import KeyNumbers
 
-        return KeyNumbers.of(self.summary)
+        return KeyNumbers.of(self.summary, self.parameters)
 
     @property
     def radius(self) -> float | None:

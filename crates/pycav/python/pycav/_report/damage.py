@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._axis import on_axis
-from .._numbers import percent, rounded, si
+from .._numbers import percent, rounded, si, unit_in
 from ..plot.surface import has_pit
 from ..result import Result
 
@@ -29,7 +29,8 @@ def damage(result: Result) -> Rows:
         yield "largest von Mises stress", si(summary.get("von_mises_peak"), "Pa"), _place(summary, "von_mises_peak")
         if not plastic:
             volume = summary.get("yielded_volume_peak")
-            yield "yielded volume, largest", (si(volume, "m³") if volume else "none") if strength else "–", "the solid is elastic: where it would yield"
+            told = si(volume, unit_in(result.parameters, "m³")) if volume else "none"
+            yield "yielded volume, largest", told if strength else "–", "the solid is elastic: where it would yield"
             duration = data["solid/time"].to_numpy()[data["solid/yielded_volume"].to_numpy() > 0]
             if strength and len(duration):
                 yield "yields from, to", f"{si(duration[0], 's')}, {si(duration[-1], 's')}", "anywhere"
@@ -49,7 +50,7 @@ def _place(summary: dict[str, Any], name: str) -> str:
 
 def _flowed(result: Result) -> Rows:
     """Plastic strain, zone and work."""
-    summary, planar = result.summary, result.parameters.get("geometry") == "planar"
+    summary, parameters = result.summary, result.parameters
     strain = summary.get("plastic_strain_peak")
     if strain is None:
         return  # not known yet
@@ -64,10 +65,10 @@ def _flowed(result: Result) -> Rows:
         yield "highest temperature", f"{summary['temperature_peak']:.4g} K", "of plastic work, without conduction"
     for bound, shown in (("", "0.01 %"), ("_2e-3", "0.2 %")):
         depth, radius, volume = (summary.get(f"plastic_{name}{bound}") for name in ("zone_depth", "zone_radius", "volume"))
-        content = f"out to r = {rounded(radius, 'm')}; {rounded(volume, 'm²' if planar else 'm³')} in all"
+        content = f"out to r = {rounded(radius, 'm')}; {rounded(volume, unit_in(parameters, 'm³'))} in all"
         yield f"plastic zone, strains above {shown}", f"{rounded(depth, 'm')} deep" if volume else "none", content if volume else ""
     work, given = summary.get("plastic_work"), work_on_solid(result)
-    unit = "J/m" if planar else "J"
+    unit = unit_in(parameters, "J")
     share = f"{percent(work / given)} of the work on the solid, {rounded(given, unit)}" if work and given else ""
     yield "plastic work", rounded(work, unit), share
 
@@ -97,7 +98,7 @@ def _pit(result: Result) -> Rows:
     radius = summary.get("pit_radius")
     yield "pit, radius at half depth", rounded(radius, "m"), ""
     yield "pit, rim", rounded(summary.get("pit_rim"), "m"), "above the surface far away"
-    yield f"pit, {'area' if planar else 'volume'}", rounded(summary.get("pit_volume"), "m²" if planar else "m³"), ""
+    yield f"pit, {'area' if planar else 'volume'}", rounded(summary.get("pit_volume"), unit_in(result.parameters, "m³")), ""
 
 
 def _load(summary: dict[str, Any]) -> Rows:

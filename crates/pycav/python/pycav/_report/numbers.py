@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from .._convergence import Convergence, study_of
-from .._numbers import rounded, si
+from .._numbers import rounded, si, unit_in
 from ..plot.surface import has_pit
 from ..result import Result
 
@@ -61,7 +61,7 @@ def key_numbers(result: Result) -> Iterable[Number]:
             continue
         if name == "wall_pressure_peak_anywhere" and value == summary.get("wall_pressure_peak"):
             continue  # it was on the axis
-        unit = UNITS.get(name, "Pa")
+        unit = unit_in(result.parameters, UNITS.get(name, "Pa"))
         notes = [f"at {si(float(time), 's')}"] if (time := summary.get(TIMES.get(name, f"{name}_time"))) is not None else []
         if name == "wall_pressure_mean_peak" and summary.get("wall_pressure_mean_time") is not None:
             label += f" over {rounded(float(summary['wall_pressure_mean_time']), 's')}"

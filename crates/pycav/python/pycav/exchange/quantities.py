@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 ENGINEERING = {
     "Pa": "MPa", "m": "mm", "s": "us", "m3": "mm3", "m/s": "m/s", "kg/m3": "g/cm3", "Pa s": "Pa s", "N": "N", "J": "J", "N s": "mN s",
-    "kg": "mg", "J/m3": "J/mm3",
+    "kg": "mg", "J/m3": "J/mm3", "m2": "mm2", "N s/m": "mN s/m", "kg/m": "mg/m",
 }
 """What engineers write for the units of a run; others stay."""
 SMALL = ("pit_", "film_thickness", "displacement")

@@ -155,7 +155,7 @@ def _label(name: str) -> str:
 
 
 def _bar(figure: Any, drawn: Any, axes: Any, norm: LogNorm, values: xarray.DataArray, unit: str) -> None:
-    scale, letter = prefix(float(norm.vmax or 1.0)) if unit in ("Pa", "m", "s", "J", "Pa s") else (1.0, "")
+    scale, letter = prefix(float(norm.vmax or 1.0)) if unit in ("Pa", "m", "s", "J", "J/m", "Pa s") else (1.0, "")
     bar = figure.colorbar(drawn, ax=list(axes), aspect=18, pad=0.01)
     bar.ax.yaxis.set(major_locator=LogLocator(), minor_locator=NullLocator(),
                      major_formatter=FuncFormatter(lambda value, _: number(value * scale)))

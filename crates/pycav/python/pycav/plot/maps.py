@@ -21,7 +21,7 @@ from .surface import ALMOST_STILL
 
 SHOWN = [
     ("wall_pressure_peak", "wall pressure, largest", "Pa"), ("wall_impulse", "impulse on the wall", "Pa s"),
-    ("von_mises_peak", "von Mises stress, largest", "Pa"), ("yielded_volume_peak", "yielded volume", "m$^3$"),
+    ("von_mises_peak", "von Mises stress, largest", "Pa"), ("yielded_volume_peak", "yielded volume", "m3"),
 ]
 LENGTHS = {"pit_depth": "depth of the pit", "pit_radius": "radius at half depth", "pit_rim": "height of the rim"}
 MOVES, STEEP = ALMOST_STILL, 0.05
@@ -51,10 +51,11 @@ def stand_off_map(data: xarray.Dataset | str | os.PathLike[str]) -> Figure:
             if off is not None:
                 axes.errorbar(distance, values[:, column], off[:, column], color=COLOURS[column % 6], linestyle="none", capsize=2)
         largest = float(np.nanmax(values)) if np.isfinite(values).any() else 0.0
-        if unit == "m$^3$":
-            scale, letter = prefix(largest ** (1 / 3))  # of a length, whose cube the volume is
-            axes.yaxis.set_major_formatter(lambda v, _, s=scale: f"{v * s**3:g}")
-            axes.set_ylabel(f"{label} / {letter}{unit}")
+        if unit == "m3":
+            power = 2 if data[name].attrs.get("units") == "m2" else 3  # a planar volume is an area
+            scale, letter = prefix(largest ** (1 / power))  # of a length, whose power the volume is
+            axes.yaxis.set_major_formatter(lambda v, _, s=scale**power: f"{v * s:g}")
+            axes.set_ylabel(f"{label} / {letter}m$^{power}$")
         else:
             ticks(axes.yaxis, largest, label, unit)
         axes.set_ylim(min(0.0, 1.05 * float(np.nanmin(values, initial=0.0))), 1.08 * largest or None)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from .._numbers import unit_in
 from ..result import Result
 
 Measure = Callable[[Result], Mapping[str, tuple[float, str]]]
@@ -38,7 +39,7 @@ WORDS = {
 
 
 def measures(result: Result) -> dict[str, tuple[float, str]]:
-    """What a sweep keeps of a run: value and unit by name, NaN for what the run has not.
+    """What a sweep keeps of a run: value and unit by name, NaN for what the run has not. Wholes of planar runs are per metre of depth.
 
     Numbers of the summary, among them `wall_impulse`, `pit_depth`, `plastic_strain_peak` and `cells_per_radius`; and of every
     disc (`[[sensor]]`) `sensors.NAME.pressure_peak`, `.pressure_peak_time`, `.force_peak`, `.impulse`.
@@ -47,7 +48,7 @@ def measures(result: Result) -> dict[str, tuple[float, str]]:
     found = {name: (_number(summary.get(name)), unit) for name, unit in SUMMARY}
     for sensor, numbers in (summary.get("sensors") or {}).items():
         found |= {f"sensors.{sensor}.{name}": (_number(numbers.get(name)), unit) for name, unit in SENSOR}
-    return found
+    return {name: (value, unit_in(result.parameters, unit)) for name, (value, unit) in found.items()}
 
 
 def measured(measure: Measure, place: Path) -> dict[str, tuple[float, str]]:
