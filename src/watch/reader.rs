@@ -9,6 +9,7 @@ use crate::output::progress_line::ProgressLine;
 use crate::output::run_directory::{CASE, FLUID_HISTORY, SOLID_HISTORY};
 use crate::output::run_state::{has_checkpoints, summary_of};
 use crate::output::{OutputError, RunState};
+use crate::run::record::answer::peak_on_the_wall;
 use crate::watch::grids::run_in;
 use crate::watch::seen::{Seen, Titled};
 use crate::watch::series::Series;
@@ -63,7 +64,7 @@ impl Reader {
             grid,
             state,
             standing: told.or_else(|| self.standing(&summary)),
-            curves: self.curves(),
+            curves: self.curves(peak_on_the_wall(&summary).filter(|_| is_over)),
             end,
             error: summary.get("error").filter(|_| is_over).and_then(text),
             answer: (summary.get("answer").and_then(Value::as_array).into_iter().flatten())
@@ -94,11 +95,14 @@ impl Reader {
     }
 
     /// What there is to draw: the bubble, its pressure on the wall, and what that does to the solid.
-    fn curves(&self) -> Vec<Titled> {
+    ///
+    /// - `peak`: of that pressure, and its time, by the summary of a run that is over.
+    fn curves(&self, peak: Option<[f64; 2]>) -> Vec<Titled> {
         let titled = |series: &Series, path: &str, title: &'static str, unit: &'static str| {
             let curve = series.curve(path)?.clone();
             curve.last()?;
-            Some(Titled { title, unit, is_least_wanted: path == RADIUS, curve })
+            let peak = peak.filter(|_| path == PRESSURE).map(|[value, time]| [time, value]);
+            Some(Titled { title, unit, is_least_wanted: path == RADIUS, curve, peak })
         };
         let is_there = |titled: &Titled| titled.curve.largest().is_some_and(|[_, value]| value > 0.0);
         // Where the solid can yield, how far it has is what is asked for; until it does, how near it is.

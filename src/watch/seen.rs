@@ -19,7 +19,7 @@ pub struct Seen {
     pub standing: Option<Standing>,
     /// What is drawn, from the top.
     pub curves: Vec<Titled>,
-    /// Simulated time at which it ends, if that is known; s.
+    /// Simulated time at which it ends at the latest, if that is known; s.
     pub end: Option<f64>,
     /// Why it failed.
     pub error: Option<String>,
@@ -42,6 +42,8 @@ pub struct Titled {
     pub is_least_wanted: bool,
     /// The curve.
     pub curve: Curve,
+    /// Time and value of a larger peak than the curve has, which the run's end tells of.
+    pub peak: Option<[f64; 2]>,
 }
 
 impl Titled {
@@ -51,7 +53,9 @@ impl Titled {
         if self.is_least_wanted {
             self.curve.least().map(|point| ("smallest", point))
         } else {
-            self.curve.largest().map(|point| ("largest", point))
+            let largest = self.curve.largest();
+            let of_end = self.peak.filter(|[_, peak]| largest.is_none_or(|[_, value]| *peak > value));
+            of_end.or(largest).map(|point| ("largest", point))
         }
     }
 }
@@ -67,6 +71,14 @@ impl Seen {
             }
             None => directory.to_string(),
         }
+    }
+
+    /// Simulated time at which it ends or has ended, if that is known, s: what waits for a still surface may be finished long before
+    /// the latest time.
+    #[must_use]
+    pub fn ends(&self) -> Option<f64> {
+        let reached = self.standing.as_ref().map(|standing| standing.line.time);
+        reached.filter(|_| self.state == RunState::Finished).or(self.end)
     }
 
     /// What can be done about a run that has not reached its end.
@@ -85,7 +97,7 @@ impl Seen {
             return vec!["no step is in the files yet".to_owned()];
         };
         let time = engineering(line.time, "s");
-        let time = match self.end {
+        let time = match self.ends() {
             Some(end) if end > 0.0 => {
                 format!(
                     "t = {time} of {} ({:.0} %)",

@@ -111,15 +111,18 @@ fn bubble(summary: Summary<'_>) -> Option<String> {
     Some(words)
 }
 
+/// The largest pressure on the wall, at the axis, and its time.
+///
 /// Of the wall's first cell or of its face: where a jet lands, the face's pressure is the larger one, and that is what is averaged.
-fn peak_on_the_wall(summary: Summary<'_>) -> Option<[f64; 2]> {
+pub fn peak_on_the_wall(summary: &Map<String, Value>) -> Option<[f64; 2]> {
+    let summary = Summary(summary);
     let of = |key: &str| Some([summary.number(key)?, summary.number(&format!("{key}_time"))?]);
     let cell = of("wall_pressure_peak")?;
     Some(of("wall_pressure_peak_interface").filter(|face| face[0] > cell[0]).unwrap_or(cell))
 }
 
 fn wall(summary: Summary<'_>) -> Option<String> {
-    let [peak, time] = peak_on_the_wall(summary)?;
+    let [peak, time] = peak_on_the_wall(summary.0)?;
     let peak = si(peak, "Pa");
     let since = summary.number("collapse_time").map(|collapse| time - collapse);
     let when = match since {
@@ -141,9 +144,8 @@ fn wall(summary: Summary<'_>) -> Option<String> {
 }
 
 fn elsewhere(summary: Summary<'_>) -> Option<String> {
-    let [axis, anywhere] =
-        ["wall_pressure_peak", "wall_pressure_peak_anywhere"].map(|key| summary.number(key));
-    let (axis, anywhere) = axis.zip(anywhere)?;
+    let [axis, _] = peak_on_the_wall(summary.0)?;
+    let anywhere = summary.number("wall_pressure_peak_anywhere")?;
     let time = summary.said("wall_pressure_peak_anywhere_time", "s")?;
     (anywhere > ELSEWHERE * axis)
         .then(|| format!("Elsewhere on the wall it is {} at {time}.", si(anywhere, "Pa")))
@@ -198,7 +200,7 @@ fn pit(summary: Summary<'_>) -> String {
 
 /// What is to be said of a peak on the wall that is over at once.
 fn momentary(summary: Summary<'_>) -> Option<String> {
-    let [peak, _] = peak_on_the_wall(summary)?;
+    let [peak, _] = peak_on_the_wall(summary.0)?;
     let mean = summary.number("wall_pressure_mean_peak").filter(|mean| *mean > 0.0)?;
     (peak > MOMENTARY * mean).then(|| {
         let times = peak / mean;
@@ -295,6 +297,8 @@ mod tests {
         summary["bubbles"] = json!(1);
         summary["cells_per_smallest_radius"] = json!(3.12);
         summary["wall_pressure_peak_interface"] = json!(9.2e8);
+        summary["wall_pressure_peak_anywhere"] = json!(9e8);
+        assert!(!told(&summary).contains("Elsewhere"), "it is less than on the axis");
         let words = "3.1 where it is smallest, a peak on the wall 2.2 times its mean, which grows with the resolution";
         assert!(told(&summary).contains(words), "{}", told(&summary));
         summary["wall_pressure_peak_interface"] = json!(4.44e8);

@@ -29,7 +29,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, seen: &Seen, colours: &Col
     let areas = if is_high { Layout::vertical(parts) } else { Layout::horizontal(parts) }.split(area);
     for (number, (titled, area)) in seen.curves.iter().zip(areas.iter()).enumerate() {
         let has_times = !is_high || number + 1 == usize::from(count);
-        draw_one(frame, *area, titled, number, seen.end, has_times, colours);
+        draw_one(frame, *area, titled, number, seen.ends(), has_times, colours);
     }
 }
 

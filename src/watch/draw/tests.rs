@@ -24,7 +24,8 @@ fn seen(state: RunState, share: f64) -> Seen {
             .for_each(|x| curve.push(x * END, value(x)));
         curve
     };
-    let titled = |title, unit, is_least_wanted, curve| Titled { title, unit, is_least_wanted, curve };
+    let titled =
+        |title, unit, is_least_wanted, curve| Titled { title, unit, is_least_wanted, curve, peak: None };
     let peak = 0.8 * share;
     let line = ProgressLine {
         time: share * END,
@@ -158,6 +159,24 @@ fn a_finished_run_says_what_it_found_and_the_curves_stay() {
     let alone = lines(&finished, [80, 24], View { passed: 1000, ..ALONE });
     assert!(alone.iter().any(|line| line.contains("5 A sentence")), "{}", alone.join("\n"));
     assert!(dotted(&alone).is_empty());
+}
+
+#[test]
+fn a_run_that_settled_before_its_latest_time_is_finished_as_a_whole() {
+    let text = lines(&seen(RunState::Finished, 0.2), [80, 24], BOTH).join("\n");
+    assert!(text.contains("t = 13.14 µs of 13.14 µs (100 %)"), "{text}");
+    assert!(!text.contains("20 %") && !text.contains("65.70 µs"), "the axis of time ends with it: {text}");
+}
+
+#[test]
+fn the_largest_wall_pressure_of_a_finished_run_is_that_of_its_answer() {
+    let mut finished = seen(RunState::Finished, 1.0);
+    for (peak, said) in [(2.6e8, "largest 260.0 MPa at 50.70 µs"), (2.4e8, "largest 248.0 MPa at 52.56 µs")]
+    {
+        finished.curves[1].peak = Some([5.07e-5, peak]);
+        let text = lines(&finished, [80, 24], BOTH).join("\n");
+        assert!(text.contains(said), "no `{said}` in\n{text}");
+    }
 }
 
 #[test]

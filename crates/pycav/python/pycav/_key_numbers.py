@@ -26,6 +26,12 @@ KEY_NUMBERS = [
 """Keys of the summary, their units in axisymmetric runs, and the keys of their times."""
 
 
+def wall_peak(summary: Mapping[str, Any]) -> str:
+    """The key of the largest pressure on the wall at the axis: of its first cell or of its face, where a jet lands and means are taken."""
+    cell, face = "wall_pressure_peak", "wall_pressure_peak_interface"
+    return face if (summary.get(face) or 0.0) > (summary.get(cell) or 0.0) else cell
+
+
 class KeyNumbers(pandas.DataFrame):
     """Columns `value`, `unit`, `time` (s). Printed, or in a notebook, it shows MPa and µs; what is made of it is a plain table."""
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._convergence import study_of
+from .._key_numbers import wall_peak
 from ..mesh import Floats
 from .._numbers import percent, rounded, si
 from ..plot.surface import ALMOST_STILL, STILL, has_pit
@@ -70,10 +71,11 @@ def health(result: Result) -> Iterable[Verdict]:
 
 def _convergence(result: Result) -> Iterable[Verdict]:
     study = study_of(result)
-    name = "wall_pressure_mean_peak" if result.summary.get("wall_pressure_mean_peak") is not None else "wall_pressure_peak"
-    what = {"wall_pressure_mean_peak": "largest mean wall pressure", "wall_pressure_peak": "largest wall pressure"}
+    name, what = wall_peak(result.summary), "largest wall pressure"
+    if result.summary.get("wall_pressure_mean_peak") is not None:
+        name, what = "wall_pressure_mean_peak", "largest mean wall pressure"
     if "interface/pressure" not in result.histories or "fluid" not in result.media:
-        name, what = "von_mises_peak", {"von_mises_peak": "largest von Mises stress"}
+        name, what = "von_mises_peak", "largest von Mises stress"
     if study is None:
         yield Verdict(False, "No finer grid has been computed: how far the peaks are from converged is not known.", "",
                       "cav run CASE --refine 3 computes it")
@@ -81,10 +83,10 @@ def _convergence(result: Result) -> Iterable[Verdict]:
     found, value = study[0].record["numbers"].get(name), result.summary.get(name)
     own = None if found is None or found["values"][study[1]] != value else found["uncertainties"][study[1]]
     if own is None or not value:
-        yield Verdict(False, f"The grids do not say how sure the {what[name]} is.", "" if found is None else found["convergence"].replace("-", " "))
+        yield Verdict(False, f"The grids do not say how sure the {what} is.", "" if found is None else found["convergence"].replace("-", " "))
         return
     share = abs(own / value)
-    yield Verdict(share <= SURE, f"The {what[name]} is {'known' if share <= SURE else 'not yet known'} to within {100 * SURE:g} %.",
+    yield Verdict(share <= SURE, f"The {what} is {'known' if share <= SURE else 'not yet known'} to within {100 * SURE:g} %.",
                   f"± {percent(share)}", "grid-convergence index of this grid")
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from .._convergence import Convergence, study_of
+from .._key_numbers import wall_peak
 from .._numbers import rounded, si, unit_in
 from ..plot.surface import has_pit
 from ..result import Result
@@ -55,11 +56,13 @@ def key_numbers(result: Result) -> Iterable[Number]:
     """The numbers that a run has."""
     summary, study = result.summary, study_of(result)
     has_wall = "interface/pressure" in result.histories
-    for name, label in LABELS.items():
+    on_axis = wall_peak(summary)
+    for key, label in LABELS.items():
+        name = on_axis if key == "wall_pressure_peak" else key
         value = summary.get(name)
         if value is None or not math.isfinite(value) or _says_nothing(name, result) or (name.startswith("wall_") and not has_wall):
             continue
-        if name == "wall_pressure_peak_anywhere" and value == summary.get("wall_pressure_peak"):
+        if name == "wall_pressure_peak_anywhere" and value <= (summary.get(on_axis) or 0.0):
             continue  # it was on the axis
         unit = unit_in(result.parameters, UNITS.get(name, "Pa"))
         notes = [f"at {si(float(time), 's')}"] if (time := summary.get(TIMES.get(name, f"{name}_time"))) is not None else []

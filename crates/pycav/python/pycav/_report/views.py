@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._key_numbers import wall_peak
 from ..mesh import Box, Mesh
 from .._numbers import si
 from ..result import Result
@@ -65,7 +66,7 @@ def _reach(result: Result, wall: float | None) -> tuple[float, float, float]:
 
 def events(result: Result) -> list[tuple[float, str]]:
     """Moments to look at, s, the first of them at first."""
-    told = [("wall_pressure_peak_time", "largest wall pressure"), ("collapse_time", "collapse"),
+    told = [(f"{wall_peak(result.summary)}_time", "largest wall pressure"), ("collapse_time", "collapse"),
             ("von_mises_peak_time", "largest von Mises stress"), ("jet_velocity_peak_time", "fastest jet"),
             ("rebound_time", "rebound")]
     if "interface/pressure" not in result.histories:
