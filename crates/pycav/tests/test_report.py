@@ -18,7 +18,7 @@ import pycav
 from pycav import _report
 from pycav.__main__ import main
 from pycav._report import curves, frames
-from pycav._report.damage import LIKE
+from pycav._report.damage import LIKE, damage
 from pycav._report.health import health, jumps, mismatch
 from pycav._report.numbers import key_numbers
 from pycav._report.scales import about, logarithmic, power
@@ -290,6 +290,31 @@ def test_a_report_tells_what_jumps_at_the_interface(result):
     assert 0 < rows["pressure_share"][step] < 0.1
     says = [verdict for verdict in health(result) if "the pressure at the wall" in verdict.says]
     assert len(says) == 1 and f"ε_d = {rounded(rows['pressure'][step], 'Pa')}" in says[0].note
+
+
+def at_rest(**time):
+    """Liquid at rest on steel: what changes is round-off."""
+    return pycav.Case.from_dict({
+        "time": {"end": 1e-5} | time,
+        "fluid": {key: VESSEL[key] for key in ("z", "r", "cells", "levels", "liquid", "gas", "ambient")},
+        "solid": {"z": [-0.05, 0.0], "r": [0.0, 0.05], "cells": [8, 8], "levels": 2, "material": "structural-steel"}})
+
+
+def test_round_off_at_the_wall_is_no_change_of_pressure(tmp_path):
+    run = pycav.run(at_rest(snapshots=[5e-6]), tmp_path / "run")
+    _, _, pressure = jumps(run)
+    assert np.abs(pressure - 5e7).max() < 5.0 and len(pressure) == 3
+    assert mismatch(run)["pressure_share"] == [0.0] * 3
+    assert not [verdict for verdict in health(run) if "at the wall" in verdict.says]
+
+
+def test_a_single_row_measures_nothing(tmp_path):
+    run = pycav.run(at_rest().with_({"output.interface_every": 1.0}), tmp_path / "run")
+    assert len(run.histories["conservation/fluid/mass"]) == len(run.histories["interface/time"]) == 1
+    verdicts = {verdict.says: verdict for verdict in health(run)}
+    assert not [says for says in verdicts if "conserved" in says or "arrive" in says]
+    assert not next(verdict for says, verdict in verdicts.items() if "single row" in says).good
+    assert not [what for what, _, _ in damage(run) if "impulse" in what]
 
 
 def test_a_report_on_a_run_that_was_stopped_says_so(small, tmp_path):

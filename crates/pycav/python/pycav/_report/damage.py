@@ -38,9 +38,10 @@ def damage(result: Result) -> Rows:
             yield from _flowed(result)
             yield from _pit(result)
             yield from _load(summary)
-    if "interface/impulse" in data:
-        impulse = on_axis(data["interface/impulse"])[-1]
-        yield "impulse on the wall, on the axis", f"{impulse:.4g} Pa s", "at the end, ∫ (p* − p at t = 0) dt"
+    # A single row is that of t = 0.
+    if "interface/impulse" in data and len(data["interface/time"]) > 1:
+        impulse, until = on_axis(data["interface/impulse"])[-1], float(data["interface/time"][-1])
+        yield "impulse on the wall, on the axis", f"{impulse:.4g} Pa s", f"∫ (p* − p at t = 0) dt until {si(until, 's')}"
 
 
 def _place(summary: dict[str, Any], name: str) -> str:
@@ -79,7 +80,7 @@ def work_on_solid(result: Result) -> float | None:
     if known is not None:
         return float(known)
     ledger = result.histories.get("conservation/solid/energy_in_z_max")
-    if ledger is None or not len(ledger):
+    if ledger is None or len(ledger) < 2:
         return None
     return float(ledger[-1]) * (1.0 if result.parameters.get("geometry") == "planar" else 2.0 * math.pi)
 

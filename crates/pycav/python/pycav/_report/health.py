@@ -23,6 +23,8 @@ FLOOR = 1e-2
 """The share of the collapse's energy from which on the program itself warns (docs/reference/output.md)."""
 JUMP = 0.05
 """Share of the pressure's change by which both sides' own values may differ at the wall."""
+AT_REST = 1e-6
+"""A change of the pressure at the wall by a smaller share of it is rounding: sides that differ by as much say nothing of the grid."""
 SMALLEST = 10.0
 """Cells along the radius of the smallest bubble below which it is hardly resolved."""
 FILM = 4.0
@@ -115,6 +117,10 @@ def _balances(result: Result) -> Iterable[Verdict]:
     data = result.histories
     fluid, solid = "conservation/fluid/", "conservation/solid/"
     found = {}
+    if fluid + "mass" in data and len(data[fluid + "mass"]) < 2:
+        yield Verdict(False, "Whether mass, energy and impulse balance is not known: their histories have a single row.", "",
+                      "output.interface_every shorter than the run makes more")
+        return
     # The work of the weight has no ledger.
     weighs = bool(result.parameters.get("fluid", {}).get("gravity"))
     for quantity in ("mass",) if weighs else ("mass", "energy"):
@@ -160,7 +166,10 @@ def _continuity(result: Result) -> Iterable[Verdict]:
     if len(times) < 2:
         return
     rows = mismatch(result)
-    worst = int(np.argmax(rows["pressure"]))
+    has_changed = np.array(rows["pressure_share"]) > 0
+    if not has_changed.any():
+        return
+    worst = int(np.argmax(rows["pressure"] * has_changed))
     share = rows["pressure_share"][worst]
     yield Verdict(bool(share <= JUMP), f"The grid {'resolves' if share <= JUMP else 'does not resolve'} the pressure at the wall.", percent(share),
                   f"of its change: by so much (ε_d = {rounded(rows['pressure'][worst], 'Pa')}, rms) fluid and solid differ at most, at "
@@ -169,7 +178,7 @@ def _continuity(result: Result) -> Iterable[Verdict]:
 
 def mismatch(result: Result) -> dict[str, list[float]]:
     """rms over the wall at each snapshot: ε_d (`pressure`, Pa) and ε_k (`velocity`, m/s), and ε_d as a share of the pressure's change
-    there (`pressure_share`)."""
+    there (`pressure_share`), which is 0 where that is rounding."""
     r, velocity, pressure = jumps(result)
     area = r / r.sum() if result.parameters.get("geometry") != "planar" else np.full(len(r), 1 / len(r))
 
@@ -178,7 +187,7 @@ def mismatch(result: Result) -> dict[str, list[float]]:
 
     gap = rms(pressure[..., 0] - pressure[..., 1])
     change = np.sqrt((((pressure - pressure[0].mean())**2).mean(-1) * area).sum(1))
-    share = np.divide(gap, change, out=np.zeros_like(gap), where=change > 0)
+    share = np.divide(gap, change, out=np.zeros_like(gap), where=change > AT_REST * np.abs(pressure).max((1, 2)))
     return {"pressure": gap.tolist(), "velocity": rms(velocity[..., 0] - velocity[..., 1]).tolist(), "pressure_share": share.tolist()}
 
 
