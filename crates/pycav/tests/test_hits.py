@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import json
+import re
 import warnings
 from pathlib import Path
 
@@ -51,7 +53,8 @@ def test_a_wall_that_hardens_takes_less_from_every_hit(tmp_path: Path) -> None:
 
 def test_perfect_plasticity_goes_on_and_changes_reach_every_hit(tmp_path: Path) -> None:
     case = pycav.Case.from_dict(PULSE)
-    soft = pycav.hits(case, 2, tmp_path, solid={"plasticity": {"law": "perfect", "yield_strength": 4e8}})
+    (example,) = re.findall(r"`(\{.*\})`", pycav.hits.__doc__ or "")
+    soft = pycav.hits(case, 2, tmp_path, solid=ast.literal_eval(example))
     for place in soft.directory.values:
         assert pycav.open(place).parameters["solid"]["plasticity"]["law"] == "perfect"
     first = pycav.open(tmp_path / "load").summary

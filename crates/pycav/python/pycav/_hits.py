@@ -48,7 +48,8 @@ def hits(
     - `case`: a case with a wall that yields, which is run once in `out/load`; or a finished run of one.
     - `out`: a directory; every hit has a run directory of its own in it. What is complete there is not run again, unless the load
       or the hit before has changed since.
-    - `solid`: changes of the `[solid]` table for all hits, with the keys of `Case.with_` below it: `{"plasticity.law": "perfect"}`.
+    - `solid`: changes of the `[solid]` table for all hits, with the keys of `Case.with_` below it. Another law takes the whole table:
+      `{"plasticity": {"law": "perfect", "yield_strength": 4e8}}`, as keys of the old one may have no say in it.
     - `longest`: how long a hit may take to become still, s; without it a hit ends with its record. One shorter than the record cuts
       the load off, which is warned of.
     - `threads`: of each run. `progress`: called with the number of the hit and its result.
