@@ -207,6 +207,31 @@ fn a_run_is_running_while_somebody_holds_it_whatever_its_files_say() {
     assert!(listed(place, &[]).contains("interrupted 25 %"), "{}", listed(place, &[]));
 }
 
+/// A table of an inflow is one value; nobody reads all of it in a cell.
+#[test]
+fn long_lists_are_cut_in_tables_and_whole_in_csv_and_json() {
+    let workshop = workshop();
+    let place = workshop.path();
+    let times: Vec<f64> = (0..2000).map(f64::from).collect();
+    for (run, last) in [("a-2", 1.0), ("a-10", 2.0)] {
+        let path = place.join("runs").join(run).join("case.toml");
+        let others = [vec![0.0; 50], vec![last]].concat();
+        let lists = format!("end = 1e-6\nsnapshots = {times:?}\nothers = {others:?}\n");
+        let text = fs::read_to_string(&path).expect("a case").replace("end = 1e-6\n", &lists);
+        fs::write(&path, text).expect("a case");
+    }
+    for table in [listed(place, &[]), listed(place, &["--columns", "time.snapshots,time.others"])] {
+        let is_narrow = table.lines().all(|line| line.chars().count() < 400);
+        assert!(is_narrow && table.contains("[0.0,1.0,2.0,") && table.contains('…'), "{table}");
+    }
+    // What differs behind the cut is not told as what all have in common.
+    let table = listed(place, &["--where", "path~a-"]);
+    assert!(table.contains("others") && !table.contains("time.others ["), "{table}");
+    assert!(listed(place, &["--csv"]).contains("1998.0,1999.0]"));
+    let list = json_of(place, &[])[0]["time.snapshots"].clone();
+    assert!(list.as_str().is_some_and(|list| list.ends_with("1999.0]")), "{list}");
+}
+
 /// A real run: what it writes is what a listing reads, and listing leaves it alone.
 #[test]
 fn a_real_run_is_listed_by_its_own_files() {

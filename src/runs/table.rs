@@ -35,9 +35,11 @@ impl Listing {
             let cells = cells(key);
             let is_always = are_chosen || ALWAYS.contains(&&**key);
             if !is_always && cells.len() > 1 && cells.iter().all(|cell| *cell == cells[0]) {
-                common.push(format!("{key} {}", if cells[0].is_empty() { "unknown" } else { &cells[0] }));
+                let told = if cells[0].is_empty() { "unknown" } else { &cells[0] };
+                common.push(format!("{key} {}", shortened(told)));
                 continue;
             }
+            let cells: Vec<String> = cells.iter().map(|cell| shortened(cell)).collect();
             let own = cells.iter().chain(&heading).map(|cell| cell.chars().count()).max().unwrap_or(0) + GAP;
             // Once one has no room, narrower ones behind it do not jump the queue.
             let has_room = width.is_none_or(|width| taken + own <= width + GAP) && left_out.is_empty();
@@ -131,6 +133,18 @@ fn runs(count: usize) -> &'static str {
     if count == 1 { "run" } else { "runs" }
 }
 
+/// Longer lists are cut in a table for people.
+const LONGEST_LIST: usize = 40;
+
+/// A cell, of a long list its beginning: a table of an inflow has thousands of characters. Sentences stay whole.
+fn shortened(cell: &str) -> String {
+    if cell.starts_with(['[', '{']) && cell.chars().count() > LONGEST_LIST {
+        cell.chars().take(LONGEST_LIST - 1).chain(['…']).collect()
+    } else {
+        cell.to_owned()
+    }
+}
+
 /// A number to six figures: what a case says is seldom longer, what is computed seldom more certain.
 fn rounded(value: &Scalar) -> String {
     match value {
@@ -206,6 +220,17 @@ mod tests {
             ("verylongwithoutend", ["", "verylongwithoutend"]),
         ] {
             assert_eq!(in_two(heading), lines);
+        }
+    }
+
+    #[test]
+    fn long_lists_are_cut_and_sentences_are_not() {
+        let list = format!("[[0.0,1e5]{}]", ",[1e-6,µ]".repeat(500));
+        let cut = shortened(&list);
+        assert_eq!(cut.chars().count(), 40);
+        assert!(cut.starts_with("[[0.0,1e5],[1e-6,") && cut.ends_with('…'), "{cut}");
+        for whole in ["[1.0,2.0,3.0,4.0]".to_owned(), "The wall is hit. ".repeat(20), String::new()] {
+            assert_eq!(shortened(&whole), whole);
         }
     }
 
