@@ -124,11 +124,14 @@ impl WallPressure {
         let is_high = |row: usize, cell: usize| self.values[[row, cell]] >= 0.5 * amplitude;
         let first = (0..row).rev().find(|k| !is_high(*k, cell)).unwrap_or(0);
         let last = (row..self.times.len()).find(|k| !is_high(*k, cell)).unwrap_or(self.times.len() - 1);
-        let outer = (cell..self.radii.len()).find(|k| !is_high(row, *k)).unwrap_or(self.radii.len() - 1);
+        let upper = (cell..self.radii.len()).find(|k| !is_high(row, *k)).unwrap_or(self.radii.len() - 1);
+        let lower = (0..cell).rev().find(|k| !is_high(row, *k)).unwrap_or(0);
+        // Planar domains reach below r = 0, about which the pulse lies; the peak may be there.
+        let outermost = self.radii[upper].abs().max(self.radii[lower].abs());
         let half = std::f64::consts::LN_2.sqrt();
         Some(EquivalentLoad {
             amplitude,
-            radius: self.radii[outer] / half,
+            radius: outermost / half,
             duration: 0.5 * (self.times[last] - self.times[first]) / half,
             time: self.times[row],
             misfit: 1.0,
@@ -274,6 +277,28 @@ mod tests {
         let (first, second) = (pulse([5e8, 3e-4, 1e-6, 1e-7]), pulse([1e9, 2e-4, 3e-6, 1.5e-7]));
         let load = wall(|r, t| first(r, t) + second(r, t)).equivalent_load().expect("a load");
         near(load, [1e9, 2e-4, 3e-6, 1.5e-7], 1e-3);
+    }
+
+    /// A wall of a planar domain that reaches below r = 0.
+    fn strip(cells: u32, low: f64, pressure: impl Fn(f64, f64) -> f64) -> WallPressure {
+        let radii: Vec<f64> = (0..cells).map(|k| low + (f64::from(k) + 0.5) * 2e-3 / 120.0).collect();
+        let times: Vec<f64> = (0..401).map(|k| f64::from(k) * 1e-8).collect();
+        let values =
+            Array2::from_shape_fn((401, radii.len()), |(row, cell)| pressure(radii[cell], times[row]));
+        WallPressure { times, radii, values }
+    }
+
+    #[test]
+    fn a_peak_below_the_axis_of_a_planar_domain_has_a_width() {
+        let exact = pulse([1e9, 2e-4, 1.5e-6, 2e-7]);
+        // Half of the height ends in the cell whose centre is r = 0: the width there is none.
+        let torn = strip(121, -121e-3 / 120.0, |r, t| exact(r, t) * if r < -1e-9 { 1.0 } else { 0.4 });
+        let load = torn.equivalent_load().expect("a load");
+        assert!((load.radius / 2e-4 - 1.0).abs() < 0.05 && load.misfit < 0.5, "{load:?}");
+        // All of it is below r = 0.
+        let aside = strip(240, -2e-3, |r, t| exact(r + 1e-3, t));
+        let load = aside.equivalent_load().expect("a load");
+        assert!(load.radius > 0.0 && load.misfit < 1.0, "{load:?}");
     }
 
     #[test]
