@@ -207,6 +207,22 @@ fn a_run_is_running_while_somebody_holds_it_whatever_its_files_say() {
     assert!(listed(place, &[]).contains("interrupted 25 %"), "{}", listed(place, &[]));
 }
 
+#[test]
+fn wholes_of_planar_runs_are_per_metre_of_depth() {
+    let place = tempfile::tempdir().expect("a directory");
+    let place = place.path();
+    for run in ["round", "plane"] {
+        make(place, run, 0.01, "steel", json!({ "completed": true, "plastic_work": 2.5, "pit_depth": 1e-6 }));
+    }
+    let path = place.join("runs/plane/case.toml");
+    let text = fs::read_to_string(&path).expect("a case").replace("axisymmetric", "planar");
+    fs::write(&path, text).expect("a case");
+    let table = listed(place, &["--columns", "plastic_work,pit_depth"]);
+    let row = |run: &str| table.lines().find(|line| line.starts_with(run)).unwrap_or_default().to_owned();
+    assert!(row("plane").contains("2.50 J/m") && row("plane").contains("1.00 µm"), "{table}");
+    assert!(row("round").contains("2.50 J ") && !row("round").contains("J/m"), "{table}");
+}
+
 /// A table of an inflow is one value; nobody reads all of it in a cell.
 #[test]
 fn long_lists_are_cut_in_tables_and_whole_in_csv_and_json() {

@@ -55,9 +55,9 @@ def hits(
     - `threads`: of each run. `progress`: called with the number of the hit and its result.
 
     Returns a dataset over `hit` from 1 to n: pit_depth, pit_radius (m), pit_volume (m³; planar: m²), plastic_strain_peak,
-    plastic_work, work_on_solid (J, planar: J/m, of the hit), surface_still, directory. Variables carry `units` and `long_name`, the dataset version, revision,
-    case of the load, its hash and date. Raises `ValueError` for a run without a wall that yields, for one that has not reached its end,
-    and for an `out` that is the run's own directory.
+    plastic_work, work_on_solid (J, planar: J/m, of the hit), surface_still, directory. Variables carry `units` and `long_name`, the
+    dataset version, revision, case of the load, its hash and date. Raises `ValueError` for a run without a wall that yields, for one
+    that has not reached its end, and for an `out` that is the run's own directory.
     """
     n = _number_of_hits(n)
     longest = None if longest is None else positive("longest", longest, "s")
