@@ -55,20 +55,21 @@ pub fn run_in_processes(
     })
 }
 
-/// Goes on with the run in a directory; returns the directory.
+/// Goes on with the run in a directory, to a later end if one is given (s); returns the directory.
 ///
 /// - `program`, `processes`: as of [`convergence`].
 #[pyfunction]
-#[pyo3(signature = (directory, program, processes=false, threads=None, progress=false))]
+#[pyo3(signature = (directory, program, end=None, processes=false, threads=None, progress=false))]
 pub fn resume(
     py: Python<'_>,
     directory: PathBuf,
     program: Vec<OsString>,
+    end: Option<f64>,
     processes: bool,
     threads: Option<usize>,
     progress: bool,
 ) -> PyResult<PathBuf> {
-    let options = &Options { in_process: !processes, threads, program, quiet: !progress, ..options() };
+    let options = &Options { in_process: !processes, end, threads, program, quiet: !progress, ..options() };
     interruptible(py, |stop| {
         let mut guard = None;
         let on_directory = |path: &Path| guard = Some(Log::of(Some(path)).until_dropped());

@@ -73,6 +73,9 @@ def test_a_run_that_is_broken_off_goes_on_from_its_checkpoint(cav, small, comman
     assert_same_numbers(tmp_path / "run", commanded)
     steps = pycav.resume(tmp_path / "run").summary["steps"]
     assert steps == pycav.open(commanded).summary["steps"], "what is finished stays as it is"
+    assert pycav.resume(tmp_path / "run", end=7e-5).histories["time"].values[-1] == 7e-5
+    with pytest.raises(pycav.RunError, match="is no later"):
+        pycav.resume(tmp_path / "run", end=7e-5)
     (tmp_path / "none").mkdir()
     with pytest.raises(pycav.RunError, match=r"no case\.toml"):
         pycav.resume(tmp_path / "none")

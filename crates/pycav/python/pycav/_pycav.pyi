@@ -145,7 +145,12 @@ def new_shocked_bubble(
 def new_wall_load(amplitude: float, radius: float, duration: float, wall_name: str, cells_per_radius: float) -> Case: ...
 def materials() -> list[tuple[str, float, float, float, float | None]]: ...
 def resume(
-    directory: _Path, program: list[str], processes: bool = False, threads: int | None = None, progress: bool = False
+    directory: _Path,
+    program: list[str],
+    end: float | None = None,
+    processes: bool = False,
+    threads: int | None = None,
+    progress: bool = False,
 ) -> _Path: ...
 def run_in_processes(
     case: Case,

@@ -51,19 +51,22 @@ def run(
 
 
 def resume(
-    directory: str | os.PathLike[str], *, processes: bool = False, threads: int | None = None, progress: bool = False
+    directory: str | os.PathLike[str], *, end: float | None = None, processes: bool = False, threads: int | None = None,
+    progress: bool = False,
 ) -> Result:
     """Goes on with a run that was stopped or killed, from its newest checkpoint, and returns what it left.
 
     What `cav run --resume` does: the numbers are those of a run that nothing has happened to, bit for bit. Without a checkpoint yet it
-    begins again; one that is finished stays as it is.
+    begins again; one that is finished stays as it is, or goes on to a later end.
 
     - `directory`: of the run; its case is there.
+    - `end`: when it is to end, s, later than its case says; snapshots go on in their interval.
     - `processes`, `threads`, `progress`: as in `pycav.run`; they need not be those that the run began with.
 
-    Raises `pycav.RunError` if it is no run's directory, if its case was changed, or if no checkpoint can be used; else as `pycav.run`.
+    Raises `pycav.RunError` if it is no run's directory, if its case was changed, if no checkpoint can be used, or if it ends no earlier;
+    else as `pycav.run`.
     """
-    return Result(Path(_pycav.resume(os.fspath(directory), PROGRAM, processes, count("threads", threads), progress)))
+    return Result(Path(_pycav.resume(os.fspath(directory), PROGRAM, end, processes, count("threads", threads), progress)))
 
 
 def _directory(case: Case, out: str | os.PathLike[str] | None) -> str:
