@@ -230,6 +230,29 @@ def test_uncertainties_are_grid_convergence_indices():
     assert estimated([1.0, float("nan")], [1.0, 2.0]).kind == "unknown"
 
 
+@pytest.mark.parametrize("cells", [(80.0, 40.0, 20.0), (80.0, 40.0, 10.0), (30.0, 20.0, 10.0), (32.0, 24.0, 16.0)])
+def test_orders_are_those_of_any_ratios(cells):
+    """By the formula of equal ratios the index of the first order was a third of that with 80, 40, 10."""
+    h = 1 / np.array(cells)
+    for order in (0.5, 1.0, 1.5, 2.0):
+        for own in range(3):
+            places = np.roll(np.arange(3), -own)
+            found = estimated((1 + h**order)[places], np.array(cells)[places])
+            assert found == (pytest.approx(1.25 * h[own]**order), "monotone"), (order, own)
+    assert estimated(1 + h**0.3, cells).kind == "slow" and estimated(h**-0.3, cells).kind == "divergent"
+    assert estimated(1 + h**3, cells).uncertainty == pytest.approx(1.25 * (h[1]**3 - h[0]**3) / ((cells[0] / cells[1])**2 - 1))
+    step = np.log(h[1] / h[0]) / np.log(h[2] / h[1])
+    assert estimated([0.9 * step, 0.0, 1.0], cells).kind == "oscillatory"
+    assert estimated([1.1 * step, 0.0, 1.0], cells).kind == "oscillatory-divergent"
+
+
+def test_maps_on_the_same_cells_of_the_fluid_are_refused():
+    for cells in ([80.0, 80.0], [80.0, 80.0, 40.0], [80.0, 40.0, 40.0]):
+        with pytest.raises(ValueError, match="0 cells per radius and different values"):
+            estimated([1.0, 1.1, 1.2][:len(cells)], cells)
+    assert estimated([1.0, 1.0], [80.0, 80.0]).kind == "unknown"
+
+
 def on_grid(cells, depths, x):
     """A map of pits in the soft material, and of none in the hard one."""
     kinds, data = ("stand_off", "solid.material"), np.stack([np.array(depths), np.zeros(len(x))], 1)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray
+from scipy.optimize import brentq
 
 from ..mesh import Floats
 from .dataset import numeric, opened, values_along
@@ -35,11 +37,12 @@ def with_uncertainty(
     """A map with what its numbers are off by, from maps of some of its points on finer and coarser grids.
 
     At a point that the others have, too, the uncertainty is the grid-convergence index times the value, by the rules of `pycav.convergence`:
-    three grids give an order, two assume the second, with a safety factor of 3. Where three values have no order it is their
+    three grids give an order, whatever the ratios of their cells, two assume the second, with a safety factor of 3. Where three values have no order it is their
     spread, largest minus smallest, or half of it if they oscillate. In between, the *share* of the value is interpolated linearly over
     numeric parameters, and beyond them the nearest counts; for a text that the others lack, the largest of all.
 
-    - `data`: a dataset of `sweep`, or its file; `others`: sweeps over some of the same values, with other cells per radius.
+    - `data`: a dataset of `sweep`, or its file; `others`: sweeps over some of the same values, with other cells per radius
+      (a ValueError where they are the same and the numbers are not, as of grids that differ in the solid alone).
     - `quantities`: which numbers; those that the map lacks are passed over.
 
     Each gets `NAME_uncertainty`, in its unit, and `NAME_convergence`, flags as of CF. NaN where nothing is known: at failed points, and
@@ -123,30 +126,54 @@ def _spread_out(result: xarray.Dataset, common: dict[str, list[Any]], axes: Sequ
 def estimated(values: Sequence[float] | Floats, cells: Sequence[float] | Floats) -> Estimate:
     """The uncertainty of the first of some values, each with its cells per radius: the rules of docs/verification/convergence.md.
 
-    With f₃, f₂, f₁ on grids of ratio r: p = ln((f₃ − f₂)/(f₂ − f₁))/ln r, kept within 0.5 to 2, GCI = F |f₂ − f₁|/(r^p − 1), and on
-    a coarser grid r^p times as much (Roache, J. Fluids Eng. 116, 405, 1994).
+    With f₃, f₂, f₁ on cells h₃ > h₂ > h₁ the order solves (f₃ − f₂)/(f₂ − f₁) = (h₃^p − h₂^p)/(h₂^p − h₁^p), whatever the ratios
+    (Celik et al., J. Fluids Eng. 130, 078001, 2008); with equal ones r it is ln((f₃ − f₂)/(f₂ − f₁))/ln r. Kept within 0.5 to 2 it
+    gives GCI = F |f₂ − f₁|/(r^p − 1), r = h₂/h₁, and on cells h (h/h₁)^p times as much (Roache, J. Fluids Eng. 116, 405, 1994).
+    Differences become smaller if they shrink more than those of order 0, of ln h, would.
     """
     own = float(cells[0])
     rows = sorted({(float(cell), float(value)) for cell, value in zip(cells, values) if np.isfinite(value) and np.isfinite(cell)})
-    if not np.isfinite(values[0]) or len({cell for cell, _ in rows}) < 2:
+    twice = next((cell for (cell, _), (other, _) in itertools.pairwise(rows) if cell == other), None)
+    if twice is not None:
+        raise ValueError(f"two maps have {twice:g} cells per radius and different values: an uncertainty needs other cells of the fluid, "
+                         "too; give both fluid.levels and solid.levels")
+    if not np.isfinite(values[0]) or len(rows) < 2:
         return Estimate(float("nan"), "unknown")
-    (_, coarse), (cell_2, f2), (cell_1, f1) = ([(0.0, float("nan"))] + rows)[-3:]
+    (cell_3, coarse), (cell_2, f2), (cell_1, f1) = ([(float("nan"), float("nan"))] + rows)[-3:]
     fine = f1 - f2
     if len(rows) < 3:
         return Estimate(_of_order(abs(fine), cell_1 / cell_2, 2.0, SAFETY_OF_TWO, cell_1 / own), "two-grids")
-    before, ratio = f2 - coarse, cell_1 / cell_2
+    before = f2 - coarse
     small = ROUND_OFF * max(abs(f1), abs(f2), abs(coarse))
     if abs(fine) <= small:
         return Estimate(0.0 if own >= cell_2 else abs(before), "unchanged" if abs(before) <= small else "coincident")
+    ratio, ratio_before = cell_1 / cell_2, cell_2 / cell_3
     spread = max(f1, f2, coarse) - min(f1, f2, coarse)
-    if abs(fine) >= abs(before):
+    shrinks = abs(before / fine)
+    if shrinks <= _shrinks(0.0, ratio, ratio_before):
         return Estimate(spread, "divergent" if fine * before > 0 else "oscillatory-divergent")
     if fine * before < 0:
         return Estimate(0.5 * spread, "oscillatory")
-    observed = float(np.log(before / fine) / np.log(ratio))
-    order = min(max(observed, ORDERS[0]), ORDERS[1])
-    kind = "slow" if observed < ORDERS[0] else "monotone"
+    order = _order(shrinks, ratio, ratio_before)
+    kind = "slow" if shrinks < _shrinks(ORDERS[0] * (1.0 - ROUND_OFF**0.5), ratio, ratio_before) else "monotone"
     return Estimate(_of_order(abs(fine), ratio, order, SAFETY, cell_1 / own), kind)
+
+
+def _shrinks(order: float, ratio: float, ratio_before: float) -> float:
+    """(f₃ − f₂)/(f₂ − f₁) where the error goes like h^p; it grows with p."""
+    if order == 0.0:
+        return float(np.log(ratio_before) / np.log(ratio))
+    return float(ratio**order * (ratio_before**order - 1.0) / (ratio**order - 1.0))
+
+
+def _order(shrinks: float, ratio: float, ratio_before: float) -> float:
+    """The order of which differences shrink so much, within `ORDERS`."""
+    low, high = ORDERS
+    if shrinks <= _shrinks(low, ratio, ratio_before):
+        return low
+    if shrinks >= _shrinks(high, ratio, ratio_before):
+        return high
+    return float(brentq(lambda order: _shrinks(order, ratio, ratio_before) - shrinks, low, high))
 
 
 def _of_order(difference: float, ratio: float, order: float, safety: float, coarser: float) -> float:
