@@ -52,8 +52,10 @@ def streamlines(
         if still.all() or not np.nanmax(fast) > 0:
             continue
         # As close to each other in every medium, however much of the window it has.
-        span = np.array([coarse.high[0] - coarse.low[0], coarse.high[1]]) / (section.box[1] - section.box[0])
-        lines = _trace(coarse, np.where(still, np.nan, v_z), np.where(still, np.nan, v_r), 2.6 * density * span)
+        span = (coarse.high - coarse.low) / (section.box[1] - section.box[0])
+        # Not those that creep along the axis, which would meet their mirror images.
+        off = max(1, len(coarse.r) // 40) if section.mirrored else 0
+        lines = _trace(coarse.z, coarse.r[off:], *(np.where(still, np.nan, v)[off:] for v in (v_z, v_r)), 2.6 * density * span)
         _draw(axes, lines, section, color=INK, linewidths=0.55)
     section.annotate(axes, "Streamlines", levels)
     return figure
@@ -65,15 +67,12 @@ def velocity_image(raster: Raster, snapshot: Snapshot, axis: int) -> Floats:
     return raster.paint(values, snapshot.mesh.linear(values, (1, -1)[axis], bounded=False))
 
 
-def _trace(raster: Raster, v_z: Floats, v_r: Floats, density: Floats) -> list[Floats]:
-    """Evenly spaced streamlines in r > 0; `density` along z and r."""
+def _trace(z: Floats, r: Floats, v_z: Floats, v_r: Floats, density: Floats) -> list[Floats]:
+    """Evenly spaced streamlines of a velocity at z and r; `density` along both."""
     axes = Figure().add_subplot()
-    # Not those that creep along the axis, which would meet their mirror images.
-    off = max(1, len(raster.r) // 40)
-    z, r = raster.z, raster.r[off:]
     axes.set(xlim=(z[0], z[-1]), ylim=(r[0], r[-1]))
     across, along = (float(part) for part in density)
-    lines = axes.streamplot(z, r, v_z[off:], v_r[off:], density=(across, along), minlength=0.2, maxlength=8).lines
+    lines = axes.streamplot(z, r, v_z, v_r, density=(across, along), minlength=0.2, maxlength=8).lines
     joined: list[list[Any]] = []
     for segment in lines.get_segments():
         if joined and np.allclose(joined[-1][-1], segment[0], rtol=0, atol=1e-9 * (z[-1] - z[0])):
@@ -175,7 +174,8 @@ def advect(series: Snapshots, start: Floats, until: float, substeps: int) -> Flo
             first = carried(at, part / substeps)
             second = carried(at + dt * first, (part + 1) / substeps)
             at = at + 0.5 * dt * (first + second)
-            at[:, 1] = np.abs(at[:, 1])
+            if other.mesh.mirrored:
+                at[:, 1] = np.abs(at[:, 1])
         track.append(at.copy())
     return np.stack(track, 1)
 

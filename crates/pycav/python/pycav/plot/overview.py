@@ -49,13 +49,11 @@ def overview(
             _schlieren(section, figure, axes, snapshot, raster, top.get(medium))
         else:
             _stress(section, figure, axes, snapshot, raster, top.get(medium))
-            words += f"    {_largest(snapshot)}"
+            words += f"    {_largest(snapshot, section.mirrored)}"
         _frame(section, axes, medium)
     last = list(panels.values())[-1]
-    scale, letter = section.length_scale
-    last.set_xlabel(f"$r$ / {letter}m")
-    # |r|, since both halves are the same.
-    last.xaxis.set_major_formatter(FuncFormatter(lambda r, _: number(abs(r) * scale)))
+    last.set_xlabel(f"$r$ / {section.length_scale[1]}m")
+    last.xaxis.set_major_formatter(FuncFormatter(lambda r, _: section.r_shown(r)))
     if len(panels) == 2:
         upper, lower = panels["fluid"], panels["solid"]
         upper.tick_params(labelbottom=False, bottom=False)
@@ -75,6 +73,8 @@ def _boxes(section: Section, reach: float | None, depth: float | None) -> dict[s
     meshes = {medium: section.snapshots[medium].mesh for medium in media}
     widest = max(float(mesh.high[1]) for mesh in meshes.values())
     near = widest if reach is None else min(reach, widest)
+    left = min(float(mesh.low[1]) for mesh in meshes.values())
+    left = left if reach is None else max(left, -reach)
     found: dict[str, Box] = {}
     for medium, mesh in meshes.items():
         low, high = float(mesh.low[0]), float(mesh.high[0])
@@ -83,7 +83,7 @@ def _boxes(section: Section, reach: float | None, depth: float | None) -> dict[s
             high = min(high, low + 1.2 * near)
         elif medium == "solid" and (reach is not None or depth is not None):
             low = max(low, high - (near if depth is None else depth))
-        found[medium] = (low, high, float(mesh.low[1]), near)
+        found[medium] = (low, high, left, near)
     return found
 
 
@@ -127,10 +127,10 @@ def _stress(section: Section, figure: Figure, axes: Axes, snapshot: Snapshot, ra
     _bar(figure, axes, drawn, "von Mises stress / MPa", "neither" if top is None else "max")
 
 
-def _largest(snapshot: Snapshot) -> str:
+def _largest(snapshot: Snapshot, mirrored: bool) -> str:
     stress, mesh = snapshot["von_mises"], snapshot.mesh
     z, r = mesh.centre(np.array([stress.argmax()]))[0]
-    aside = f", {_rounded(r)} off axis" if r > mesh.finest[1] else ""
+    aside = f", at r = {_rounded(r)}" if not mirrored else f", {_rounded(r)} off axis" if r > mesh.finest[1] else ""
     return f"max. von Mises stress {si(float(f'{stress.max():.3g}'), 'Pa')}, {_rounded(mesh.high[0] - z)} below the wall{aside}"
 
 

@@ -46,7 +46,7 @@ class Section:
     time: float
     snapshots: dict[str, Snapshot]
     box: Box
-    """z from, z to, 0, r to, m"""
+    """z from, z to, r from, r to, m"""
     wall: float | None
     """z of the interface, m"""
     mirrored: bool
@@ -71,7 +71,11 @@ class Section:
 
     @property
     def length_scale(self) -> tuple[float, str]:
-        return prefix(max(abs(self.box[0]), abs(self.box[1]), self.box[3]))
+        return prefix(max(map(abs, self.box)))
+
+    def r_shown(self, r: float) -> str:
+        """What an axis says at r in m, in the unit of `length_scale`: |r| where both halves are the same."""
+        return number((abs(r) if self.mirrored else r) * self.length_scale[0])
 
     @property
     def time_shown(self) -> str:
@@ -117,8 +121,7 @@ class Section:
                 (left + column * (width + gap)) / size[0], up / size[1], width / size[0], height / size[1]))
             axes.set(xlim=(low, high), ylim=(bottom, top), aspect="equal")
             axes.xaxis.set_major_formatter(FuncFormatter(lambda z, _: number(z * scale)))
-            # Both halves are the same.
-            axes.yaxis.set_major_formatter(FuncFormatter(lambda r, _: number(abs(r) * scale)))
+            axes.yaxis.set_major_formatter(FuncFormatter(lambda r, _: self.r_shown(r)))
             axes.tick_params(labelleft=column == 0, labelbottom=row == rows - 1)
             if row == rows - 1:
                 axes.set_xlabel(f"$z$ / {letter}m", labelpad=1)

@@ -196,7 +196,7 @@ class Viewer {
       this.pointed = Boolean(medium);
       if (!medium) { this.readout.textContent = this.rest; return; }
       const field = medium.field, value = await field.at(this.step, z, this.mirrored ? Math.abs(r) : r), {factor, unit} = this.length;
-      const place = `r = ${number(Math.abs(r) * factor, 3)} ${unit}, z = ${number(z * factor, 3)} ${unit}`;
+      const place = `r = ${number((this.mirrored ? Math.abs(r) : r) * factor, 3)} ${unit}, z = ${number(z * factor, 3)} ${unit}`;
       if (this.pointed) this.readout.textContent = `${place}: ${field.label} ${Number.isNaN(value) ? "" : "≈ " + number(value, 3) + " " + field.unit}`;
     };
     this.stage.addEventListener("pointermove", read);
