@@ -157,3 +157,33 @@ def test_processes_end_with_what_has_started_them(tmp_path):
     while worker.is_dir() and time.monotonic() < until:
         time.sleep(0.05)
     assert not worker.is_dir()
+
+
+def bubble(**radii):
+    """A case with a bubble by what is in it, 1 mm above a wall at z = 0.5 mm, and a drop besides."""
+    return pycav.Case.from_dict({
+        "time": {"end": 1e-6}, "coupling": {"scheme": "rigid"},
+        "fluid": {"z": [5e-4, 9e-3], "r": [0.0, 8e-3], "cells": [4, 4], "levels": 2, "liquid": {"fluid": "water-tait"}, "gas": {"fluid": "air"},
+                  "ambient": {"density": 998.0, "pressure": 1e5},
+                  "region": [{"shape": "box", "z": [7e-3, 8e-3], "r": [0.0, 1e-3], "phase": "liquid", "density": 998.0, "pressure": 1e5}],
+                  "bubble": {"centre": [2e-3, 0.0], **radii}}})
+
+
+@pytest.mark.parametrize("radius", ["radius_max", "radius"])
+def test_a_described_bubble_is_moved_by_its_largest_radius(radius):
+    case = bubble(**{radius: 1e-3, "equilibrium_radius": 5e-4})
+    moved = _toml.parse(at_point(case, {"stand_off": 1.5}).to_toml())["fluid"]
+    spheres = [region for region in moved["region"] if region["shape"] == "sphere"]
+    assert [sphere["centre"] for sphere in spheres] == [[pytest.approx(2e-3), 0.0]]
+    moved = _toml.parse(at_point(case, {"stand_off": 3.0, f"fluid.bubble.{radius}": 2e-3}).to_toml())["fluid"]
+    assert [region["centre"] for region in moved["region"] if region["shape"] == "sphere"] == [[pytest.approx(6.5e-3), 0.0]]
+
+
+def test_the_largest_radius_of_a_bubble_that_grows_is_not_known(tmp_path):
+    laser = pycav.laser_bubble(stand_off=1.5)
+    for case, key in ((laser, "fluid.bubble.centre"), (pycav.Case.from_toml(laser.to_toml()), "fluid.region.0.centre")):
+        with pytest.raises(ValueError, match=f"stand_off is of the largest radius.*sweep over '{key}' instead"):
+            pycav.sweep(case, {"stand_off": [1.5, 2.0]}, tmp_path, progress=False)
+        assert at_point(case, {key: [9e-4, 0.0]}) != case
+    with pytest.raises(ValueError, match="stand_off needs a bubble"):
+        at_point(pycav.wall_load(), {"stand_off": 1.5})

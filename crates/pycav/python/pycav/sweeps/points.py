@@ -74,7 +74,7 @@ def _refuse_misspelt(name: Any) -> None:
     if not isinstance(name, str):
         raise TypeError(f"{name!r} is a {type(name).__name__}: parameters are named by the keys of a case, as texts, or {STAND_OFF!r}")
     if name != STAND_OFF and difflib.get_close_matches(name.rpartition(".")[2].lower(), [STAND_OFF], 1, 0.8):
-        raise ValueError(f"{name!r} is no key of a case: did you mean {STAND_OFF!r}, the distance of the first region's centre from the "
+        raise ValueError(f"{name!r} is no key of a case: did you mean {STAND_OFF!r}, the distance of the first bubble's centre from the "
                          "wall over its radius?")
 
 
@@ -121,11 +121,29 @@ def at_point(case: Case, point: Mapping[str, Any], change: Change | None = None)
     changed = case.with_(changes) if changes else case
     if STAND_OFF not in point:
         return changed
-    effective = _toml.parse(changed.to_toml())
-    region, wall = effective["fluid"]["region"][0], effective["fluid"]["z"][0]
-    if "radius" not in region:
-        raise ValueError("stand_off needs a sphere as the case's first region")
-    return changed.with_({"fluid.region.0.centre": [wall + float(point[STAND_OFF]) * region["radius"], region["centre"][1]]})
+    return changed.with_(_placed(changed, float(point[STAND_OFF])))
+
+
+def _placed(case: Case, stand_off: float) -> dict[str, Any]:
+    """What puts the first bubble so many of its radii off the wall."""
+    fluid = _toml.parse(case.to_toml()).get("fluid", {})
+    bubble, is_described = fluid.get("bubble"), _is_described(case)
+    number = bubble["region"] if is_described else 0
+    key = "fluid.bubble.centre" if is_described else "fluid.region.0.centre"
+    regions = fluid.get("region", [])
+    if not regions or "radius" not in regions[number]:
+        raise ValueError("stand_off needs a bubble: a sphere as the case's first region, or [fluid.bubble]")
+    region = regions[number]
+    if bubble is not None and bubble["region"] == number and region["pressure"] > fluid["ambient"]["pressure"]:
+        raise ValueError("stand_off is of the largest radius, and the bubble of [fluid.bubble] grows, how far is not in the case: sweep over "
+                         f"{key!r} instead, with places [z, 0.0] in m; pycav.laser_bubble(stand_off=...) knows them")
+    return {key: [fluid["z"][0] + stand_off * region["radius"], region["centre"][1]]}
+
+
+def _is_described(case: Case) -> bool:
+    """Whether `[fluid.bubble]` makes the bubble; else regions that stand in the case do."""
+    told = _toml.parse(case._native.text).get("fluid", {}).get("bubble", {})
+    return "centre" in told or any(change.startswith("fluid.bubble") and "centre" in change for change in case._changes)
 
 
 def in_words(point: Mapping[str, Any]) -> str:

@@ -47,8 +47,9 @@ def sweep(
 ) -> xarray.Dataset:
     """Runs a case at every combination of parameters and returns what was measured, over the parameters.
 
-    - `parameters`: values by key, the keys of `Case.with_`; besides `stand_off`, the distance of the first region's centre
-      from the wall over its radius, which moves the region along z.
+    - `parameters`: values by key, the keys of `Case.with_`; besides `stand_off`, the distance of the centre of the first region,
+      or of the bubble of `[fluid.bubble]`, from the wall over its radius, which moves it along z. That is the largest radius: a bubble
+      of `[fluid.bubble]` that grows first is refused, as its case does not have it.
     - `out`: a directory; every point has a run directory of its own in it. A point that is complete there is not run again,
       and one that has a checkpoint goes on from it, so a sweep that was stopped goes on where it was.
     - `executor`: `"threads"`, `"processes"` or `"dask"` on this machine, a Dask client or cluster, or whatever implements
