@@ -56,6 +56,11 @@ def test_particles_stay_on_their_side(plane):
     assert track[0, -1, 1] > -0.035 and track[1, -1, 1] < -0.005, "towards the gas"
 
 
+def test_a_plane_is_not_turned_about_an_axis(plane):
+    with pytest.raises(ValueError, match="the run is planar: it has no axis"):
+        pycav.plot.volume(plane)
+
+
 def test_streamlines_fill_the_plane_evenly(plane):
     """The number of lines was that of a plane up to r_max, and r_min had none."""
     figure = pycav.plot.streamlines(plane)

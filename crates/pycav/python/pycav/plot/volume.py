@@ -17,13 +17,15 @@ def volume(run: Run, time: float | None = None, *, angle: float = 270.0, cells: 
     """The axisymmetric run turned about its axis, for PyVista: `{"bubble": surface of φ = ½, "solid": cut block}`.
 
     The solid carries `von_mises` in Pa. Needs pyvista; show it with
-    `plotter.add_mesh(parts["solid"], scalars="von_mises")`.
+    `plotter.add_mesh(parts["solid"], scalars="von_mises")`. A planar run is refused by a ValueError.
 
     - `angle`: how far the solid is turned, degrees; `cells`: along each side of the section that is turned.
     """
     import pyvista
 
     result = open_run(run)
+    if result.parameters.get("geometry") == "planar":
+        raise ValueError("the run is planar: it has no axis to be turned about; pycav.plot.overview shows its plane")
     wanted = default_time(result) if time is None else time
     parts: dict[str, pyvista.DataSet] = {}
     for medium, name in (("fluid", "gas_fraction"), ("solid", "von_mises")):
