@@ -148,6 +148,7 @@ def test_the_script_for_paraview_names_files_and_scales_of_the_run(vtu, result, 
         assert name.endswith(f"{medium}.{'pvd' if vtu else 'vtkhdf'}") and (tmp_path / name).is_file()
     assert told["von_mises"] == max(snapshot["von_mises"].max() for snapshot in result.solid)
     assert told["time"] in result.solid.times and told["mirrored"] is True
+    assert told["clock"] == {"scale": pytest.approx(1e6), "unit": "us", "decimals": 2}
     weakest, steepest = told["schlieren"]
     snapshot = result.fluid.at(told["time"])
     area = snapshot.mesh.width().prod(1)

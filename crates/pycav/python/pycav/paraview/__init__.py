@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from .._numbers import prefix
+from ..mesh import Floats
 from ..result import Result, Snapshot, open_run
 
 TEMPLATE = Path(__file__).with_name("state.py")
@@ -43,8 +45,9 @@ def paraview_state(
 
 
 def _scales(result: Result) -> Mapping[str, object]:
-    """The time to begin with, and ends of the colour scales: of the stress over all snapshots, of the schlieren then."""
-    found: dict[str, object] = {"time": float(result.snapshots(result.media[0]).times[-1]), "mirrored": _mirrored(result)}
+    """The time to begin with, the clock's unit, and ends of the colour scales: of the stress over all snapshots, of the schlieren then."""
+    times = result.snapshots(result.media[0]).times
+    found: dict[str, object] = {"time": float(times[-1]), "mirrored": _mirrored(result), "clock": _clock(times)}
     if "solid" in result.media:
         largest = [float(snapshot["von_mises"].max()) for snapshot in result.solid if "von_mises" in snapshot]
         if largest:
@@ -55,6 +58,14 @@ def _scales(result: Result) -> Mapping[str, object]:
             steepest = max(_steepest(snapshot), 1e-12)
             found["schlieren"] = [steepest * 10.0**-DECADES, steepest]
     return found
+
+
+def _clock(times: Floats) -> dict[str, object]:
+    """The unit of the times, with as many decimals, two at least, as tell two snapshots apart."""
+    scale, letter = prefix(float(times[-1]))
+    apart = scale * float(np.diff(times).min(initial=np.inf))
+    decimals = int(np.ceil(-np.log10(apart))) if 0 < apart < np.inf else 0
+    return {"scale": scale, "unit": letter.replace("µ", "u") + "s", "decimals": min(max(decimals, 2), 9)}
 
 
 def _steepest(snapshot: Snapshot) -> float:

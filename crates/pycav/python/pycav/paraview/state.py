@@ -93,11 +93,12 @@ def draw():
     if "solid" in sources and "von_mises" in RUN:
         coloured(whole(sources["solid"]), view, "von_mises", 0.0, RUN["von_mises"], "Inferno (matplotlib)", False)
     clock = AnnotateTimeFilter(Input=next(iter(sources.values())))
-    clock.Scale = 1e6
+    clock.Scale = RUN["clock"]["scale"]
+    digits, unit = f".{RUN['clock']['decimals']}f", RUN["clock"]["unit"]
     if hasattr(clock, "Format") and "%" in str(clock.Format):
-        clock.Format = "t = %.2f us"
+        clock.Format = f"t = %{digits} {unit}"
     else:
-        clock.Format = "t = {time:.2f} us"
+        clock.Format = f"t = {{time:{digits}}} {unit}"
     label = Show(clock, view)
     label.Color, label.FontSize = INK, 16
     # z upwards, r to the right: seen from below the plane of the section.

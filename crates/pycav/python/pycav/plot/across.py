@@ -15,7 +15,7 @@ from ..mesh import Floats
 from ..result import Snapshot
 from .section import Run, Section, Window, bar
 from .._numbers import number, prefix
-from .style import BLUE, INK, ORANGE, legend, signed_powers, styled
+from .style import BLUE, INK, ORANGE, legend, nearly_largest, signed_powers, styled
 
 MEGA = 1e-6
 
@@ -49,12 +49,13 @@ def interface_continuity(
 
 def _velocity(figure: Figure, section: Section, axes: Axes, reach: float) -> None:
     images = section.images({medium: snapshot["velocity"][:, 0] for medium, snapshot in section.snapshots.items()})
-    top = max(1.0, *(float(np.nanpercentile(np.abs(image), 99.95)) for _, image in images))
+    top = max(nearly_largest(image, 99.95) for _, image in images)
     # From a hundredth of a metre per second in the solid to hundreds in the jet: linear only about 0.
-    norm = SymLogNorm(0.05, linscale=0.4, vmin=-top, vmax=top, base=10)
+    linear = top / 5000
+    norm = SymLogNorm(linear, linscale=0.4, vmin=-top, vmax=top, base=10)
     drawn = [section.show(axes, raster, image, cmap="RdBu_r", norm=norm) for raster, image in images]
     label = "$v_z$ / (m s$^{-1}$)"
-    bar(figure, axes, drawn[-1], label, extend="both", up=2.2, ticks=signed_powers(top, (-1, 1, 3)))
+    bar(figure, axes, drawn[-1], label, extend="both", up=2.2, ticks=signed_powers(linear, top, every=2))
     section.bubble(axes)
     section.names(axes, "Normal velocity")
     _below(figure, section, axes, {"solid": ("velocity", 1.0), "fluid": ("velocity", 1.0)}, label, reach)

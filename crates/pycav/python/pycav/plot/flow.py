@@ -33,7 +33,7 @@ def streamlines(
     fluid, solid = section.snapshots.get("fluid"), section.snapshots.get("solid")
     if fluid is not None and (raster := section.raster("fluid")):
         image = raster.paint(fluid["density"])
-        top = 1.1 * float(np.nanpercentile(section.result.fluid[0]["density"], 99))
+        top = 1.1 * section.usual_density
         drawn = section.show(axes, raster, image, cmap=part_of("GnBu", 0.0, 0.75), norm=Normalize(0, top))
         denser = "max" if np.nanmax(image) > top else "neither"
         bar(figure, axes, drawn, r"density $\rho$ / (kg m$^{-3}$)", parts["fluid"], denser)

@@ -78,6 +78,11 @@ class Section:
         return number((abs(r) if self.mirrored else r) * self.length_scale[0])
 
     @property
+    def usual_density(self) -> float:
+        """What nearly all cells stay below at the start: the liquid's density, kg/m³."""
+        return float(np.nanpercentile(self.result.fluid[0]["density"], 99))
+
+    @property
     def time_shown(self) -> str:
         return si(self.time, "s")
 

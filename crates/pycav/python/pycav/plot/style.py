@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
@@ -13,6 +13,7 @@ from matplotlib.axis import Axis
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.ticker import FuncFormatter
 
+from ..mesh import Floats
 from .._numbers import number, prefix
 
 # The palette of Okabe and Ito, which the colour-blind can tell apart.
@@ -59,15 +60,25 @@ def part_of(name: str, low: float, high: float) -> LinearSegmentedColormap:
     return LinearSegmentedColormap.from_list(f"{name} {low}-{high}", colours, 256)
 
 
+STILL = 1e-12
+"""Where scales end at least: values may all be 0 before anything has happened."""
+
+
+def nearly_largest(image: Floats, share: float = 99.9) -> float:
+    """What the absolute values of nearly all pixels, `share` per cent, stay below."""
+    return max(float(np.nanpercentile(np.abs(image), share)), STILL)
+
+
 def logarithmic(top: float, decades: float) -> LogNorm:
-    """A scale of some decades below a value, which may be 0 before anything has happened."""
-    top = max(top, 1e-12)
+    """A scale of some decades below a value."""
+    top = max(top, STILL)
     return LogNorm(top / 10**decades, top, clip=True)
 
 
-def signed_powers(top: float, powers: Sequence[int]) -> list[float]:
-    """Ticks of a scale that is logarithmic on both sides of 0: ±10^k below a value, and 0."""
-    return sorted([sign * 10.0**k for sign in (-1, 1) for k in powers if 10.0**k < top] + [0.0])
+def signed_powers(least: float, top: float, every: int = 1) -> list[float]:
+    """Ticks of a scale that is logarithmic on both sides of 0: ±10^k between two values, and 0; of every second power the odd ones."""
+    powers = [k for k in range(int(np.floor(np.log10(least))), int(np.ceil(np.log10(top)))) if least < 10.0**k < top and k % every == every - 1]
+    return sorted([sign * 10.0**k for sign in (-1, 1) for k in powers] + [0.0])
 
 
 def legend(axes: Axes, **options: Any) -> None:
