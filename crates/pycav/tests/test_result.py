@@ -140,16 +140,39 @@ def test_rayleighs_collapse(result):
     assert np.allclose(-speed, exact, rtol=1e-3)
 
 
-@pytest.mark.parametrize(("stiffness", "taken"), [(0.0, 0.0), (0.0, 0.05), (3e3, 0.02)])
-def test_keller_and_miksis_become_rayleigh_and_plesset(stiffness, taken):
-    """In a liquid of very fast sound the energy of the incompressible bubble is kept."""
-    bubble = Bubble(1e-3, 1e4, 1.4, 1e5, 1000.0, 1e9, True, stiffness, taken)
+@pytest.mark.parametrize(("stiffness", "taken", "tension"), [(0.0, 0.0, 0.0), (0.0, 0.05, 0.0), (3e3, 0.02, 0.0), (0.0, 0.0, 5.0)])
+def test_keller_and_miksis_become_rayleigh_and_plesset(stiffness, taken, tension):
+    """In a liquid of very fast sound the energy of the incompressible bubble and of its surface is kept."""
+    bubble = Bubble(1e-3, 1e4, 1.4, 1e5, 1000.0, 1e9, True, stiffness, taken, tension)
     time, radius = bubble.keller_miksis(1.5 * bubble.collapse_time)
     volume = (radius.min() / 1e-3) ** 3
     # At the smallest radius the liquid's work has all gone into the gas, along (p + π)(V − m b)^γ = const.
-    work = 1e5 * (1 - volume)
+    work = 1e5 * (1 - volume) + 3 * tension / 1e-3 * (1 - volume ** (2 / 3))
     gas = (1e4 + stiffness) * (1 - taken) / 0.4 * (((volume - taken) / (1 - taken)) ** -0.4 - 1) - stiffness * (1 - volume)
     assert volume > taken and gas == pytest.approx(work, rel=1e-3)
+
+
+def test_keller_and_miksis_have_the_cases_tension_and_viscosity():
+    terms = {"surface_tension": 0.0728, "viscosity": {"liquid": 1e-2, "gas": 0.0}}
+    case = pycav.collapse().with_({"fluid.terms": terms})
+    bubble = Bubble.of(SimpleNamespace(parameters=_toml.parse(case.to_toml())))
+    assert (bubble.surface_tension, bubble.viscosity) == (0.0728, 1e-2)
+    # Small oscillations about the equilibrium decay by exp(-2 μ t/(ρ R²)), in fast sound.
+    bubble = Bubble(1e-4, 1.01 * (1e5 + 2 * 0.0728 / 1e-4), 1.4, 1e5, 1000.0, 1e9, True, surface_tension=0.0728, viscosity=0.02)
+    time, radius = bubble.keller_miksis(2e-4, 20_000)
+    tops = [k for k in range(1, len(time) - 1) if radius[k - 1] < radius[k] > radius[k + 1]]
+    rest = 1e-4 * (1 + 0.01 / (3 * 1.4 - 2 * 0.0728 / 1e-4 / 1.0146e5))
+    swing = radius[tops] - rest
+    assert len(tops) > 3 and np.log(swing[0] / swing[2]) == pytest.approx(2 * 0.02 / (1000 * 1e-8) * (time[tops[2]] - time[tops[0]]), rel=0.03)
+
+
+@pytest.mark.parametrize("viscosity", [0.0, 1.0])
+def test_the_wall_starts_with_the_jump_of_its_pressure(viscosity):
+    """ρ c Ṙ = p - p∞ with the liquid's pressure on the wall, p = p_gas - 2σ/R - 4μ Ṙ/R."""
+    bubble = Bubble(1e-5, 1e4, 1.4, 1e6, 1000.0, 1500.0, False, surface_tension=0.5, viscosity=viscosity)
+    time, radius = bubble.keller_miksis(1e-11, 3)
+    speed = (radius[1] - radius[0]) / time[1]
+    assert 1000.0 * 1500.0 * speed == pytest.approx(1e4 - 2 * 0.5 / 1e-5 - 4 * viscosity * speed / 1e-5 - 1e6, rel=1e-3)
 
 
 def test_sound_and_gas_have_their_covolumes():

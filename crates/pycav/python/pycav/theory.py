@@ -44,6 +44,10 @@ class Bubble:
     """π of the gas"""
     covolume_share: float = 0.0
     """b ρ of the gas at the start: the share of the bubble that its molecules themselves take"""
+    surface_tension: float = 0.0
+    """N/m"""
+    viscosity: float = 0.0
+    """Of the liquid, Pa s"""
 
     @classmethod
     def of(cls, result: Result) -> Bubble | None:
@@ -55,12 +59,13 @@ class Bubble:
                    if region["shape"] == "sphere" and region["phase"] == "gas"]
         if case.get("geometry") == "planar" or not spheres or ambient.get("phase") == "gas":
             return None
-        liquid, gas, bubble = fluid["liquid"], fluid["gas"], spheres[0]
+        liquid, gas, bubble, terms = fluid["liquid"], fluid["gas"], spheres[0], fluid.get("terms", {})
         density = ambient["density"]
         free = 1.0 - liquid.get("covolume", 0.0) * density
         c = np.sqrt(liquid["gamma"] * (ambient["pressure"] + liquid["pi"]) / (density * free))
         return cls(bubble["radius"], bubble["pressure"], gas["gamma"], ambient["pressure"], density, float(c),
-                   fluid.get("initial_pressure") == "rayleigh", gas.get("pi", 0.0), gas.get("covolume", 0.0) * bubble["density"])
+                   fluid.get("initial_pressure") == "rayleigh", gas.get("pi", 0.0), gas.get("covolume", 0.0) * bubble["density"],
+                   terms.get("surface_tension", 0.0), terms.get("viscosity", {}).get("liquid", 0.0))
 
     @property
     def collapse_time(self) -> float:
@@ -76,29 +81,31 @@ class Bubble:
         return self.collapse_time * (1.0 - betainc(5 / 6, 1 / 2, x**3)), self.radius * x
 
     def keller_miksis(self, end: float, points: int = 2000) -> tuple[Floats, Floats]:
-        """Times in s and radii in m up to `end` by the equation of Keller and Miksis (1980).
+        """Times in s and radii in m up to `end` by the equation of Keller and Miksis (1980), with surface tension and viscosity.
 
-        The gas goes along its isentrope, (p + π)(V − m b)^γ = const; for an ideal one p R^(3γ) = const.
+        The gas goes along its isentrope, (p + π)(V − m b)^γ = const; for an ideal one p R^(3γ) = const. The liquid's pressure on the
+        bubble's wall is p = p_gas − 2σ/R − 4μ Ṙ/R.
 
-        Where the liquid begins at a uniform pressure, the pressure on the bubble's wall falls to the gas's at once; the
-        term R ṗ/(ρc) of the equation then starts the wall with (p_gas − p∞)/(ρc).
+        Where the liquid begins at a uniform pressure, that on the bubble's wall changes at once; the
+        term R ṗ/(ρc) of the equation then starts the wall with Ṙ = (p − p∞)/(ρc).
         """
         rho, c, p_inf, taken, stiff = self.density, self.sound_speed, self.pressure, self.covolume_share, self.gas_stiffness
-        start = 0.0 if self.begins_at_rest else (self.gas_pressure - p_inf) / (rho * c)
+        twice, friction = 2 * self.surface_tension, 4 * self.viscosity
+        start = (self.gas_pressure - twice / self.radius - p_inf) / (rho * c + friction / self.radius)
 
         def rate(_: float, y: Floats) -> list[float]:
             # By the logarithm of R/R₀, which no step makes negative.
             radius, speed = self.radius * np.exp(y[0]), y[1]
             volume = np.exp(3 * y[0])  # over the first one
             stiffened = (self.gas_pressure + stiff) * ((volume - taken) / (1 - taken)) ** -self.gas_exponent
-            p = stiffened - stiff
+            p = stiffened - stiff - (twice + friction * speed) / radius
             mach = speed / c
-            # Of the gas's pressure in time.
-            change = -3 * self.gas_exponent * stiffened * volume / (volume - taken) * speed / radius
+            # Of that pressure in time, but for −4μ R̈/R, which is on the left.
+            change = (-3 * self.gas_exponent * stiffened * volume / (volume - taken) + (twice + friction * speed) / radius) * speed / radius
             pull = (1 + mach) * (p - p_inf) / rho + radius * change / (rho * c) - 1.5 * (1 - mach / 3) * speed**2
-            return [speed / radius, pull / ((1 - mach) * radius)]
+            return [speed / radius, pull / ((1 - mach) * radius + friction / (rho * c))]
 
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # trial steps beyond the collapse, which are refused
-            found = solve_ivp(rate, (0.0, end), [0.0, start], "DOP853", np.linspace(0, end, points), rtol=1e-9,
+            found = solve_ivp(rate, (0.0, end), [0.0, 0.0 if self.begins_at_rest else start], "DOP853", np.linspace(0, end, points), rtol=1e-9,
                               atol=[1e-9, 1e-9 * c])
         return np.asarray(found.t), np.asarray(self.radius * np.exp(found.y[0]))

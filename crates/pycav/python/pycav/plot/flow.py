@@ -55,7 +55,8 @@ def streamlines(
         span = (coarse.high - coarse.low) / (section.box[1] - section.box[0])
         # Not those that creep along the axis, which would meet their mirror images.
         off = max(1, len(coarse.r) // 40) if section.mirrored else 0
-        lines = _trace(coarse.z, coarse.r[off:], *(np.where(still, np.nan, v)[off:] for v in (v_z, v_r)), 2.6 * density * span)
+        v_z, v_r = (np.where(still, np.nan, v)[off:] for v in (v_z, v_r))
+        lines = _trace(coarse.z, coarse.r[off:], v_z, v_r, 2.6 * density * span)
         _draw(axes, lines, section, color=INK, linewidths=0.55)
     section.annotate(axes, "Streamlines", levels)
     return figure

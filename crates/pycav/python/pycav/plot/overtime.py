@@ -27,7 +27,7 @@ def histories(
     """The bubble's radius, the jet, the pressure on the wall and the largest von Mises stress over time; what the run has of them.
 
     - `theory`: Rayleigh's and Keller and Miksis's curves beside the radius. They are of the same bubble without a wall, which
-      holds a collapse up.
+      holds a collapse up; Keller and Miksis's with the case's surface tension and viscosity of the liquid.
     - `yield_strength`: lines at these stresses in Pa.
     - `probes`: names of probes that are drawn, too: their von Mises stress in the solid, their pressure in the fluid.
     - `place`: where the largest von Mises stress is, below the wall and off the axis, in a panel of its own.
