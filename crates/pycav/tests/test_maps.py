@@ -47,6 +47,15 @@ def test_the_default_numbers_have_the_disc_and_the_resolution(line):
     assert data["fluid.ambient.pressure"].attrs["units"] == "Pa" and (data["status"] == 0).all()
 
 
+def test_a_map_is_from_where_its_runs_are_from(line):
+    data, _ = line
+    run = pycav.open(data["directory"].values[0, 0]).to_xarray()
+    for name in ("Conventions", "program", "git_revision", "source"):
+        assert data.attrs[name] == run.attrs[name] != "", name
+    assert run.attrs["source"] == f"{run.attrs['program']} {run.attrs['git_revision']}"
+    assert data.attrs["history"] == f"{data.attrs['date_created']} pycav.sweep" and data.attrs["case_name"] == run.attrs["case_name"]
+
+
 def test_a_map_tells_what_it_costs_how_far_it_is_and_what_failed(short, tmp_path, capsys):
     parameters = {"stand_off": [1.6, 2.0], "solid.material": [STEEL, "cheese"]}
     pycav.sweep(short, {"stand_off": [2.0]}, tmp_path, progress=False)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 import numbers
 import os
 import warnings
@@ -16,6 +15,7 @@ import xarray
 from . import _pycav
 from ._given import count, positive
 from ._numbers import unit_in
+from ._provenance import provenance
 from ._run import run
 from .case import Case
 from .result import Result, open_run
@@ -85,7 +85,11 @@ def hits(
         for name, unit in MEASURES.items()}
     values["directory"] = ("hit", np.array([str(result.directory) for result in results], dtype=object), {"long_name": "directory"})
     places = ("hit", np.arange(1, n + 1), {"units": "1", "long_name": "number of the hit"})
-    return xarray.Dataset(values, {"hit": places}, _provenance(loading, results[0]))
+    # Program and revision of the hits, and the case whose load it is.
+    attributes = provenance(
+        f"hits on the wall of {loading.case.name}", "pycav.hits", results[0].histories.attrs, case_name=loading.case.name,
+        case_hash=loading.case.hash, case=loading.case.to_toml(), load=str(loading.directory))
+    return xarray.Dataset(values, {"hit": places}, attributes)
 
 
 def _number_of_hits(n: Any) -> int:
@@ -104,17 +108,6 @@ def _recorded(loading: Result) -> float:
 
 def _words(name: str) -> str:
     return "work of the load on the solid" if name == "work_on_solid" else words(name)
-
-
-def _provenance(loading: Result, first: Result) -> dict[str, Any]:
-    """Where the dataset is from: program and revision of the hits, and the case whose load it is, with its hash; date."""
-    now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds")
-    told = {name: str(first.histories.attrs.get(name, "")) for name in ("program", "git_revision")}
-    return {
-        "Conventions": "CF-1.11", "title": f"hits on the wall of {loading.case.name}", **told, "source": " ".join(told.values()).strip(),
-        "history": f"{now} pycav.hits", "date_created": now, "case_name": loading.case.name, "case_hash": loading.case.hash,
-        "case": loading.case.to_toml(), "load": str(loading.directory),
-    }
 
 
 def _number(value: Any) -> float:

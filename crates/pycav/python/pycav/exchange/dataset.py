@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 import json
 import os
 import re
@@ -15,6 +14,7 @@ import xarray
 
 from .._given import positive
 from .._given import window as checked
+from .._provenance import provenance
 from ..mesh import Floats
 
 if TYPE_CHECKING:
@@ -50,23 +50,14 @@ def dataset(
             found[name].attrs["axis"] = "T"
     if fields:
         found = found.merge(snapshots(result, fields, spacing, window))
-    found.attrs = _provenance(result)
-    return found
-
-
-def _provenance(result: Result) -> dict[str, Any]:
     told = result.histories.attrs
-    now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds")
-    program, revision = (str(told.get(name, "")) for name in ("program", "git_revision"))
     place = "plane strain, per metre of depth" if result.parameters.get("geometry") == "planar" else "axisymmetric about r = 0"
-    return {
-        "Conventions": "CF-1.11", "title": f"run of the case {told.get('case_name', result.directory.name)}",
-        "source": f"{program} {revision}".strip(), "history": f"{now} pycav: written from {result.directory.name}",
-        "program": program, "git_revision": revision, "case_name": str(told.get("case_name", "")),
-        "case_hash": str(told.get("case_hash", "")), "case": str(told.get("case", "")), "date_created": now,
-        "completed": int(bool(result.summary.get("completed"))), "summary": json.dumps(result.summary),
-        "comment": f"SI units; {place}; z from the solid into the fluid; stresses are positive in tension",
-    }
+    found.attrs = provenance(
+        f"run of the case {told.get('case_name', result.directory.name)}", f"pycav: written from {result.directory.name}", told,
+        **{name: str(told.get(name, "")) for name in ("case_name", "case_hash", "case")},
+        completed=int(bool(result.summary.get("completed"))), summary=json.dumps(result.summary),
+        comment=f"SI units; {place}; z from the solid into the fluid; stresses are positive in tension")
+    return found
 
 
 def snapshots(result: Result, fields: Sequence[str], spacing: float | None, window: Window | None) -> xarray.Dataset:

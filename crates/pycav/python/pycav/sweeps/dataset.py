@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 import json
 import os
 import shutil
@@ -14,8 +13,8 @@ import h5py
 import numpy as np
 import xarray
 
+from .._provenance import provenance
 from ..case import Case
-from ..histories import text as plain
 from .measures import words
 from .points import Axes, is_plain, labels
 
@@ -45,21 +44,16 @@ def gather(
     return xarray.Dataset(variables, axes.coordinates())
 
 
-def provenance(case: Case, axes: Axes, root: Path, places: Sequence[Path]) -> dict[str, Any]:
+def attributes(case: Case, axes: Axes, root: Path, places: Sequence[Path]) -> dict[str, Any]:
     """Where a dataset is from: program and revision of its runs, case and its hash, date, values of the parameters."""
-    now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds")
-    found: dict[str, Any] = {
-        "Conventions": "CF-1.11", "title": f"{case.name} over {', '.join(axes.names)}", "source": "cav",
-        "history": f"{now} pycav.sweep", "date_created": now, "case_name": case.name, "case_hash": case.hash, "case": case.to_toml(),
-        "case_read": case._native.text, "case_changes": json.dumps(case._changes),
-        "parameters": json.dumps(dict(zip(axes.names, axes.lists)), default=_json), "out": str(root),
-    }
-    for place in places:
-        if (path := place / "history.h5").exists():
-            with h5py.File(path, "r") as file:
-                told = {name: str(plain(file.attrs[name])) for name in ("program", "git_revision") if name in file.attrs}
-            return found | told | {"source": " ".join(told.values())}
-    return found
+    run: dict[str, Any] = {}
+    if there := [path for place in places if (path := place / "history.h5").exists()]:
+        with h5py.File(there[0], "r") as file:
+            run = dict(file.attrs)
+    return provenance(
+        f"{case.name} over {', '.join(axes.names)}", "pycav.sweep", run, case_name=case.name, case_hash=case.hash, case=case.to_toml(),
+        case_read=case._native.text, case_changes=json.dumps(case._changes),
+        parameters=json.dumps(dict(zip(axes.names, axes.lists)), default=_json), out=str(root))
 
 
 def case_of(data: xarray.Dataset) -> Case:

@@ -17,7 +17,7 @@ from ..case import Case, Material, checked
 from ..case import materials as library
 from ..result import Result
 from .cost import Cost
-from .dataset import FAILED, gather, opened, provenance, save_map
+from .dataset import FAILED, attributes, gather, opened, save_map
 from .executors import opened as executor_of
 from .measures import Measure, measured, measures
 from .points import STAND_OFF, Axes, Change, Point, at_point
@@ -116,7 +116,7 @@ def sweep(
         # Also of a sweep that was stopped: what is there is worth keeping.
         unrun = {number for number, error in enumerate(errors) if error == NOT_RUN}
         data = gather(axes, places, errors, left_out | unrun, found)
-        data.attrs = provenance(case, axes, root, places)
+        data.attrs = attributes(case, axes, root, places)
         if to is not None:
             save_map(data, to)
     return data
