@@ -94,10 +94,9 @@ def _convergence(result: Result) -> Iterable[Verdict]:
 
 def _resolution(result: Result) -> Iterable[Verdict]:
     summary, cells = result.summary, result.cells_per_radius
-    smallest, first = (summary.get(f"{when}_equivalent_radius") for when in ("min", "initial"))
-    # As the answer has it: of several each has a smallest radius of its own.
-    if cells is not None and smallest and first and summary.get("bubbles", 1) == 1:
-        left = cells * smallest / first
+    # The answer's number, which a grid that follows the bubble changes, and which several bubbles do not have.
+    left = summary.get("cells_per_smallest_radius")
+    if cells is not None and left is not None:
         yield Verdict(left >= SMALLEST, f"The bubble is {'' if left >= SMALLEST else 'hardly '}resolved when it is smallest.",
                       f"{left:.3g} cells", f"along its equivalent radius then; {cells:.4g} at the start")
     film = summary.get("film_cells_min")
