@@ -50,9 +50,9 @@ def stand_off(runs):
         left.set(yscale="log", ylabel="pressure on the wall, on the axis / MPa")
         _plain(left.yaxis, (100, 200, 500, 1000, 2000))
         legend(left)
-        impulses = [float(runs[distance].summary["wall_impulse"]) for distance in shown]
+        impulses = [float(runs[distance].summary["load_impulse"]) for distance in shown]
         right.plot(shown, impulses, color=BLUE, marker="o", markersize=4)
-        right.set(ylim=(0, None), ylabel="impulse on the wall, on the axis / (Pa s)")
+        right.set(ylim=(0, None), ylabel="impulse of the load, on the axis / (Pa s)")
         for axes in (left, right):
             axes.set_xlabel("stand-off $d/R$")
             axes.axvspan(min(shown) - 0.1, 1.0, color="0.94", linewidth=0)
@@ -91,4 +91,4 @@ def _plain(axis, marks):
 
 def convergence(study):
     """Four numbers of the wall on three grids."""
-    return study.plot("wall_pressure_peak", "wall_pressure_mean_peak", "wall_impulse", "pit_depth")
+    return study.plot("wall_pressure_peak", "wall_pressure_mean_peak", "load_impulse", "pit_depth")

@@ -15,6 +15,7 @@ KEY_NUMBERS = [
     ("wall_pressure_peak_anywhere", "Pa", "wall_pressure_peak_anywhere_time"),
     ("wall_pressure_mean_peak", "Pa", "wall_pressure_mean_peak_time"),
     ("wall_impulse", "Pa s", "wall_impulse_time"),
+    ("load_impulse", "Pa s", "load_impulse_time"),
     ("von_mises_peak", "Pa", "von_mises_peak_time"),
     ("yielded_volume_peak", "m3", ""),
     ("plastic_strain_peak", "1", "plastic_strain_peak_time"),

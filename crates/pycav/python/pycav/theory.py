@@ -51,7 +51,10 @@ class Bubble:
 
     @classmethod
     def of(cls, result: Result) -> Bubble | None:
-        """The first gas sphere in a run's ambient liquid; `None` if there is none, or if the geometry is planar."""
+        """The first gas sphere in a run's ambient liquid; `None` if there is none, or if the geometry is planar.
+
+        Under gravity the liquid's pressure is the hydrostatic one at its centre.
+        """
         case = result.parameters
         fluid = case.get("fluid", {})
         ambient = fluid.get("ambient", {})
@@ -62,8 +65,9 @@ class Bubble:
         liquid, gas, bubble, terms = fluid["liquid"], fluid["gas"], spheres[0], fluid.get("terms", {})
         density = ambient["density"]
         free = 1.0 - liquid.get("covolume", 0.0) * density
-        c = np.sqrt(liquid["gamma"] * (ambient["pressure"] + liquid["pi"]) / (density * free))
-        return cls(bubble["radius"], bubble["pressure"], gas["gamma"], ambient["pressure"], density, float(c),
+        far = ambient["pressure"] + density * fluid.get("gravity", 0.0) * (bubble["centre"][0] - fluid["z"][0])
+        c = np.sqrt(liquid["gamma"] * (far + liquid["pi"]) / (density * free))
+        return cls(bubble["radius"], bubble["pressure"], gas["gamma"], far, density, float(c),
                    fluid.get("initial_pressure") == "rayleigh", gas.get("pi", 0.0), gas.get("covolume", 0.0) * bubble["density"],
                    terms.get("surface_tension", 0.0), terms.get("viscosity", {}).get("liquid", 0.0))
 

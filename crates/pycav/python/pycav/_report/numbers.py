@@ -28,7 +28,7 @@ LABELS = {
     "wall_pressure_peak": "Wall pressure on the axis, largest",
     "wall_pressure_mean_peak": "Wall pressure on the axis, largest mean",
     "wall_pressure_peak_anywhere": "Wall pressure anywhere, largest",
-    "wall_impulse": "Impulse on the wall, on the axis",
+    "load_impulse": "Impulse on the wall's axis beyond the pressure far away",
     "jet_velocity_peak": "Fastest liquid on the axis",
     "min_equivalent_radius": "Smallest equivalent radius",
     "von_mises_peak": "von Mises stress, largest",
@@ -38,7 +38,7 @@ LABELS = {
 }
 """The keys of the summary that have a number on the page, in their order."""
 
-UNITS = {"wall_impulse": "Pa s", "jet_velocity_peak": "m/s", "min_equivalent_radius": "m", "yielded_volume_peak": "m³",
+UNITS = {"load_impulse": "Pa s", "jet_velocity_peak": "m/s", "min_equivalent_radius": "m", "yielded_volume_peak": "m³",
          "plastic_strain_peak": "%", "pit_depth": "m"}
 TIMES = {"min_equivalent_radius": "collapse_time"}
 

@@ -15,7 +15,7 @@ from .._convergence import Convergence
 from .._numbers import number, percent
 from .style import BLUE, INK, ORANGE, WIDTH, legend, styled, ticks
 
-USUAL = ("wall_pressure_peak", "wall_pressure_mean_peak", "wall_impulse", "collapse_time", "min_equivalent_radius", "von_mises_peak")
+USUAL = ("wall_pressure_peak", "wall_pressure_mean_peak", "load_impulse", "collapse_time", "min_equivalent_radius", "von_mises_peak")
 """What is drawn unless something else is asked for."""
 PREFIXED = ("Pa", "s", "m", "J", "J/m", "Pa s", "N", "N/m", "N s", "N s/m", "m/s")
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from .._given import positive
 from ..mesh import Floats, Raster
 from ..result import Snapshot, Snapshots, open_run
-from .section import MOST, Run, Section, Window, bar
+from .section import Run, Section, Window, bar
 from .._numbers import prefix
 from .style import BLUE, INK, ORANGE, logarithmic, part_of, styled
 

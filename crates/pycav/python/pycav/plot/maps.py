@@ -20,7 +20,7 @@ from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, p
 from .surface import ALMOST_STILL
 
 SHOWN = [
-    ("wall_pressure_peak", "wall pressure, largest", "Pa"), ("wall_impulse", "impulse on the wall", "Pa s"),
+    ("wall_pressure_peak", "wall pressure, largest", "Pa"), ("load_impulse", "impulse on the wall", "Pa s"),
     ("von_mises_peak", "von Mises stress, largest", "Pa"), ("yielded_volume_peak", "yielded volume", "m3"),
 ]
 LENGTHS = {"pit_depth": "depth of the pit", "pit_radius": "radius at half depth", "pit_rim": "height of the rim"}
@@ -38,11 +38,13 @@ def stand_off_map(data: xarray.Dataset | str | os.PathLike[str]) -> Figure:
     - `data`: what `pycav.stand_off_map` returned, or its file; with error bars where `pycav.with_uncertainty` has said how sure it is.
     """
     data = opened(data)
-    _over_both("a map over the stand-off", data, [name for name, *_ in SHOWN])
+    # Maps of earlier versions have the impulse beyond the pressure at the start alone.
+    shown = [("wall_impulse" if name == "load_impulse" and name not in data else name, *more) for name, *more in SHOWN]
+    _over_both("a map over the stand-off", data, [name for name, *_ in shown])
     distance = data["stand_off"].to_numpy()
     figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True).ravel()
-    for axes, (name, label, unit) in zip(panels, SHOWN):
+    for axes, (name, label, unit) in zip(panels, shown):
         values = data[name].transpose("stand_off", "solid.material").to_numpy()
         off = data[f"{name}_uncertainty"].transpose("stand_off", "solid.material").to_numpy() if f"{name}_uncertainty" in data else None
         for column, material in enumerate(data["solid.material"].to_numpy()):

@@ -15,7 +15,7 @@ Measure = Callable[[Result], Mapping[str, tuple[float, str]]]
 
 SUMMARY = [
     ("wall_pressure_peak", "Pa"), ("wall_pressure_peak_time", "s"), ("wall_pressure_peak_anywhere", "Pa"),
-    ("wall_pressure_mean_peak", "Pa"), ("wall_pressure_mean_time", "s"), ("wall_impulse", "Pa s"),
+    ("wall_pressure_mean_peak", "Pa"), ("wall_pressure_mean_time", "s"), ("wall_impulse", "Pa s"), ("load_impulse", "Pa s"),
     ("von_mises_peak", "Pa"), ("von_mises_peak_time", "s"), ("yielded_volume_peak", "m3"), ("collapse_time", "s"),
     ("min_equivalent_radius", "m"), ("jet_velocity_peak", "m/s"), ("plastic_strain_peak", "1"), ("plastic_work", "J"),
     ("pit_depth", "m"), ("pit_radius", "m"), ("pit_volume", "m3"), ("pit_rim", "m"), ("pit_floor", "m"), ("surface_still", "1"),
@@ -26,6 +26,7 @@ SENSOR = [("pressure_peak", "Pa"), ("pressure_peak_time", "s"), ("force_peak", "
 WORDS = {
     "wall_pressure_peak": "largest wall pressure on the axis", "wall_pressure_peak_anywhere": "largest wall pressure",
     "wall_pressure_mean_peak": "largest short mean of the wall pressure on the axis", "wall_impulse": "impulse on the wall's axis",
+    "load_impulse": "impulse on the wall's axis beyond the pressure far away",
     "von_mises_peak": "largest von Mises stress", "yielded_volume_peak": "largest yielded volume",
     "min_equivalent_radius": "smallest equivalent radius", "jet_velocity_peak": "largest jet velocity",
     "plastic_strain_peak": "largest plastic strain", "plastic_work": "plastic work", "pit_depth": "depth of the pit",
@@ -41,7 +42,7 @@ WORDS = {
 def measures(result: Result) -> dict[str, tuple[float, str]]:
     """What a sweep keeps of a run: value and unit by name, NaN for what the run has not. Wholes of planar runs are per metre of depth.
 
-    Numbers of the summary, among them `wall_impulse`, `pit_depth`, `plastic_strain_peak` and `cells_per_radius`; and of every
+    Numbers of the summary, among them `load_impulse`, `pit_depth`, `plastic_strain_peak` and `cells_per_radius`; and of every
     disc (`[[sensor]]`) `sensors.NAME.pressure_peak`, `.pressure_peak_time`, `.force_peak`, `.impulse`.
     """
     summary = result.summary

@@ -32,7 +32,7 @@ class Estimate(NamedTuple):
 def with_uncertainty(
     data: xarray.Dataset | str | os.PathLike[str],
     *others: xarray.Dataset | str | os.PathLike[str],
-    quantities: Sequence[str] = ("pit_depth", "wall_impulse", "wall_pressure_peak", "plastic_strain_peak"),
+    quantities: Sequence[str] = ("pit_depth", "load_impulse", "wall_impulse", "wall_pressure_peak", "plastic_strain_peak"),
 ) -> xarray.Dataset:
     """A map with what its numbers are off by, from maps of some of its points on finer and coarser grids.
 
