@@ -138,7 +138,7 @@ fn wall(summary: Summary<'_>) -> Option<String> {
     }
     words.push('.');
     if let Some(impulse) = summary.number("load_impulse").filter(|impulse| *impulse > 0.0) {
-        words += &format!(" Beyond the pressure far away its impulse is {}.", si(impulse, "Pa s"));
+        words += &format!(" The impulse beyond the pressure far away is {}.", si(impulse, "Pa s"));
     }
     Some(words)
 }
@@ -270,7 +270,7 @@ mod tests {
             "1.79 km/s",
             "446 MPa on the axis at 8.27 µs, 448 ns after",
             "averaged over 83 ns it is 418 MPa",
-            "its impulse is 696 Pa s",
+            "pressure far away is 696 Pa s",
             "yields, down to 1.9 mm: plastic strain up to 1.2 %",
             "A pit stays, 11.9 µm deep and 744 µm in radius",
             "How sure: 40 cells per radius, 3.1 where it is smallest, no warning; cav run",
