@@ -145,10 +145,11 @@ pub fn segments() -> Vec<String> {
     names.filter(|name| name.starts_with("cav_")).collect()
 }
 
-/// Asserts that nothing but the files of a finished run is in its directory.
+/// Asserts that nothing but the files of a finished run is in its directory, with one checkpoint at the most.
 pub fn assert_tidy(out: &Path) {
     let known = [
         "case.toml",
+        "checkpoints",
         "fluid.h5",
         "fluid.json",
         "fluid.vtkhdf",
@@ -163,4 +164,7 @@ pub fn assert_tidy(out: &Path) {
         let name = entry.file_name().to_string_lossy().into_owned();
         assert!(known.contains(&name.as_str()), "{name} is left in {}", out.display());
     }
+    let parts = checkpoints(out);
+    let is_one = parts.len() == 2 && parts[0].replace("fluid", "solid") == parts[1];
+    assert!(parts.is_empty() || is_one, "{parts:?} are left in {}", out.display());
 }
