@@ -81,7 +81,8 @@ impl Parabola {
 /// The same run.
 impl PartialEq for RecordedLoad {
     fn eq(&self, other: &Self) -> bool {
-        self.run == other.run && self.record.parabolas == other.record.parabolas
+        let [own, other_record] = [&self.record, &other.record];
+        self.run == other.run && own.times == other_record.times && own.parabolas == other_record.parabolas
     }
 }
 
@@ -168,7 +169,7 @@ impl RecordedLoad {
         means.clear();
         means.resize(initial.len(), 0.0);
         let first = times.partition_point(|time| *time <= begin).saturating_sub(1).min(last);
-        for (k, row) in parabolas.rows().into_iter().enumerate().skip(first) {
+        for k in first..=last {
             let width = times[k + 1] - times[k];
             let low = ((begin - times[k]) / width).clamp(0.0, 1.0);
             let high = ((begin + length - times[k]) / width).clamp(0.0, 1.0);
@@ -178,7 +179,7 @@ impl RecordedLoad {
             let share = (high - low) * width / length;
             means
                 .iter_mut()
-                .zip(row)
+                .zip(parabolas.row(k))
                 .for_each(|(mean, parabola)| *mean += share * parabola.between(low, high));
         }
         // What is later than the last row.

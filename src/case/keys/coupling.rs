@@ -138,8 +138,8 @@ pub(super) static COUPLING: [Section; 2] = [
                 values: Values::Words("directory of a finished run with `/interface`"),
                 default: Preset::None,
                 about: "Its pressure over r and t acts; beyond its radius the ambient pressure, after its end the last one. \
-                        The solid begins with that run's pressure at t = 0. Between two rows the pressure is the mean that \
-                        the impulse says, so none is lost if `output.interface_every` was long. Short peaks need short \
+                        The solid begins with that run's pressure at t = 0. Between two rows it is a parabola with the \
+                        impulse that was recorded: none is lost if `output.interface_every` was long. Short peaks need short \
                         intervals. A relative path counts from the working directory.",
             },
         ],
