@@ -96,6 +96,7 @@ const BAD: &[(Edit, &[&str])] = &[
     (Instead(&["fluid", "absent.toml", "--run", "a"]), &["absent.toml", "check the path"]),
     (Replace("[time]", "[time"), &["not TOML", "https://toml.io"]),
     // What would never end, and what no machine holds; refused before anything is made, by each of the sides, too.
+    (With(&["--end", "5us"]), &["'[CASE]' cannot be used with '--end <TIME>'"]),
     (With(&["--set", "output.interface_every=1e-30"]), &["output.interface_every", "1e6 rows", "s or more"]),
     (With(&["--set", "coupling.connect_timeout=1e20", "--set", "coupling.patience=1e-9"]), &["coupling.connect_timeout", "coupling.patience", "from 0.001 to 1e9"]),
     (With(&["--set", "time.end=1e30"]), &["time.end", "more than 1e9", "end earlier"]),

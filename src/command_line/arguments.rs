@@ -49,7 +49,7 @@ pub(super) struct RunArgs {
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, conflicts_with_all = ["case", "out", "sets", "force"])]
     pub resume: Option<PathBuf>,
     /// Let the run in DIR end later, 400us or 4e-4; also one that is finished.
-    #[arg(long, value_name = "TIME", value_parser = time, requires = "resume")]
+    #[arg(long, value_name = "TIME", value_parser = time, requires = "resume", conflicts_with = "case")]
     pub end: Option<f64>,
     #[command(flatten)]
     pub how: How,
