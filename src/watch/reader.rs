@@ -64,7 +64,7 @@ impl Reader {
             grid,
             state,
             standing: told.or_else(|| self.standing(&summary)),
-            curves: self.curves(peak_on_the_wall(&summary).filter(|_| is_over)),
+            curves: self.curves(is_over.then_some(&summary)),
             end,
             error: summary.get("error").filter(|_| is_over).and_then(text),
             answer: (summary.get("answer").and_then(Value::as_array).into_iter().flatten())
@@ -96,12 +96,19 @@ impl Reader {
 
     /// What there is to draw: the bubble, its pressure on the wall, and what that does to the solid.
     ///
-    /// - `peak`: of that pressure, and its time, by the summary of a run that is over.
-    fn curves(&self, peak: Option<[f64; 2]>) -> Vec<Titled> {
+    /// - `summary`: of a run that is over; it knows extremes better than the curves do.
+    fn curves(&self, summary: Option<&Map<String, Value>>) -> Vec<Titled> {
+        let number = |key: &str| summary?.get(key)?.as_f64();
+        let collapse = number("collapse_time").zip(number("min_equivalent_radius")).map(<[f64; 2]>::from);
+        let wall = summary.and_then(peak_on_the_wall).map(|[value, time]| [time, value]);
         let titled = |series: &Series, path: &str, title: &'static str, unit: &'static str| {
             let curve = series.curve(path)?.clone();
             curve.last()?;
-            let peak = peak.filter(|_| path == PRESSURE).map(|[value, time]| [time, value]);
+            let peak = match path {
+                RADIUS => collapse,
+                PRESSURE => wall,
+                _ => None,
+            };
             Some(Titled { title, unit, is_least_wanted: path == RADIUS, curve, peak })
         };
         let is_there = |titled: &Titled| titled.curve.largest().is_some_and(|[_, value]| value > 0.0);

@@ -42,7 +42,7 @@ pub struct Titled {
     pub is_least_wanted: bool,
     /// The curve.
     pub curve: Curve,
-    /// Time and value of a larger peak than the curve has, which the run's end tells of.
+    /// Time and value of the extreme that the run's end tells of.
     pub peak: Option<[f64; 2]>,
 }
 
@@ -51,7 +51,8 @@ impl Titled {
     #[must_use]
     pub fn extreme(&self) -> Option<(&'static str, [f64; 2])> {
         if self.is_least_wanted {
-            self.curve.least().map(|point| ("smallest", point))
+            // Of a bubble that grows first the curve is least at its start.
+            self.peak.or(self.curve.least()).map(|point| ("smallest", point))
         } else {
             let largest = self.curve.largest();
             let of_end = self.peak.filter(|[_, peak]| largest.is_none_or(|[_, value]| *peak > value));

@@ -177,6 +177,10 @@ fn the_largest_wall_pressure_of_a_finished_run_is_that_of_its_answer() {
         let text = lines(&finished, [80, 24], BOTH).join("\n");
         assert!(text.contains(said), "no `{said}` in\n{text}");
     }
+    // Of a bubble that grows from less than it collapses to, the curve is least at the start.
+    finished.curves[0].peak = Some([5.07e-5, 2e-3]);
+    let text = lines(&finished, [80, 24], BOTH).join("\n");
+    assert!(text.contains("smallest 2.00 mm at 50.70 µs"), "{text}");
 }
 
 #[test]
