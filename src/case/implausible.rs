@@ -39,6 +39,28 @@ pub(super) fn fluid(fluid: &FluidCase, warnings: &mut Vec<String>) {
             ));
         }
         vapour(fluid, (number, pressure), warnings);
+        cold_gas(fluid, number, warnings);
+    }
+}
+
+/// Gas whose temperature is below this share of the liquid's is warmed by it at once.
+const COLD: f64 = 0.8;
+
+/// A bubble whose gas has come from R_n along its isentrope, in a liquid that conducts heat to it.
+fn cold_gas(fluid: &FluidCase, number: usize, warnings: &mut Vec<String>) {
+    let passes_heat = fluid.terms.conduction.is_some() || fluid.terms.phase_change.is_some();
+    let (ambient, region) = (&fluid.initial.ambient, &fluid.initial.regions[number].state);
+    let of_gas = fluid.gas.temperature(region.density, region.pressure);
+    let of_liquid = fluid.liquid.temperature(ambient.density, ambient.pressure);
+    if let Some((gas, liquid)) = of_gas.zip(of_liquid)
+        && passes_heat
+        && ambient.phase == Phase::Liquid
+        && gas < COLD * liquid
+    {
+        warnings.push(format!(
+            "fluid.region.{number} begins at {gas:.1} K in liquid of {liquid:.1} K, which warms it at once: gas that expands without \
+             heat from its equilibrium radius is that cold; give gas_pressure, of gas at the liquid's temperature"
+        ));
     }
 }
 
@@ -116,6 +138,10 @@ mod tests {
             (&["solid.plasticity.yield_strength=90.0"], "a yield strength of 90 Pa is 3.9e-10"),
             (&["solid.material={density=7850.0,young=210.0,poisson=0.3,name=\"soft\"}"], "5900 m/s in steel"),
             (&[boils, "fluid.ambient.density=1000.0"], "liquid evaporates into it at once"),
+            (
+                &["fluid.terms.conduction={liquid=0.6,gas=0.026}", "fluid.region.0.density=0.026"],
+                "which warms it at once",
+            ),
             (&[boils, "fluid.region.0.pressure=4e4", "fluid.region.0.density=0.29"], "it condenses at once"),
         ] {
             let told = warnings(sets);

@@ -53,9 +53,7 @@ impl SurfaceDisplacement {
         let mut next = 0;
         for (level, along) in faces_of(&blocks) {
             for sums in surface.before.of_mut(level, along) {
-                // Of the middle of the face.
-                let same = ((2 * next + 1) * earlier.len()) / (2 * count);
-                let value = earlier.get(same).copied().unwrap_or_default();
+                let value = at_face(earlier, next, count);
                 (0..2).for_each(|c| sums[c].add(value[c]));
                 next += 1;
             }
@@ -179,7 +177,33 @@ fn from_middle(k: usize, count: usize) -> f64 {
     k as f64 + 0.5 - 0.5 * count as f64
 }
 
+/// What `earlier` faces of equal width have on the `k`th of `count` such ones: the mean of all within it, or of the one it is within.
+fn at_face(earlier: &[[f64; 2]], k: usize, count: usize) -> [f64; 2] {
+    let [low, high] = [k, k + 1].map(|k| k * earlier.len() / count);
+    let middle = (2 * k + 1) * earlier.len() / (2 * count);
+    let within = if high > low + 1 { earlier.get(low..high) } else { earlier.get(middle..=middle) };
+    let within = within.unwrap_or_default();
+    [0, 1].map(|c| within.iter().map(|value| value[c]).sum::<f64>() / within.len().max(1) as f64)
+}
+
 /// Level and number along the side of all faces of these blocks.
 fn faces_of(blocks: &[BlockId]) -> impl Iterator<Item = (u8, usize)> {
     blocks.iter().flat_map(|id| (0..BLOCK).map(move |k| (id.level, id.first_face::<BLOCK>(Side::ZMax) + k)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::at_face;
+
+    #[test]
+    fn a_surface_is_taken_up_by_means_on_wider_faces_and_as_it_is_on_narrower_ones() {
+        let earlier = [[1.0, 0.0], [3.0, 4.0], [5.0, 0.0], [9.0, 2.0]];
+        let on = |count: usize| (0..count).map(|k| at_face(&earlier, k, count)).collect::<Vec<_>>();
+        assert_eq!(on(4), earlier);
+        assert_eq!(on(2), [[2.0, 2.0], [7.0, 1.0]]);
+        assert_eq!(on(1), [[4.5, 1.5]]);
+        assert_eq!(on(8)[..4], [earlier[0], earlier[0], earlier[1], earlier[1]]);
+        // None is there before the first hit.
+        assert_eq!(at_face(&[], 3, 8), [0.0; 2]);
+    }
 }
