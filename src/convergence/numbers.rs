@@ -64,8 +64,13 @@ pub const KEY_NUMBERS: [(&str, &str); 52] = [
 ];
 
 /// The same of each sensor, below `sensors.NAME`.
-pub const SENSOR_NUMBERS: [(&str, &str); 4] =
-    [("pressure_peak", "Pa"), ("pressure_peak_time", "s"), ("force_peak", "N"), ("impulse", "N s")];
+pub const SENSOR_NUMBERS: [(&str, &str); 5] = [
+    ("pressure_peak", "Pa"),
+    ("pressure_peak_time", "s"),
+    ("force_peak", "N"),
+    ("impulse", "N s"),
+    ("load_impulse", "N s"),
+];
 
 /// A number by grid.
 #[derive(Clone, Debug, PartialEq)]

@@ -188,7 +188,9 @@ fn pit(summary: Summary<'_>) -> String {
     match summary.said("pit_depth", "m").zip(summary.said("pit_radius", "m")) {
         _ if !still && summary.0.get("settled") != Some(&Value::Bool(true)) => {
             let key = if waits { "time.longest" } else { "time.end" };
-            format!("The surface still moves at the end, so no pit is given: make {key} later.")
+            format!(
+                "The surface still moves at the end, so no pit is given: make {key} later, by cav run --resume DIR --end TIME."
+            )
         }
         Some((depth, radius)) => format!("A pit stays, {depth} deep and {radius} in radius at half of that."),
         None => match summary.said("pit_floor", "m") {

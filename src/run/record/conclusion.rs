@@ -214,7 +214,7 @@ fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> 
     });
     let moves = (whole.get("settled") == Some(&json!(false))).then(|| {
         format!(
-            "the surface was not still at time.longest: surface_still = {:.2e} (see docs/reference/output-summary.md); make time.longest later",
+            "the surface was not still at time.longest: surface_still = {:.2e} (see docs/reference/output-summary.md); make time.longest later, by cav run --resume DIR --end TIME",
             number("surface_still").unwrap_or(f64::NAN)
         )
     });

@@ -196,6 +196,7 @@ impl InterfaceHistory {
     /// Forgets the load so far, see [`WallAxis::forget_load`].
     pub fn forget_load(&mut self) {
         self.axis.forget_load();
+        self.sensors.forget_load();
     }
 
     /// Its part of the summary.

@@ -8,6 +8,7 @@
 //! | [`interface_history`] | of the interface on a fixed grid |
 //! | [`sensors`] | of discs on it |
 //! | [`wall_axis`] | of the pressure on it at the axis: its largest mean, its impulse |
+//! | [`load_impulse`] | the impulse of a load |
 //! | [`running_mean`] | the mean over the last while, whatever the steps |
 //! | [`two_collapses`] | the rebound, the second collapse, and what either load did |
 //! | [`surface`] | of the solid's surface: its displacement and the pit in it |
@@ -27,6 +28,7 @@ pub mod film;
 pub mod fluid_record;
 pub mod how_sure;
 pub mod interface_history;
+pub mod load_impulse;
 pub mod of_side;
 pub mod running_mean;
 pub mod sensors;

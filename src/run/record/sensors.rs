@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::case::{Case, Sensor};
 use crate::output::{Column, HistoryFile, OutputError, SeriesId};
 use crate::run::record::column;
+use crate::run::record::load_impulse::LoadImpulse;
 use crate::run::record::running_mean::RunningMean;
 use crate::run::side::wall_faces::WallFaces;
 
@@ -20,6 +21,8 @@ const COLUMNS: [Column<'static>; 4] = [
 /// All sensors of a case.
 pub struct Sensors {
     geometry: Geometry,
+    /// Pressure far away, Pa.
+    ambient: f64,
     sensors: Vec<OnWall>,
 }
 
@@ -39,6 +42,7 @@ pub struct SensorState {
     mean: RunningMean,
     /// Largest pressure shown so far, Pa, and when, s.
     peak: [f64; 2],
+    load: LoadImpulse,
 }
 
 impl Sensors {
@@ -60,7 +64,12 @@ impl Sensors {
             let state = SensorState { initial, ..SensorState::default() };
             Ok(OnWall { sensor: sensor.clone(), area, series, state })
         };
-        Ok(Self { geometry, sensors: case.sensors.iter().map(add).collect::<Result<_, OutputError>>()? })
+        let ambient = case.ambient_pressure();
+        Ok(Self {
+            geometry,
+            ambient,
+            sensors: case.sensors.iter().map(add).collect::<Result<_, OutputError>>()?,
+        })
     }
 
     /// What has to be kept of them.
@@ -87,14 +96,20 @@ impl Sensors {
             return Ok(());
         }
         for OnWall { sensor, area, series, state } in &mut self.sensors {
-            let pressure = mean(self.geometry, faces, sensor.radius, pressures) - state.initial;
-            let shown = state.mean.push(sensor.rise_time, dt, pressure);
+            let pressure = mean(self.geometry, faces, sensor.radius, pressures);
+            state.load.after_step(pressure - self.ambient, (time, dt));
+            let shown = state.mean.push(sensor.rise_time, dt, pressure - state.initial);
             if shown > state.peak[0] {
                 state.peak = [shown, time];
             }
             history.push(*series, &[time, shown, shown * *area, state.mean.integral() * *area])?;
         }
         Ok(())
+    }
+
+    /// Forgets the load so far: a bubble that grows pushes on the wall before its collapse does.
+    pub fn forget_load(&mut self) {
+        self.sensors.iter_mut().for_each(|own| own.state.load = LoadImpulse::default());
     }
 
     /// Their part of the summary.
@@ -108,6 +123,7 @@ impl Sensors {
                 "pressure_peak_time": time,
                 "force_peak": peak * own.area,
                 "impulse": own.state.mean.integral() * own.area,
+                "load_impulse": own.state.load.peak()[0] * own.area,
             });
             (own.sensor.name.clone(), numbers)
         };

@@ -5,6 +5,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
+use crate::run::record::load_impulse::LoadImpulse;
 use crate::run::record::running_mean::RunningMean;
 
 /// What of it changes in time, and the pressure at t = 0.
@@ -22,30 +23,7 @@ pub struct WallAxis {
     mean_peak: Option<[f64; 2]>,
     /// Largest impulse so far, Pa s, and when, s; 0 at t = 0.
     impulse_peak: [f64; 2],
-    load: Load,
-}
-
-/// The impulse of what is beyond the pressure far away: its largest rise.
-///
-/// Where the run begins with another pressure than that far away, the impulse beyond the first one grows for as long as the run goes
-/// on; this does not.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-struct Load {
-    /// Time integral since t = 0, and the least of it so far, Pa s.
-    integral: f64,
-    lowest: f64,
-    /// Largest rise so far, Pa s, and at its end, s.
-    peak: [f64; 2],
-}
-
-impl Load {
-    fn after_step(&mut self, beyond: f64, (time, dt): (f64, f64)) {
-        self.integral += dt * beyond;
-        self.lowest = self.lowest.min(self.integral);
-        if self.integral - self.lowest > self.peak[0] {
-            self.peak = [self.integral - self.lowest, time];
-        }
-    }
+    load: LoadImpulse,
 }
 
 impl WallAxis {
@@ -56,7 +34,7 @@ impl WallAxis {
 
     /// Forgets the load so far: a bubble that grows pushes on the wall before its collapse does.
     pub fn forget_load(&mut self) {
-        self.load = Load::default();
+        self.load = LoadImpulse::default();
     }
 
     /// Takes notice of a step of length `dt` that ended at `time` with this mean pressure on the axis.
@@ -86,8 +64,9 @@ impl WallAxis {
         }
         part.insert("wall_impulse".to_owned(), json!(self.impulse_peak[0]));
         part.insert("wall_impulse_time".to_owned(), json!(self.impulse_peak[1]));
-        part.insert("load_impulse".to_owned(), json!(self.load.peak[0]));
-        part.insert("load_impulse_time".to_owned(), json!(self.load.peak[1]));
+        let [impulse, time] = self.load.peak();
+        part.insert("load_impulse".to_owned(), json!(impulse));
+        part.insert("load_impulse_time".to_owned(), json!(time));
         part
     }
 }

@@ -21,12 +21,12 @@ SUMMARY = [
     ("pit_depth", "m"), ("pit_radius", "m"), ("pit_volume", "m3"), ("pit_rim", "m"), ("pit_floor", "m"), ("surface_still", "1"),
     ("cells_per_radius", "1"), ("film_cells_min", "1"), ("wall_seconds", "s"),
 ]
-SENSOR = [("pressure_peak", "Pa"), ("pressure_peak_time", "s"), ("force_peak", "N"), ("impulse", "N s")]
+SENSOR = [("pressure_peak", "Pa"), ("pressure_peak_time", "s"), ("force_peak", "N"), ("impulse", "N s"), ("load_impulse", "N s")]
 
 WORDS = {
     "wall_pressure_peak": "largest wall pressure on the axis", "wall_pressure_peak_anywhere": "largest wall pressure",
     "wall_pressure_mean_peak": "largest short mean of the wall pressure on the axis", "wall_impulse": "impulse on the wall's axis",
-    "load_impulse": "impulse on the wall's axis beyond the pressure far away",
+    "load_impulse": "impulse beyond the pressure far away",
     "von_mises_peak": "largest von Mises stress", "yielded_volume_peak": "largest yielded volume",
     "min_equivalent_radius": "smallest equivalent radius", "jet_velocity_peak": "largest jet velocity",
     "plastic_strain_peak": "largest plastic strain", "plastic_work": "plastic work", "pit_depth": "depth of the pit",
@@ -43,7 +43,7 @@ def measures(result: Result) -> dict[str, tuple[float, str]]:
     """What a sweep keeps of a run: value and unit by name, NaN for what the run has not. Wholes of planar runs are per metre of depth.
 
     Numbers of the summary, among them `load_impulse`, `pit_depth`, `plastic_strain_peak` and `cells_per_radius`; and of every
-    disc (`[[sensor]]`) `sensors.NAME.pressure_peak`, `.pressure_peak_time`, `.force_peak`, `.impulse`.
+    disc (`[[sensor]]`) `sensors.NAME.pressure_peak`, `.pressure_peak_time`, `.force_peak`, `.impulse`, `.load_impulse`.
     """
     summary = result.summary
     found = {name: (_number(summary.get(name)), unit) for name, unit in SUMMARY}
