@@ -18,12 +18,12 @@ pub(super) fn set_text(location: &Location, name: &str, value: &str) -> hdf5::Re
 }
 
 /// Attaches all of `attributes`, pairs of name and value.
-pub(super) fn set_texts(location: &Location, attributes: &[(&str, &str)]) -> hdf5::Result<()> {
-    attributes.iter().try_for_each(|(name, value)| set_text(location, name, value))
+pub(super) fn set_texts(location: &Location, attributes: &[(&str, impl AsRef<str>)]) -> hdf5::Result<()> {
+    attributes.iter().try_for_each(|(name, value)| set_text(location, name, value.as_ref()))
 }
 
 /// Attaches all of `attributes` to an existing file as a whole.
-pub fn set_of_file(path: &Path, attributes: &[(&str, &str)]) -> Result<(), OutputError> {
+pub fn set_of_file(path: &Path, attributes: &[(&str, impl AsRef<str>)]) -> Result<(), OutputError> {
     safe_file::update_hdf5(path, safe_file::HDF5_OVERHEAD, |copy| {
         let set = || -> hdf5::Result<()> {
             let file = File::open_rw(copy)?;

@@ -258,7 +258,7 @@ impl Keeper {
     ///
     /// - `ends`: whether the step is one of the run's last.
     pub fn is_due(&mut self, ends: bool) -> bool {
-        let is_last = ends && !std::mem::replace(&mut self.is_before_end, ends);
+        let is_last = ends && !std::mem::replace(&mut self.is_before_end, true);
         is_last || self.last.elapsed() >= self.every
     }
 

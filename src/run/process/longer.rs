@@ -50,8 +50,7 @@ pub(super) fn take_over(
         checkpoints.take_over(step)?;
     }
     directory.mark_unfinished()?;
-    let owned = attributes(case);
-    let attributes: Vec<(&str, &str)> = owned.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    let attributes = attributes(case);
     for name in [FLUID_HISTORY, SOLID_HISTORY, HISTORY, FLUID_FIELDS, SOLID_FIELDS] {
         let path = directory.file(name);
         if path.exists() {

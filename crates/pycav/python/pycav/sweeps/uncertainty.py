@@ -37,9 +37,10 @@ def with_uncertainty(
     """A map with what its numbers are off by, from maps of some of its points on finer and coarser grids.
 
     At a point that the others have, too, the uncertainty is the grid-convergence index times the value, by the rules of `pycav.convergence`:
-    three grids give an order, whatever the ratios of their cells, two assume the second, with a safety factor of 3. Where three values have no order it is their
-    spread, largest minus smallest, or half of it if they oscillate. In between, the *share* of the value is interpolated linearly over
-    numeric parameters, and beyond them the nearest counts; for a text that the others lack, the largest of all.
+    three grids give an order, whatever the ratios of their cells, two assume the second, with a safety factor of 3. Where three
+    values have no order it is their spread, largest minus smallest, or half of it if they oscillate. In between, the *share* of the
+    value is interpolated linearly over numeric parameters, and beyond them the nearest counts; for a text that the others lack, the
+    largest of all.
 
     - `data`: a dataset of `sweep`, or its file; `others`: sweeps over some of the same values, with other cells per radius
       (a ValueError where they are the same and the numbers are not, as of grids that differ in the solid alone).
