@@ -114,9 +114,13 @@ def main():
     parser.add_argument("--size", type=int, nargs=2, default=SIZE)
     options, _ = parser.parse_known_args(sys.argv[1:])
     view = draw()
-    GetAnimationScene().AnimationTime = options.time
-    view.ViewTime = options.time
-    GetTimeKeeper().Time = options.time
+    # By itself ParaView would take the next snapshot after that time, however near the one before it is.
+    snapshots = GetTimeKeeper().TimestepValues
+    snapshots = list(snapshots) if hasattr(snapshots, "__len__") else [snapshots]
+    time = min(snapshots, key=lambda snapshot: abs(snapshot - options.time), default=options.time)
+    GetAnimationScene().AnimationTime = time
+    view.ViewTime = time
+    GetTimeKeeper().Time = time
     Render(view)
     ResetCamera(view)
     # The section to the left, the bars to the right of it.
