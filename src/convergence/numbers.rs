@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use crate::output::per_depth;
 
 /// Keys of `summary.json` with their units, in the order in which they are told; of planar runs those are [`per_depth`].
-pub const KEY_NUMBERS: [(&str, &str); 52] = [
+pub const KEY_NUMBERS: [(&str, &str); 54] = [
     ("wall_pressure_peak", "Pa"),
     ("wall_pressure_peak_time", "s"),
     ("wall_pressure_peak_interface", "Pa"),
@@ -57,6 +57,8 @@ pub const KEY_NUMBERS: [(&str, &str); 52] = [
     ("indentation_peak", "m"),
     ("load_impulse", "Pa s"),
     ("load_impulse_time", "s"),
+    ("load_impulse_first", "Pa s"),
+    ("load_impulse_second", "Pa s"),
     ("load_amplitude", "Pa"),
     ("load_radius", "m"),
     ("load_duration", "s"),

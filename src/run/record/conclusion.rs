@@ -52,7 +52,8 @@ pub fn conclude(
         }
     }
     let history = directory.file(HISTORY);
-    whole.extend(two_collapses::summary(&history, whole.get("collapse_time").and_then(Value::as_f64)));
+    let collapse_time = whole.get("collapse_time").and_then(Value::as_f64);
+    whole.extend(two_collapses::summary(&history, collapse_time, case.ambient_pressure()));
     whole.extend(equivalent_load::summary(&history));
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
     let per_volume = number("work_on_solid").zip(number("pit_volume"));

@@ -7,6 +7,7 @@ use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
 use crate::output::dataset_if_there;
+use crate::run::record::load_impulse::LoadImpulse;
 
 /// What a turn of the volume must be followed by to count, as a share of it: less is ringing.
 const TURN: f64 = 0.01;
@@ -52,10 +53,10 @@ impl Turns {
 /// The part of the summary that is about the bubble's size at the start and, for a run with a collapse, the rebound and the second
 /// collapse; empty for a run without a bubble.
 ///
-/// - `collapse_time`: of the first collapse, s.
-pub fn summary(history: &Path, collapse_time: Option<f64>) -> Map<String, Value> {
+/// - `collapse_time`: of the first collapse, s. `far`: the pressure far away, Pa.
+pub fn summary(history: &Path, collapse_time: Option<f64>, far: f64) -> Map<String, Value> {
     let Ok(file) = File::open(history) else { return Map::new() };
-    let mut part = collapse_time.and_then(|time| of_file(&file, time)).unwrap_or_default();
+    let mut part = collapse_time.and_then(|time| of_file(&file, time, far)).unwrap_or_default();
     if let Some(radius) = first_radius(&file) {
         part.insert("initial_equivalent_radius".to_owned(), json!(radius));
     }
@@ -72,13 +73,14 @@ fn first_radius(file: &File) -> Option<f64> {
     first.first().copied().filter(|radius| *radius > 0.0)
 }
 
-fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
+fn of_file(file: &File, collapse_time: f64, far: f64) -> Option<Map<String, Value>> {
     let rows = |name: &str| -> Option<Vec<f64>> { dataset_if_there(file, name)?.read_raw().ok() };
     let (times, volumes, radii) = (rows("time")?, rows("bubble/volume")?, rows("bubble/equivalent_radius")?);
     if times.len() != volumes.len() || radii.len() != volumes.len() {
         return None;
     }
-    let turns = Turns::after(times.partition_point(|time| *time < collapse_time), &volumes);
+    let collapse = times.partition_point(|time| *time < collapse_time);
+    let turns = Turns::after(collapse, &volumes);
     let mut part = Map::new();
     let mut put = |key: &str, value: Option<f64>| part.insert(key.to_owned(), json!(value));
     put("rebound_time", turns.rebound.map(|row| times[row]));
@@ -89,7 +91,8 @@ fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
     // What comes before the rebound is at its largest is of the first collapse, what comes after of the second.
     let split = turns.rebound.map(|row| times[row]);
     if let (Some(ends), Some(pressure)) = (rows("interface/time"), rows("wall/pressure_axis")) {
-        let impulse: Array2<f64> = dataset_if_there(file, "interface/impulse")?.read_2d().ok()?;
+        let field = |name: &str| -> Option<Array2<f64>> { dataset_if_there(file, name)?.read_2d().ok() };
+        let (impulse, pressures) = (field("interface/impulse")?, field("interface/pressure")?);
         let before = |time: f64| split.is_none_or(|split| time <= split);
         let peak = |of_first: bool| {
             let own = times.iter().zip(&pressure).filter(|(time, _)| before(**time) == of_first);
@@ -107,8 +110,39 @@ fn of_file(file: &File, collapse_time: f64) -> Option<Map<String, Value>> {
         let first = first.filter(|_| is_told);
         put("wall_impulse_first", first);
         put("wall_impulse_second", split.and(whole.zip(first)).map(|(whole, first)| whole - first));
+
+        // Beyond the pressure far away, since the bubble was at its largest.
+        let beyond = pressures.get([0, axis]).map_or(0.0, |at_start| at_start - far);
+        let load = ends.iter().zip(impulse.rows()).map(|(end, row)| [*end, row[axis] + beyond * end]);
+        let load: Vec<[f64; 2]> = load.collect();
+        let began = largest_before(collapse, &volumes).map_or(0.0, |row| times[row]);
+        let rise = |of_first: bool| {
+            is_told.then(|| largest_rise(&load, |time| time > began && before(time) == of_first))
+        };
+        put("load_impulse_first", rise(true));
+        put("load_impulse_second", split.and_then(|_| rise(false)));
     }
     Some(part)
+}
+
+/// The row of the largest volume up to the collapse, the first one of equals.
+fn largest_before(collapse: usize, volumes: &[f64]) -> Option<usize> {
+    let rows = 0..volumes.len().min(collapse + 1);
+    rows.reduce(|largest, row| if volumes[row] > volumes[largest] { row } else { largest })
+}
+
+/// The largest rise of an integral, see [`LoadImpulse`], in the intervals that end at some times.
+///
+/// - `integral`: times, s, with what has been gathered until then.
+fn largest_rise(integral: &[[f64; 2]], is_in: impl Fn(f64) -> bool) -> f64 {
+    let mut load = LoadImpulse::default();
+    for pair in integral.windows(2) {
+        let [[begin, before], [end, after]] = [pair[0], pair[1]];
+        if end > begin && is_in(end) {
+            load.after_step((after - before) / (end - begin), (end, end - begin));
+        }
+    }
+    load.peak()[0]
 }
 
 /// Rows of `/interface` in a run that are enough to tell one impulse from the next.
@@ -168,6 +202,23 @@ mod tests {
         assert_eq!(Turns::after(100, &volumes[..250]).second, None);
         assert_eq!(Turns::after(1, &[1.0, 0.6, 1.0]), Turns::default(), "nor of a rise that goes on");
         assert_eq!(Turns::after(0, &[]), Turns::default());
-        assert!(summary(Path::new("nowhere"), None).is_empty(), "no collapse");
+        assert!(summary(Path::new("nowhere"), None, 0.0).is_empty(), "no collapse");
+    }
+
+    #[test]
+    fn loads_are_rises_of_what_is_beyond_the_pressure_far_away() {
+        // Grows until row 2, pulls, pushes by 5, is let go, pushes by 3 after the rebound.
+        let gathered = [0.0, 4.0, 5.0, 3.0, 8.0, 7.0, 6.0, 9.0, 8.0];
+        let integral: Vec<[f64; 2]> = gathered.iter().enumerate().map(|(k, sum)| [k as f64, *sum]).collect();
+        let volumes = [0.1, 0.8, 1.0, 0.6, 0.1, 0.5, 0.6, 0.2, 0.3];
+        assert_eq!(largest_before(4, &volumes), Some(2));
+        assert_eq!(largest_before(9, &volumes[..2]), Some(1));
+        assert_eq!(largest_before(0, &[]), None);
+        let near =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        near(largest_rise(&integral, |time| time <= 6.0), 8.0);
+        near(largest_rise(&integral, |time| time > 2.0 && time <= 6.0), 5.0);
+        near(largest_rise(&integral, |time| time > 6.0), 3.0);
+        near(largest_rise(&integral[..1], |_| true), 0.0);
     }
 }
