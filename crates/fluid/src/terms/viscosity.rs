@@ -2,6 +2,7 @@
 
 mod friction;
 mod layered;
+mod passes;
 mod spread;
 mod stress;
 mod velocities;
@@ -59,6 +60,7 @@ impl Viscosity {
     }
 
     /// 4μ/3 + κ of a mixture, and what layers of liquid in it resist besides, Pa s.
+    #[inline(always)]
     fn stiffest(&self, phi: f64) -> f64 {
         let of_layers = if is_mixed(phi) { SHEET * (1.0 - phi) * self.liquid.shear } else { 0.0 };
         longitudinal(self.at(phi)) + of_layers
@@ -74,9 +76,7 @@ impl Viscosity {
         let mut next = || rows.next().expect("resized to that many");
         let [v_z, v_r, shear, bulk, spared, density, phi] = std::array::from_fn(|_| next());
         Velocities { v_z: &mut *v_z, v_r: &mut *v_r }.gather(block);
-        for (k, phi) in block.state[PHI].iter().enumerate() {
-            [shear[k], bulk[k]] = self.at(*phi);
-        }
+        passes::viscosities(self, block.state[PHI], shear, bulk);
         // What kernels left of mixed cells differs from block to block.
         for_cells_without_mid_step(block, |k| [shear[k], bulk[k]] = self.at(block.before[PHI][k]));
         let is_layered = spared_dilatation(block, spared);
@@ -181,26 +181,8 @@ impl Term for Viscosity {
     /// Half a step of ∇·τ/ρ, in the cells of the block and the first ghosts.
     fn predict(&self, block: &TermBlock<'_>, half: [&mut [f64]; 2], work: &mut Vec<f64>) {
         let Stresses { parts, z, r, .. } = self.stresses(block, work);
-        let metric = block.metric;
-        let ([inverse_z, inverse_h], stride) = (metric.inverse_h, metric.stride);
-        let [half_z, half_r] = half;
-        let side = block.cells + 2;
-        for first in (0..side).map(|j| metric.origin + j * stride - stride - 1) {
-            for k in first..first + side {
-                let inverse_r = block.inverse_r[k];
-                // r_j±1/2 / r_j.
-                let [low, high] = [-0.5, 0.5].map(|half| 1.0 + half * inverse_r / inverse_h);
-                let below = k - stride;
-                let force_z = inverse_z * (z.normal[k] - z.normal[k - 1])
-                    + inverse_h * (high * r.shear[k] - low * r.shear[below]);
-                let force_r = inverse_z * (z.shear[k] - z.shear[k - 1])
-                    + inverse_h * (r.normal[k] - r.normal[below])
-                    + 0.5 * inverse_r * parts.hoop(k, stride, r.normal, r.hoop);
-                let gain = 0.5 * metric.dt / block.state[RHO][k];
-                half_z[k] += gain * force_z;
-                half_r[k] += gain * force_r;
-            }
-        }
+        let of_cells = (parts, block.state[RHO], block.inverse_r);
+        passes::gain(of_cells, (block.metric, block.cells), [&z, &r], half);
     }
 
     fn add_fluxes(
@@ -223,12 +205,7 @@ impl Term for Viscosity {
             [(z_faces, z, [*v_z, *v_r], 1, along_z), (r_faces, r, [*v_r, *v_z], metric.stride, along_r)]
         {
             let [_, _, pressure, shear, energy, _] = faces.fluxes_mut();
-            for k in range {
-                let [u, w] = [u, w].map(|v| parts.velocity(k, step, v));
-                pressure[k] -= stress.normal[k];
-                shear[k] -= stress.shear[k];
-                energy[k] -= stress.normal[k] * u + stress.shear[k] * w;
-            }
+            passes::pass(*parts, (range, step), [u, w], stress, [pressure, shear, energy]);
         }
         let bounded = match self.thin_gas {
             ThinGas::SuperTimeStepping => 0,
@@ -242,13 +219,8 @@ impl Term for Viscosity {
         let TermBlock { cells: n, metric, inverse_r, .. } = *block;
         let [_, _, shear, bulk, _, _, _, _, _, _, normal, _, hoop] = rows_of(work, block.state[RHO].len());
         let parts = Parts { shear, bulk };
-        for j in 0..n {
-            for i in 0..n {
-                let k = metric.origin + j * metric.stride + i;
-                let force = 0.5 * inverse_r[k] * parts.hoop(k, metric.stride, normal, hoop);
-                block_rows[MOMENTUM_R * n * n + j * n + i] += metric.dt * force;
-            }
-        }
+        let momentum = &mut block_rows[MOMENTUM_R * n * n..][..n * n];
+        passes::add_hoop((parts, inverse_r), (metric, n), [normal, hoop], momentum);
     }
 
     /// Gives each phase of mixed cells its share of what friction makes of the motion.
@@ -264,8 +236,7 @@ impl Term for Viscosity {
             ThinGas::SuperTimeStepping => return Spreading::diffusivity(self, density, phi) / BY_STAGES,
         };
         let counted = Self { gas, ..*self };
-        let of = |(density, phi): (&f64, &f64)| counted.stiffest(*phi) / density;
-        density.iter().zip(phi).map(of).fold(0.0, f64::max)
+        passes::stiffest_per_density(&counted, density, phi)
     }
 
     /// Δt (η/ρ)(1/h_z² + 1/h_r²) ≤ 3/8.

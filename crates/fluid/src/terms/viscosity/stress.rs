@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use super::longitudinal;
+
 /// What stresses are made of, padded rows.
 #[derive(Clone, Copy)]
 pub(super) struct Motion<'a> {
@@ -41,6 +43,49 @@ pub(super) fn share(most: f64, longitudinal: f64) -> f64 {
     if longitudinal > most { most / longitudinal } else { 1.0 }
 }
 
+/// A component of the velocity in the cells about some faces, in rows of as many.
+#[derive(Clone, Copy)]
+struct AboutFaces<'a> {
+    /// On the lower and the upper side.
+    low: &'a [f64],
+    high: &'a [f64],
+    /// Beside those on the lower side along the face: before and after it.
+    before_low: &'a [f64],
+    after_low: &'a [f64],
+    /// Likewise on the upper side.
+    before_high: &'a [f64],
+    after_high: &'a [f64],
+}
+
+impl<'a> AboutFaces<'a> {
+    /// - `faces`: by the cells below them; `step`: from there to those above; `along`: to those beside them.
+    #[inline(always)]
+    fn cut(row: &'a [f64], faces: &Range<usize>, step: usize, along: usize) -> Self {
+        let of = |first: usize| &row[first..][..faces.len()];
+        let low = faces.start;
+        Self {
+            low: of(low),
+            high: of(low + step),
+            before_low: of(low - along),
+            after_low: of(low + along),
+            before_high: of(low + step - along),
+            after_high: of(low + step + along),
+        }
+    }
+
+    /// The difference across face `k`.
+    #[inline(always)]
+    fn across(&self, k: usize) -> f64 {
+        self.high[k] - self.low[k]
+    }
+
+    /// Four times the mean difference from cell to cell along it.
+    #[inline(always)]
+    fn along(&self, k: usize) -> f64 {
+        (self.after_low[k] - self.before_low[k]) + (self.after_high[k] - self.before_high[k])
+    }
+}
+
 /// The stresses on the faces normal to an axis (0: z, 1: r).
 ///
 /// τ_nn = 2μ ∂n u + (κ − ⅔μ) ∇·v, τ_nt = μ(∂n w + ∂t u), with differences across the face, and along it the mean of both cells'
@@ -48,25 +93,43 @@ pub(super) fn share(most: f64, longitudinal: f64) -> f64 {
 /// bears in a step.
 ///
 /// - `range`: of the cells below the faces.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(super) fn stresses(m: &Motion<'_>, axis: usize, range: Range<usize>, out: &mut FaceStress<'_>) {
-    let (step, along) = if axis == 0 { (1, m.stride) } else { (m.stride, 1) };
-    let [u, w] = [m.velocity[axis], m.velocity[1 - axis]];
-    let (across, sideways) = (m.inverse_h[axis], 0.25 * m.inverse_h[1 - axis]);
-    let v_r = m.velocity[1];
     let FaceStress { normal, shear, hoop } = out;
-    for k in range {
-        let n = k + step;
-        let slope = |v: &[f64]| across * (v[n] - v[k]);
-        let slide = |v: &[f64]| sideways * ((v[k + along] - v[k - along]) + (v[n + along] - v[n - along]));
-        let stretch = slope(u);
-        let around = 0.5 * (v_r[k] * m.inverse_r[k] + v_r[n] * m.inverse_r[n]);
-        let divergence = stretch + slide(w) + around;
-        let [mu, kappa] = [m.shear, m.bulk].map(|row| 0.5 * (row[k] + row[n]));
-        let least = if m.density[k] < m.density[n] { m.density[k] } else { m.density[n] };
-        let share = share(m.most * least, 4.0 / 3.0 * mu + kappa);
+    let [normal, shear, hoop] = [normal, shear, hoop].map(|row| &mut row[range.clone()]);
+    stresses_body(m, axis, &range, normal, shear, hoop);
+}
+
+// The rows that are written as arguments of their own: so it is known that they are no others.
+#[inline(always)]
+fn stresses_body(
+    m: &Motion<'_>,
+    axis: usize,
+    faces: &Range<usize>,
+    normal: &mut [f64],
+    shear: &mut [f64],
+    hoop: &mut [f64],
+) {
+    let count = faces.len();
+    let (normal, shear, hoop) = (&mut normal[..count], &mut shear[..count], &mut hoop[..count]);
+    let (step, along) = if axis == 0 { (1, m.stride) } else { (m.stride, 1) };
+    let (across, sideways) = (m.inverse_h[axis], 0.25 * m.inverse_h[1 - axis]);
+    let [u, w] = [axis, 1 - axis].map(|own| AboutFaces::cut(m.velocity[own], faces, step, along));
+    let radial = if axis == 0 { w } else { u };
+    // On both sides.
+    let both = |row| [faces.start, faces.start + step].map(|first| &(row as &[f64])[first..][..count]);
+    let [inverse_r, mu, kappa, density] = [m.inverse_r, m.shear, m.bulk, m.density].map(both);
+    for k in 0..count {
+        let mean = |[low, high]: [&[f64]; 2]| 0.5 * (low[k] + high[k]);
+        let stretch = across * u.across(k);
+        let around = 0.5 * (radial.low[k] * inverse_r[0][k] + radial.high[k] * inverse_r[1][k]);
+        let divergence = stretch + sideways * w.along(k) + around;
+        let (mu, kappa) = (mean(mu), mean(kappa));
+        let least = if density[0][k] < density[1][k] { density[0][k] } else { density[1][k] };
+        let share = share(m.most * least, longitudinal([mu, kappa]));
         let (mu, kappa) = (share * mu, share * kappa);
         normal[k] = 2.0 * mu * stretch + (kappa - 2.0 / 3.0 * mu) * divergence;
-        shear[k] = mu * (slope(w) + slide(u));
+        shear[k] = mu * (across * w.across(k) + sideways * u.along(k));
         hoop[k] = 2.0 * mu * (stretch - around);
     }
 }
@@ -88,19 +151,29 @@ pub(super) struct Parts<'a> {
     pub bulk: &'a [f64],
 }
 
+/// η_k/(η_k + η_n) of two cells with these η.
+#[inline(always)]
+pub(super) fn part([own, other]: [f64; 2]) -> f64 {
+    if own == other { 0.5 } else { own / (own + other) }
+}
+
+/// [`Parts::velocity`] between these two.
+#[inline(always)]
+pub(super) fn velocity_between(part: f64, [own, other]: [f64; 2]) -> f64 {
+    0.5 * (own + other) + (part - 0.5) * (other - own)
+}
+
 impl Parts<'_> {
     /// η_k/(η_k + η_n) of the face between `k` and `n`.
     #[inline(always)]
     pub fn of(&self, k: usize, n: usize) -> f64 {
-        let [own, other] = [k, n].map(|k| 4.0 / 3.0 * self.shear[k] + self.bulk[k]);
-        if own == other { 0.5 } else { own / (own + other) }
+        part([k, n].map(|k| longitudinal([self.shear[k], self.bulk[k]])))
     }
 
     /// A component of the velocity on the face above cell `k`, m/s.
     #[inline(always)]
     pub fn velocity(&self, k: usize, step: usize, v: &[f64]) -> f64 {
-        let n = k + step;
-        0.5 * (v[k] + v[n]) + (self.of(k, n) - 0.5) * (v[n] - v[k])
+        velocity_between(self.of(k, k + step), [v[k], v[k + step]])
     }
 
     /// Twice τ_rr − τ_φφ of cell `k`, Pa: with the faces' τ_rr, and as much of their τ_φφ as the cell's own viscosity makes.
@@ -109,8 +182,14 @@ impl Parts<'_> {
     #[inline(always)]
     pub fn hoop(&self, k: usize, stride: usize, normal: &[f64], hoop: &[f64]) -> f64 {
         let below = k - stride;
-        let foreign =
-            |face: usize, other: usize| (1.0 - 2.0 * self.of(k, other)) * (normal[face] - hoop[face]);
-        (hoop[k] + hoop[below]) + (foreign(k, k + stride) + foreign(below, below))
+        let parts = [k + stride, below].map(|other| self.of(k, other));
+        hoop_of(parts, [normal[k], normal[below]], [hoop[k], hoop[below]])
     }
+}
+
+/// [`Parts::hoop`] of a cell, of the faces above and below it.
+#[inline(always)]
+pub(super) fn hoop_of(parts: [f64; 2], normal: [f64; 2], hoop: [f64; 2]) -> f64 {
+    let foreign = |face: usize| (1.0 - 2.0 * parts[face]) * (normal[face] - hoop[face]);
+    (hoop[0] + hoop[1]) + (foreign(0) + foreign(1))
 }
