@@ -16,8 +16,10 @@ use crate::state::conserved::MOMENTUM_R;
 use crate::state::primitive::{PHI, PRESSURE, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
+use crate::step::update::Metric;
 use crate::two_phase::{Compression, is_mixed, phase_densities};
 use layered::{Layers, SHEET, take_for_layers};
+use passes::OfCells;
 use stress::{FaceStress, Motion, Parts, stresses};
 use velocities::Velocities;
 
@@ -85,6 +87,11 @@ impl Viscosity {
         mirror_beyond_sides(block, [&mut *shear, &mut *bulk, &mut *spared, &mut *density, &mut *phi]);
         let [z, r] = std::array::from_fn(|_| FaceStress { normal: next(), shear: next(), hoop: next() });
         let metric = block.metric;
+        let most = most_diffusivity(metric.dt, metric.inverse_h);
+        // What differs among them is not looked at; nowhere is it bounded then.
+        let are_one = passes::is_uniform(shear) && passes::is_uniform(bulk);
+        let own = longitudinal([shear[metric.origin], bulk[metric.origin]]);
+        let may_be_bounded = !(are_one && own <= most * passes::least(density));
         let motion = Motion {
             velocity: [&*v_z, &*v_r],
             shear: &*shear,
@@ -93,12 +100,13 @@ impl Viscosity {
             stride: metric.stride,
             inverse_h: metric.inverse_h,
             inverse_r: block.inverse_r,
-            most: most_diffusivity(metric.dt, metric.inverse_h),
+            most,
+            may_be_bounded,
         };
         // From the outer ghosts' inner faces on, so that the first ghosts have all of theirs.
         let end = metric.origin + block.cells * metric.stride + block.cells;
         let (z_first, r_first) = (metric.origin - metric.stride - 2, metric.origin - 2 * metric.stride - 1);
-        let mut stresses_of = Stresses { velocity: [v_z, v_r], parts: Parts { shear, bulk }, z, r };
+        let mut stresses_of = Stresses { velocity: [v_z, v_r], parts: Parts { shear, bulk, are_one }, z, r };
         stresses(&motion, 0, z_first..end + 1, &mut stresses_of.z);
         stresses(&motion, 1, r_first..end + 1, &mut stresses_of.r);
         if is_layered {
@@ -181,8 +189,11 @@ impl Term for Viscosity {
     /// Half a step of ∇·τ/ρ, in the cells of the block and the first ghosts.
     fn predict(&self, block: &TermBlock<'_>, half: [&mut [f64]; 2], work: &mut Vec<f64>) {
         let Stresses { parts, z, r, .. } = self.stresses(block, work);
-        let of_cells = (parts, block.state[RHO], block.inverse_r);
-        passes::gain(of_cells, (block.metric, block.cells), [&z, &r], half);
+        let Metric { origin, stride, dt, inverse_h, .. } = *block.metric;
+        let cells =
+            OfCells { parts, density: block.state[RHO], inverse_r: block.inverse_r, inverse_h, stride };
+        let on_faces = ([&*z.normal, &*z.shear], [&*r.normal, &*r.shear, &*r.hoop]);
+        passes::gain(cells, (block.cells, origin, 0.5 * dt), on_faces, half);
     }
 
     fn add_fluxes(
@@ -218,7 +229,8 @@ impl Term for Viscosity {
     fn add_sources(&self, block: &TermBlock<'_>, _: [&FaceRows; 2], work: &[f64], block_rows: &mut [f64]) {
         let TermBlock { cells: n, metric, inverse_r, .. } = *block;
         let [_, _, shear, bulk, _, _, _, _, _, _, normal, _, hoop] = rows_of(work, block.state[RHO].len());
-        let parts = Parts { shear, bulk };
+        let are_one = passes::is_uniform(shear) && passes::is_uniform(bulk);
+        let parts = Parts { shear, bulk, are_one };
         let momentum = &mut block_rows[MOMENTUM_R * n * n..][..n * n];
         passes::add_hoop((parts, inverse_r), (metric, n), [normal, hoop], momentum);
     }

@@ -35,7 +35,7 @@ fn friction(cells: &FinishedCells<'_>, work: &[f64], (k, j): (usize, usize)) -> 
     let (metric, stride) = (cells.metric, cells.metric.stride);
     let [v_z, v_r, shear, bulk, _, _, _, z_normal, z_shear, _, r_normal, r_shear, hoop] =
         rows_of(work, cells.phi.len());
-    let parts = Parts { shear, bulk };
+    let parts = Parts { shear, bulk, are_one: false };
     let of = |face: usize, step: usize, stresses: [(&[f64], &[f64]); 2]| -> f64 {
         stresses.into_iter().map(|(stress, v)| stress[face] * (parts.velocity(face, step, v) - v[k])).sum()
     };

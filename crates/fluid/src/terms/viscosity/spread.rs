@@ -1,6 +1,7 @@
 //! Viscosity in many stages within one step.
 
 use super::layered::{SHEET, take_for_layers};
+use super::passes::{self, OfCells};
 use super::stress::{FaceStress, Motion, Parts, stresses};
 use super::velocities::{Sides, Velocities};
 use super::{
@@ -121,6 +122,7 @@ impl Spreading for Viscosity {
             inverse_h: frame.inverse_h,
             inverse_r: &frame.inverse_r,
             most: f64::INFINITY,
+            may_be_bounded: false,
         };
         let mut rows = fluxes.chunks_exact_mut(len);
         let [z_normal, z_shear, r_normal, r_shear, hoop] =
@@ -145,22 +147,12 @@ impl Spreading for Viscosity {
         let len = frame.inverse_r.len();
         let row = |number: usize| &fluxes[number * len..(number + 1) * len];
         let [z_normal, z_shear, r_normal, r_shear, hoop] = [0, 1, 2, 3, 4].map(row);
+        let parts = Parts { shear: &constants[..len], bulk: &constants[len..2 * len], are_one: false };
         let density = &constants[2 * len..3 * len];
-        let parts = Parts { shear: &constants[..len], bulk: &constants[len..2 * len] };
-        let ([inverse_z, inverse_h], stride) = (frame.inverse_h, frame.stride);
+        let Frame { inverse_h, stride, .. } = *frame;
+        let cells = OfCells { parts, density, inverse_r: &frame.inverse_r, inverse_h, stride };
+        let on_faces = ([z_normal, z_shear], [r_normal, r_shear, hoop]);
         let (along_z, along_r) = rates.split_at_mut(len);
-        for j in 0..frame.cells {
-            for k in (0..frame.cells).map(|i| frame.origin + j * stride + i) {
-                let inverse_r = frame.inverse_r[k];
-                let [low, high] = [-0.5, 0.5].map(|half| 1.0 + half * inverse_r / inverse_h);
-                let below = k - stride;
-                let force_z = inverse_z * (z_normal[k] - z_normal[k - 1])
-                    + inverse_h * (high * r_shear[k] - low * r_shear[below]);
-                let force_r = inverse_z * (z_shear[k] - z_shear[k - 1])
-                    + inverse_h * (r_normal[k] - r_normal[below])
-                    + 0.5 * inverse_r * parts.hoop(k, stride, r_normal, hoop);
-                (along_z[k], along_r[k]) = (force_z / density[k], force_r / density[k]);
-            }
-        }
+        passes::accelerations(cells, (frame.cells, frame.origin), on_faces, [along_z, along_r]);
     }
 }

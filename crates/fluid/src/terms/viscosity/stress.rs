@@ -23,6 +23,8 @@ pub(super) struct Motion<'a> {
     pub inverse_r: &'a [f64],
     /// The largest (4μ/3 + κ)/ρ that the step is stable with, m²/s.
     pub most: f64,
+    /// Whether cells may have more; if not no [`share`] is looked for.
+    pub may_be_bounded: bool,
 }
 
 /// Stresses on faces normal to n, one number each, indexed by the cell on the lower side.
@@ -97,12 +99,16 @@ impl<'a> AboutFaces<'a> {
 pub(super) fn stresses(m: &Motion<'_>, axis: usize, range: Range<usize>, out: &mut FaceStress<'_>) {
     let FaceStress { normal, shear, hoop } = out;
     let [normal, shear, hoop] = [normal, shear, hoop].map(|row| &mut row[range.clone()]);
-    stresses_body(m, axis, &range, normal, shear, hoop);
+    if m.may_be_bounded {
+        stresses_body::<true>(m, axis, &range, normal, shear, hoop);
+    } else {
+        stresses_body::<false>(m, axis, &range, normal, shear, hoop);
+    }
 }
 
 // The rows that are written as arguments of their own: so it is known that they are no others.
 #[inline(always)]
-fn stresses_body(
+fn stresses_body<const BOUNDED: bool>(
     m: &Motion<'_>,
     axis: usize,
     faces: &Range<usize>,
@@ -126,7 +132,7 @@ fn stresses_body(
         let divergence = stretch + sideways * w.along(k) + around;
         let (mu, kappa) = (mean(mu), mean(kappa));
         let least = if density[0][k] < density[1][k] { density[0][k] } else { density[1][k] };
-        let share = share(m.most * least, longitudinal([mu, kappa]));
+        let share = if BOUNDED { share(m.most * least, longitudinal([mu, kappa])) } else { 1.0 };
         let (mu, kappa) = (share * mu, share * kappa);
         normal[k] = 2.0 * mu * stretch + (kappa - 2.0 / 3.0 * mu) * divergence;
         shear[k] = mu * (across * w.across(k) + sideways * u.along(k));
@@ -149,12 +155,20 @@ pub(super) struct Parts<'a> {
     pub shear: &'a [f64],
     /// κ, likewise.
     pub bulk: &'a [f64],
+    /// Whether all of them are known to have the same ones.
+    pub are_one: bool,
 }
 
 /// η_k/(η_k + η_n) of two cells with these η.
 #[inline(always)]
 pub(super) fn part([own, other]: [f64; 2]) -> f64 {
     if own == other { 0.5 } else { own / (own + other) }
+}
+
+/// The same where they may be known to be equal.
+#[inline(always)]
+pub(super) fn part_if<const DIFFER: bool>(of: [f64; 2]) -> f64 {
+    if DIFFER { part(of) } else { 0.5 }
 }
 
 /// [`Parts::velocity`] between these two.
