@@ -301,11 +301,11 @@ impl Viscosity {
     fn count_bounded(&self, block: &TermBlock<'_>) -> u64 {
         let TermBlock { cells: n, metric, .. } = *block;
         let most = most_diffusivity(metric.dt, metric.inverse_h);
-        let is_bounded = |k: &usize| self.stiffest(block.state[PHI][*k]) > most * block.state[RHO][*k];
         (0..n)
-            .flat_map(|j| (0..n).map(move |i| metric.origin + j * metric.stride + i))
-            .filter(is_bounded)
-            .count() as u64
+            .map(|j| metric.origin + j * metric.stride)
+            .map(|first| [PHI, RHO].map(|component| &block.state[component][first..first + n]))
+            .map(|[phi, density]| passes::count_beyond(self, most, density, phi))
+            .sum()
     }
 }
 

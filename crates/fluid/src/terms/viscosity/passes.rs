@@ -63,6 +63,17 @@ pub(super) fn stiffest_per_density(of: &Viscosity, density: &[f64], phi: &[f64])
     most.into_iter().fold(rest, f64::max)
 }
 
+/// In how many cells [`Viscosity::stiffest`] is more than this times the density.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
+pub(super) fn count_beyond(of: &Viscosity, most: f64, density: &[f64], phi: &[f64]) -> u64 {
+    let density = &density[..phi.len()];
+    let mut count = 0;
+    for k in 0..phi.len() {
+        count += u64::from(of.stiffest(phi[k]) > most * density[k]);
+    }
+    count
+}
+
 /// Lets momentum and energy pass through faces: −τ and −τ·v.
 ///
 /// - `range`: of the cells below the faces, `step` to those above. `velocity`: normal and tangential. `fluxes`: of both momenta and the
