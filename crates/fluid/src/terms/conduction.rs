@@ -4,11 +4,12 @@ mod caloric;
 mod faces;
 mod layers;
 mod phases;
+mod rows;
 mod spread;
 
 use super::diffusion::{BY_STAGES, ThinGas, step_limit};
 use super::super_stepping::{Spreading, View};
-use super::{FinishedCells, GasMass, Term, TermBlock, for_cells_without_mid_step};
+use super::{FinishedCells, Term, TermBlock, for_cells_without_mid_step};
 use crate::state::primitive::{PHI, RHO};
 use crate::step::clips::Clips;
 use crate::step::face_rows::FaceRows;
@@ -74,26 +75,9 @@ impl Term for ConductionTerm {
         self.conductances(block, &mut work, true);
         work.conduct(block);
         Self::take_spread(block, &mut work);
-        let metric = block.metric;
-        let ([inverse_z, inverse_h], stride) = (metric.inverse_h, metric.stride);
         let Work { gain, fluxes: [z, r], .. } = work;
-        let side = block.cells + 2;
-        for first in (0..side).map(|j| metric.origin + j * stride - stride - 1) {
-            for k in first..first + side {
-                let inverse_r = block.inverse_r[k];
-                // r_j±1/2 / r_j.
-                let [low, high] = [-0.5, 0.5].map(|half| 1.0 + half * inverse_r / inverse_h);
-                let out = inverse_z * (z[k] - z[k - 1]) + inverse_h * (high * r[k] - low * r[k - stride]);
-                gain[k] = -0.5 * metric.dt * out;
-                let (rho, phi) = (block.before[RHO][k], block.before[PHI][k]);
-                let [beta1, _] = match block.gas {
-                    GasMass::Shares(shares) => self.mixture.free_betas::<true>(phi, rho, shares[k] * rho),
-                    GasMass::Unknown => self.mixture.free_betas::<false>(phi, rho, 0.0),
-                    GasMass::Absent => self.mixture.free_betas::<true>(0.0, rho, 0.0),
-                };
-                pressure[k] += gain[k] / beta1;
-            }
-        }
+        let cells = ([RHO, PHI].map(|component| block.before[component]), block.gas, block.inverse_r);
+        rows::gain(&self.mixture, (block.metric, block.cells), cells, [z, r], [gain, pressure]);
     }
 
     /// The conductances are those of the beginning of the step, as the predictor has left them.
@@ -142,11 +126,7 @@ impl Term for ConductionTerm {
             ThinGas::SuperTimeStepping => return Spreading::diffusivity(self, density, phi) / BY_STAGES,
         };
         let liquid = self.asked.liquid / c_l;
-        let of = |(density, phi): (&f64, &f64)| {
-            let phi = phi.clamp(0.0, 1.0);
-            (phi * gas + (1.0 - phi) * liquid) / density
-        };
-        density.iter().zip(phi).map(of).fold(0.0, f64::max)
+        rows::most_diffusivity([gas, liquid], density, phi)
     }
 
     fn step_limit(&self, widths: [f64; 2], diffusivity: f64) -> f64 {

@@ -37,3 +37,22 @@ pub(crate) fn most_diffusivity(dt: f64, [inverse_z, inverse_r]: [f64; 2]) -> f64
 pub(super) fn step_limit([h_z, h_r]: [f64; 2], diffusivity: f64) -> f64 {
     MOST_DIFFUSION / (diffusivity * (1.0 / (h_z * h_z) + 1.0 / (h_r * h_r)))
 }
+
+/// The largest of η(φ)/ρ in cells of these densities and gas fractions, at least 0; NaN is skipped. To be inlined where it may vectorise.
+#[inline(always)]
+pub(super) fn largest_per_density(density: &[f64], phi: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+    const LANES: usize = 16;
+    let larger = |most: f64, density: f64, phi: f64| {
+        let own = of(phi) / density;
+        if own > most { own } else { most }
+    };
+    let (densities, phis) = (density.as_chunks::<LANES>(), phi.as_chunks::<LANES>());
+    let mut most = [0.0; LANES];
+    for (density, phi) in densities.0.iter().zip(phis.0) {
+        for lane in 0..LANES {
+            most[lane] = larger(most[lane], density[lane], phi[lane]);
+        }
+    }
+    let rest = densities.1.iter().zip(phis.1).fold(0.0, |most, (density, phi)| larger(most, *density, *phi));
+    most.into_iter().fold(rest, f64::max)
+}

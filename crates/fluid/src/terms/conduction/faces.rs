@@ -139,9 +139,9 @@ impl ConductionTerm {
 
     /// Takes the temperatures of the padded cells of a block, and of what is beyond the domain.
     pub(super) fn gather(&self, rows: &Rows<'_>, block: &TermBlock<'_>, work: &mut Work<'_>) {
-        for k in 0..rows[RHO].len() {
-            work.set(k, self.heat_in(rows, block, k));
-        }
+        let Work { temperature, capacity, gas_share, .. } = work;
+        let cells = [rows[RHO], rows[PRESSURE], block.before[PHI]];
+        super::rows::heat(&self.caloric, cells, block.gas, [temperature, capacity, gas_share]);
         Work::set_beyond(block, work.temperature);
     }
 
@@ -167,7 +167,8 @@ impl ConductionTerm {
             };
             let range = face_range(block.cells, [metric.origin, metric.stride], step);
             if matches!(block.gas, GasMass::Absent) {
-                range.for_each(|k| conductance[k] = bounded(k, self.asked.liquid));
+                let of_step = (self.asked.liquid, most, inverse);
+                super::rows::conductances_of_liquid(of_step, (range, step), capacity, conductance);
                 continue;
             }
             for k in range {

@@ -7,6 +7,7 @@ use std::ops::Range;
 use super::stress::{Parts, hoop_of, part_if, velocity_between};
 use super::{FaceStress, Viscosity, longitudinal};
 use crate::step::update::Metric;
+use crate::terms::diffusion::largest_per_density;
 
 /// Where cells and their neighbours are in padded rows.
 struct Near {
@@ -47,20 +48,7 @@ pub(super) fn viscosities(of: &Viscosity, phi: &[f64], shear: &mut [f64], bulk: 
 /// The largest [`Viscosity::stiffest`] per density.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+fma+bmi2", "x86_64+avx2+fma+bmi2"))]
 pub(super) fn stiffest_per_density(of: &Viscosity, density: &[f64], phi: &[f64]) -> f64 {
-    const LANES: usize = 16;
-    let larger = |most: f64, density: f64, phi: f64| {
-        let own = of.stiffest(phi) / density;
-        if own > most { own } else { most }
-    };
-    let (densities, phis) = (density.as_chunks::<LANES>(), phi.as_chunks::<LANES>());
-    let mut most = [0.0; LANES];
-    for (density, phi) in densities.0.iter().zip(phis.0) {
-        for lane in 0..LANES {
-            most[lane] = larger(most[lane], density[lane], phi[lane]);
-        }
-    }
-    let rest = densities.1.iter().zip(phis.1).fold(0.0, |most, (density, phi)| larger(most, *density, *phi));
-    most.into_iter().fold(rest, f64::max)
+    largest_per_density(density, phi, |phi| of.stiffest(phi))
 }
 
 /// In how many cells [`Viscosity::stiffest`] is more than this times the density.
