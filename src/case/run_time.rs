@@ -8,6 +8,16 @@ use super::{Case, FluidCase, GridCase, SolidCase};
 const FLUID: f64 = 60.0;
 /// By how much the exact Riemann solver makes it longer; docs/performance/kernels.md.
 const EXACT: f64 = 3.0;
+/// What the fluid's terms and laws add to it, ns; docs/performance/two-phase.md.
+const MORE: Additions = Additions {
+    covolume: 15.0,
+    surface_tension: 50.0,
+    viscosity: 60.0,
+    conduction: 45.0,
+    equilibrium: 50.0,
+    kinetics: 110.0,
+    tracer: 25.0,
+};
 /// The same of a solid, ns.
 const SOLID: SolidCost = SolidCost { elastic: 30.0, yields: 42.0, with_rate_or_heat: 84.0 };
 /// Per cell in a snapshot, ns.
@@ -46,11 +56,40 @@ struct SolidCost {
     with_rate_or_heat: f64,
 }
 
+/// What a fluid costs by what is asked for besides waves of stiffened gases.
+struct Additions {
+    /// Noble–Abel laws.
+    covolume: f64,
+    surface_tension: f64,
+    viscosity: f64,
+    conduction: f64,
+    /// Phase change in equilibrium.
+    equilibrium: f64,
+    /// Phase change by Hertz and Knudsen.
+    kinetics: f64,
+    /// A passive tracer.
+    tracer: f64,
+}
+
 fn of_fluid(fluid: &FluidCase) -> f64 {
-    match fluid.riemann {
+    let waves = match fluid.riemann {
         fluid::RiemannSolver::Hllc | fluid::RiemannSolver::HllcLowMach => FLUID,
         fluid::RiemannSolver::Exact => EXACT * FLUID,
-    }
+    };
+    let terms = &fluid.terms;
+    let evaporation = terms.phase_change.map_or(0.0, |change| match change.law {
+        fluid::EvaporationLaw::Equilibrium => MORE.equilibrium,
+        fluid::EvaporationLaw::HertzKnudsen { .. } => MORE.kinetics,
+    });
+    let asked = [
+        (fluid.liquid.covolume + fluid.gas.covolume > 0.0, MORE.covolume),
+        (terms.surface_tension.is_some(), MORE.surface_tension),
+        (terms.viscosity.is_some(), MORE.viscosity),
+        (terms.conduction.is_some(), MORE.conduction),
+        (fluid.tracer.is_some(), MORE.tracer),
+    ];
+    let more: f64 = asked.into_iter().filter_map(|(is_asked, cost)| is_asked.then_some(cost)).sum();
+    waves + evaporation + more
 }
 
 fn of_solid(solid: &SolidCase) -> f64 {
@@ -114,6 +153,33 @@ mod tests {
         assert!((written / (0.5e-9 * SNAPSHOT * 50.0 * CELLS) - 1.0).abs() < 1e-9, "{written}");
         let rows = of("output.interface_every=1e-9", "") - elastic - besides;
         assert!((rows / (0.5e-9 * ROW * 128.0 * 990.0) - 1.0).abs() < 1e-9, "{rows}");
+    }
+
+    #[test]
+    fn terms_take_their_time() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/collapse.toml");
+        let of = |sets: &[&str]| {
+            let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+            let case = Case::load(&path, &sets).unwrap_or_else(|errors| panic!("{errors}"));
+            of_fluid(case.fluid.as_ref().expect("a fluid"))
+        };
+        let laws = ["fluid.liquid={fluid=\"water-nasg\"}", "fluid.gas={fluid=\"water-vapour\"}"];
+        let term = |own: &str| format!("fluid.terms={{{own}}}");
+        assert_eq!(of(&[]), FLUID);
+        assert_eq!(of(&["fluid.riemann=exact"]), EXACT * FLUID);
+        assert_eq!(of(&laws), FLUID + MORE.covolume);
+        let [viscous, tense, boils, evaporates] = [
+            "viscosity={liquid=1e-3,gas=1e-5}",
+            "surface_tension=0.07,viscosity={liquid=1e-3,gas=1e-5}",
+            "phase_change={law=\"ptg\"}",
+            "phase_change={law=\"hertz-knudsen\",accommodation=0.04},conduction={liquid=0.6,gas=0.02}",
+        ]
+        .map(term);
+        assert_eq!(of(&[&viscous]), FLUID + MORE.viscosity);
+        assert_eq!(of(&[&tense]), FLUID + MORE.viscosity + MORE.surface_tension);
+        let with_laws = |term: &str| of(&[laws[0], laws[1], term]) - FLUID - MORE.covolume;
+        assert_eq!(with_laws(&boils), MORE.equilibrium);
+        assert_eq!(with_laws(&evaporates), MORE.kinetics + MORE.conduction);
     }
 
     #[test]
