@@ -1,6 +1,7 @@
 //! Numbers that a unit was taken wrong in, and states that change at once.
 
-use fluid::{Phase, Shape};
+use fluid::{EvaporationLaw, Phase, Shape};
+use solid::InitialStress;
 
 use super::format::si;
 use super::{FluidCase, SolidCase};
@@ -64,10 +65,21 @@ fn cold_gas(fluid: &FluidCase, number: usize, warnings: &mut Vec<String>) {
     }
 }
 
-/// What a bubble's vapour does at once.
+/// The accommodation coefficient above which mixed cells condense no faster.
+const FASTEST: f64 = 0.1;
+
+/// What a bubble's vapour does at once, and what it cannot do.
 fn vapour(fluid: &FluidCase, (number, pressure): (usize, f64), warnings: &mut Vec<String>) {
     let (ambient, terms) = (&fluid.initial.ambient, &fluid.terms);
     let Some(change) = &terms.phase_change else { return };
+    if let EvaporationLaw::HertzKnudsen { accommodation } = change.law
+        && accommodation > FASTEST
+    {
+        warnings.push(format!(
+            "fluid.terms.phase_change.accommodation = {accommodation:?}: vapour that condenses on a bubble that collapses comes to its wall no faster \
+             than with about {FASTEST}, on any grid; see \"One velocity\" in docs/theory/phase-change.md"
+        ));
+    }
     let (Some(temperature), Some(saturated)) = fluid.warmth() else { return };
     let vapour = change.vapour_fraction * pressure;
     let ratio = saturated / vapour;
@@ -89,7 +101,9 @@ fn vapour(fluid: &FluidCase, (number, pressure): (usize, f64), warnings: &mut Ve
 }
 
 /// What of the solid's numbers is probably not meant.
-pub(super) fn solid(solid: &SolidCase, warnings: &mut Vec<String>) {
+///
+/// - `pressure`: of the fluid on it at first, Pa.
+pub(super) fn solid(solid: &SolidCase, pressure: f64, warnings: &mut Vec<String>) {
     let material = &solid.material;
     if !(SOUND[0]..=SOUND[1]).contains(&material.c1()) {
         warnings.push(format!(
@@ -98,6 +112,18 @@ pub(super) fn solid(solid: &SolidCase, warnings: &mut Vec<String>) {
         ));
     }
     let law = solid.plasticity.as_ref();
+    if let Some(strength) =
+        law.map(|law| law.yield_stress(0.0, 0.0, 0.0)).filter(|strength| pressure.abs() > *strength)
+        && solid.initial_stress == InitialStress::Uniaxial
+        && solid.initial.is_none()
+    {
+        warnings.push(format!(
+            "solid.initial_stress = \"uniaxial\" begins with a von Mises stress of {}, and the solid yields at {}: it flows at once, \
+             without a bubble; write solid.initial_stress = \"hydrostatic\"",
+            si(pressure.abs(), "Pa"),
+            si(strength, "Pa")
+        ));
+    }
     let strength = law.map_or(material.yield_strength(), |law| Some(law.yield_stress(0.0, 0.0, 0.0)));
     let share = strength.map(|strength| (strength, strength / material.young()));
     if let Some((strength, share)) = share.filter(|(_, share)| !(YIELD[0]..=YIELD[1]).contains(share)) {
@@ -147,5 +173,25 @@ mod tests {
             let told = warnings(sets);
             assert!(told.iter().any(|told| told.contains(words)), "{sets:?}: {told:?}");
         }
+    }
+
+    #[test]
+    fn a_solid_that_yields_before_anything_happens_is_warned_of() {
+        let pressed = "fluid.ambient.pressure=3e8";
+        let told =
+            |sets: &[&str]| warnings(sets).into_iter().filter(|own| own.contains("initial_stress")).count();
+        assert_eq!(told(&[pressed]), 1);
+        assert_eq!(told(&[pressed, "solid.initial_stress=hydrostatic"]), 0);
+        assert_eq!(told(&["fluid.ambient.pressure=2e8"]), 0);
+    }
+
+    #[test]
+    fn vapour_that_condenses_faster_than_cells_let_it_is_warned_of() {
+        let told = |accommodation: f64| {
+            let law =
+                format!("fluid.terms.phase_change={{law=\"hertz-knudsen\", accommodation={accommodation}}}");
+            warnings(&[&law]).into_iter().filter(|own| own.contains("accommodation")).count()
+        };
+        assert_eq!([told(0.04), told(0.1), told(0.4)], [0, 0, 1]);
     }
 }

@@ -71,6 +71,11 @@ fn threshold(mut table: Table<'_>, faults: &mut Faults) -> Option<f64> {
     Some(given.value)
 }
 
+/// Where what laws of both phases say of each other is looked at, K.
+const ROOM: f64 = 293.15;
+/// Liquids that anybody would let evaporate have more saturated vapour there, Pa; mercury has 0.2.
+const LEAST: f64 = 1e-9;
+
 /// Whether a case's phases can change into each other; if not it is refused.
 ///
 /// - `laws`: of liquid and gas.
@@ -92,6 +97,15 @@ pub(super) fn check(
         faults.of(asked, message, help);
         return;
     };
+    let at_room = saturation.pressure(ROOM);
+    if !(at_room > LEAST && at_room < Saturation::CRITICAL[1]) {
+        let message = format!(
+            "these laws of liquid and vapour are no pair: at {ROOM} K they have saturated vapour of {at_room:e} Pa"
+        );
+        let help = "water-nasg goes with water-vapour, water-2.35 with water-vapour-1.43; look at energy and entropy of both";
+        faults.of(asked, message, help);
+        return;
+    }
     let [critical_temperature, critical_pressure] = Saturation::CRITICAL;
     let states =
         initial.regions.iter().enumerate().map(|(k, region)| (format!("fluid.region.{k}"), &region.state));

@@ -55,7 +55,7 @@ impl Case {
             }
         }
         if let Some(solid) = &self.solid {
-            implausible::solid(solid, &mut warnings);
+            implausible::solid(solid, self.ambient_pressure(), &mut warnings);
             let [h_z, h_r] = solid.grid.cell_size();
             for (number, pulse) in solid.pulses.iter().enumerate() {
                 unresolved(

@@ -17,7 +17,7 @@ pub enum OutputError {
         source: io::Error,
     },
     /// The HDF5 library refused.
-    #[error("cannot {action} {}: {source}; is the disk full, or the file not one of this program's?", path.display())]
+    #[error("cannot {action} {}: {source}; {}", path.display(), remedy_of_file(path))]
     Hdf5 {
         /// The file.
         path: PathBuf,
@@ -102,6 +102,15 @@ impl OutputError {
     }
 }
 
+/// What the user can do about a file that the HDF5 library refuses.
+fn remedy_of_file(path: &Path) -> &'static str {
+    if path.exists() {
+        "is the disk full, or the file not one of this program's?"
+    } else {
+        "it is not there: was it moved or deleted?"
+    }
+}
+
 /// What the user can do about an error of the operating system.
 fn remedy(error: &io::Error) -> &'static str {
     use io::ErrorKind::{
@@ -109,7 +118,9 @@ fn remedy(error: &io::Error) -> &'static str {
         StorageFull,
     };
     match error.kind() {
-        PermissionDenied | ReadOnlyFilesystem => "choose a directory you may write to with --out",
+        PermissionDenied | ReadOnlyFilesystem => {
+            "make the directory writable, or choose another one with --out"
+        }
         StorageFull | QuotaExceeded => "free some space, or write fewer snapshots",
         FileTooLarge => {
             "files may not grow so long here (ulimit -f): raise the limit, or write fewer snapshots"

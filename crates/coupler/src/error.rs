@@ -93,7 +93,7 @@ pub enum CouplerError {
     },
     /// The two sides read different cases.
     #[error(
-        "the other side runs a different case ({}, here {}); start both from the same file",
+        "the other side runs a different case ({}, here {}); start both from the same file, with the same --set",
         hex(theirs),
         hex(ours)
     )]

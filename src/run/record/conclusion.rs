@@ -167,6 +167,9 @@ const FLOOR_BUDGET: f64 = 0.01;
 /// Share of the fluid's cell updates above which those done again at first order are worth a warning.
 const REDONE_BUDGET: f64 = 1e-3;
 
+/// Likewise above which gas that had to expand in liquid under tension is.
+const EXPANDED_BUDGET: f64 = 1e-4;
+
 /// What of a run's corrections is too much to be passed over.
 fn warnings(whole: &Map<String, Value>) -> Vec<String> {
     let share = whole.get("fixups").and_then(|fixups| fixups.get("floor_energy_share")?.as_f64());
@@ -195,7 +198,15 @@ fn warnings(whole: &Map<String, Value>) -> Vec<String> {
              allow more coupling.max_iterations, or take a smaller time.cfl"
             )
         });
-    floor.into_iter().chain(redone).chain(unsettled).chain(surface_warnings(whole)).collect()
+    let expanded = number(["fixups", "expanded_cells"]).zip(number(["cell_updates", "fluid"]));
+    let foam = expanded.map(|(cells, updates)| cells / updates).filter(|share| *share > EXPANDED_BUDGET).map(|share| {
+        format!(
+            "in {:.2} % of the fluid's cell updates gas expanded in liquid under tension (fixups.expanded_cells): traces of gas beside an \
+             interface open there into a foam that hangs on the grid; do not trust the gas's volume from then on, nor what comes of it",
+            100.0 * share
+        )
+    });
+    floor.into_iter().chain(redone).chain(foam).chain(unsettled).chain(surface_warnings(whole)).collect()
 }
 
 /// Depth of a pit over its radius above which strains are no longer small.
@@ -298,6 +309,17 @@ mod tests {
         // To be stopped is no failure.
         assert_eq!(failed_by(&[fine.clone(), fine], Some(&RunError::Interrupted)), Map::new());
         assert_eq!(failed_by(&[], Some(&RunError::Terminated)), Map::new());
+    }
+
+    #[test]
+    fn foam_in_tension_is_warned_of() {
+        let told = |cells: u64| {
+            let whole =
+                json!({ "fixups": { "expanded_cells": cells }, "cell_updates": { "fluid": 1_000_000 } });
+            warnings(whole.as_object().expect("an object"))
+        };
+        assert_eq!(told(100), Vec::<String>::new());
+        assert!(told(1900)[0].starts_with("in 0.19 % of the fluid's cell updates"), "{:?}", told(1900));
     }
 
     #[test]

@@ -74,7 +74,7 @@ static LIBRARY: [NamedFluid; 9] = [
         "water-2.35",
         law(2.35, 1e9, 0.0, heat(1816.0, -1_167e3, 0.0)),
         WATER,
-        "Le Metayer, Massoni & Saurel 2004, saturation from 298 to 473 K; dense by a quarter at room temperature",
+        "Le Metayer, Massoni & Saurel 2004, saturation from 298 to 473 K; dense by a third at room temperature",
     ),
     fluid(
         "water-nasg",

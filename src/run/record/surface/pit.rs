@@ -68,6 +68,20 @@ impl Profile<'_> {
         Some((after, self.centre(after - 1) + share * self.width))
     }
 
+    /// Half the width of the pit, m, where it is half as deep as at its deepest; in axial symmetry the radius out there.
+    fn half_width(&self, depths: &[f64], deepest: usize, level: f64) -> Option<f64> {
+        let (_, outer) = self.crossing(depths, deepest, level)?;
+        if self.geometry == Geometry::Axisymmetric {
+            return Some(outer);
+        }
+        // A pit that reaches the end of the wall goes on beyond it as in a mirror.
+        let before = (0..deepest).rfind(|k| depths[*k] <= level);
+        Some(before.map_or(outer - self.begin, |before| {
+            let share = (depths[before + 1] - level) / (depths[before + 1] - depths[before]);
+            0.5 * (outer - (self.centre(before + 1) - share * self.width))
+        }))
+    }
+
     /// The pit.
     pub fn pit(&self) -> Pit {
         let far = far(self.displacement);
@@ -85,7 +99,7 @@ impl Profile<'_> {
         Pit {
             depth,
             depth_axis,
-            radius: self.crossing(&depths, deepest, 0.5 * depth).map(|(_, r)| r),
+            radius: self.half_width(&depths, deepest, 0.5 * depth),
             volume: (begin..end).map(|k| depths[k] * self.area(k)).sum(),
             rim: depths[..begin].iter().chain(&depths[end..]).fold(0.0, |rim, depth| rim.max(-depth)),
         }
@@ -171,6 +185,15 @@ mod tests {
         near("on the axis", pit.depth_axis, 1e-6, 1e-6);
         near("volume", pit.volume, 1e-6 * std::f64::consts::PI.sqrt(), 1e-3);
         near("radius", pit.radius.expect("there is one"), std::f64::consts::LN_2.sqrt(), 1e-3);
+    }
+
+    #[test]
+    fn in_the_plane_a_pit_is_as_wide_wherever_it_is() {
+        for (begin, place) in [(-8.0, 0.0), (-8.0, 3.0), (-8.0, -2.0), (0.0, 4.0), (0.0, 0.0), (-3.0, -3.0)] {
+            let (width, u) = profile(800, [begin, begin + 16.0], |r| -1e-6 * (-(r - place).powi(2)).exp());
+            let pit = Profile { begin, width, geometry: Geometry::Planar, displacement: &u }.pit();
+            near("radius", pit.radius.expect("there is one"), std::f64::consts::LN_2.sqrt(), 1e-3);
+        }
     }
 
     #[test]
