@@ -141,6 +141,12 @@ impl<M: Medium> Alone<M> {
         checked(dt)?;
         let mut parts = self.parts()?;
         let given = Given::new(parts.solver.interface().faces(), pressure, velocity, power)?;
+        let most = parts.solver.time_step_limit(parts.cfl.max(STABLE));
+        if dt > most * (1.0 + 1e-9) {
+            return Err(PyValueError::new_err(format!(
+                "dt = {dt:e} s: a step of more than {most:e} s is not stable in these cells; take time_step_limit(), or several steps"
+            )));
+        }
         let parts = &mut *parts;
         py.detach(|| {
             guarded(|| {
@@ -169,6 +175,9 @@ impl<M: Medium> Alone<M> {
         Ok(self.parts()?.solver.interface().states().iter().map(of).collect::<Vec<f64>>().into_pyarray(py))
     }
 }
+
+/// The Courant number that steps of any length that is asked for may have with square cells, where both directions add up.
+const STABLE: f64 = 0.5;
 
 fn checked(dt: f64) -> PyResult<()> {
     match dt > 0.0 && dt.is_finite() {

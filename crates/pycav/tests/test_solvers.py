@@ -131,6 +131,8 @@ def test_what_makes_no_sense_is_refused(small, root):
         solid.step(-1.0, pressure=5e7)
     with pytest.raises(ValueError, match="both"):
         solid.step(dt, pressure=5e7, power=0.0)
+    with pytest.raises(ValueError, match=r"dt = .* is not stable in these cells; take time_step_limit\(\)"):
+        solid.step(3.0 * solid.time_step_limit(), pressure=5e7)
     with pytest.raises(ValueError, match="no solid"):
         pycav.SolidSolver(pycav.Case(root / "cases/shock-tube.toml"))
     assert fluid.steps == solid.steps == 0
