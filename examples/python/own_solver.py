@@ -26,10 +26,11 @@ areas = np.pi * np.diff(edges**2)
 place, velocity, rows = 0.0, 0.0, []
 while fluid.time < 60e-6:
     dt = fluid.time_step_limit()
-    # The plate feels the mean pressure that a plate with its present velocity would feel in this step.
+    # What the plate feels is p = felt + Z v; implicit in v, which is stable whatever the mass.
     trace = fluid.trace(dt)
-    pressure = np.average(trace["pressure"] + trace["impedance"] * (velocity - trace["velocity"]), weights=areas)
-    velocity += dt * (REST - pressure - STIFFNESS * place) / MASS
+    felt = trace["pressure"] - trace["impedance"] * trace["velocity"]
+    felt, Z = (np.average(values, weights=areas) for values in (felt, trace["impedance"]))
+    velocity += dt * (REST - felt - STIFFNESS * place - Z * velocity) / (MASS + dt * Z)
     place += dt * velocity
     fluid.step(dt, velocity=velocity)
     rows.append((fluid.time, place, velocity, np.average(fluid.surface_pressure, weights=areas)))

@@ -54,9 +54,11 @@ def ours(options, solver, cells, exact):
 
 def check(cells):
     """The solver of Euler's equations against another of the same, with a tracked interface: a collapse from uniform pressure."""
-    time, radius, _ = euler(RADIUS, 1e5, 1e6, 1000.0, 36e-6, gas_density=1.2, cells=cells, reach=80.0, stiffness=3e8, laplace=False)
+    with np.errstate(invalid="ignore"):  # too few cells: the first wave turns one inside out
+        time, radius, _ = euler(RADIUS, 1e5, 1e6, 1000.0, 36e-6, gas_density=1.2, cells=cells, reach=80.0, stiffness=3e8, laplace=False)
     k = int(radius.argmin())
-    print(f"\n10⁵ Pa in 10⁶ Pa: {radius[k] / RADIUS:.5f} at {time[k] * 1e6:.3f} µs; by a tracked interface 0.28856 at 32.232 µs.")
+    found = f"{radius[k] / RADIUS:.5f} at {time[k] * 1e6:.3f} µs" if np.isfinite(radius[k]) else f"– (more cells than {cells} are needed)"
+    print(f"\n10⁵ Pa in 10⁶ Pa: {found}; by a tracked interface 0.28856 at 32.232 µs.")
 
 
 def their_isentrope(directory):

@@ -16,9 +16,6 @@ pub(super) struct What {
     /// Change a key of the case for this run, as fluid.region.0.radius=0.01; may be given several times. `cav keys` lists them.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
-    /// Replace a finished run in the directory; with --refine those of other cases. Only files of a run are deleted.
-    #[arg(long)]
-    pub force: bool,
 }
 
 /// How it is run.
@@ -45,6 +42,9 @@ pub(super) struct RunArgs {
     pub case: Option<PathBuf>,
     #[command(flatten)]
     pub what: What,
+    /// Replace a finished run in the directory; with --refine those of other cases. Only files of a run are deleted.
+    #[arg(long)]
+    pub force: bool,
     /// Go on with the run in DIR from its newest checkpoint.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, conflicts_with_all = ["case", "out", "sets", "force"])]
     pub resume: Option<PathBuf>,
@@ -71,6 +71,9 @@ pub(super) struct SideArgs {
     pub case: PathBuf,
     #[command(flatten)]
     pub what: What,
+    /// Replace a finished run in the directory. Only files of a run are deleted.
+    #[arg(long)]
+    pub force: bool,
     #[command(flatten)]
     pub how: How,
     /// The run's name, the same on both sides: 1 to 64 of A-Z a-z 0-9 _ . -. Two runs on one machine must differ in it.

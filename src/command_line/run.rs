@@ -19,12 +19,12 @@ use crate::run::process::launch_options::Options;
 use crate::run::process::stop::Stop;
 use crate::run::{RunError, resume, run};
 
-fn options(case: &Path, what: &What, how: &How) -> Options {
+fn options(case: &Path, what: &What, force: bool, how: &How) -> Options {
     Options {
         case_path: case.to_path_buf(),
         sets: what.sets.clone(),
         out: what.out.clone(),
-        force: what.force,
+        force,
         in_process: false,
         threads: how.threads.map(usize::from),
         checkpoint_every: how.checkpoint_every.0,
@@ -44,7 +44,7 @@ pub(super) fn run_case(args: &RunArgs, program: &[OsString]) -> Result<(), RunEr
         program: program.to_vec(),
         in_process: args.in_process,
         end: args.end,
-        ..options(path, &args.what, &args.how)
+        ..options(path, &args.what, args.force, &args.how)
     };
     let log = |directory: &Path| log_to(directory, options.verbosity, true);
     if let Some(directory) = &args.resume {
@@ -75,7 +75,7 @@ fn refine(grids: usize, options: &Options) -> Result<(), RunError> {
 
 /// `cav fluid` and `cav solid`.
 pub(super) fn side(args: &SideArgs, participant: Participant) -> Result<(), RunError> {
-    let common = options(&args.case, &args.what, &args.how);
+    let common = options(&args.case, &args.what, args.force, &args.how);
     let options = Options { from: args.from, name: args.name.clone(), ..common };
     let mut case = Case::load(&options.case_path, &options.sets)?;
     if let Some(name) = &options.name {

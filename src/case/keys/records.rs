@@ -31,7 +31,8 @@ pub(super) static RECORDS: [Section; 3] = [
         repeated: true,
         title: "Probes",
         about: "Points at which every step is recorded, from the linear reconstruction in the cell. On the interface, also \
-                under a load, pressure and v_z (solid: σ_zz and v_z) are those of the star state, and the shear is zero.",
+                under a load, pressure and v_z (solid: σ_zz and v_z) are those of the star state, and the shear is that of \
+                the fluid's friction, zero without viscosity.",
         keys: &[
             NAME,
             Key {

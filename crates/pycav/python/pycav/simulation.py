@@ -97,13 +97,17 @@ class Simulation:
         self._native.run_to_end(None if callback is None else lambda: callback(self), progress)
 
     def fields(self, medium: str) -> Cells:
-        """The leaf cells of a medium, "fluid" or "solid", with its fields: copies of shape (cells,)."""
+        """The leaf cells of a medium, "fluid" or "solid", with its fields: copies of shape (cells,).
+
+        The fluid's temperature, tracer and vapour are not among them: snapshots have them.
+        """
         return Cells(self._native.cells(medium), self.time)
 
     def sample(self, medium: str, z: ArrayLike, r: ArrayLike) -> dict[str, Array]:
         """A medium on the grid of the coordinates `z` and `r` in m: arrays of shape (len(z), len(r)), NaN outside.
 
-        Values are those of the linear reconstruction in the cell that holds the point.
+        Values are those of the linear reconstruction in the cell that holds the point. They are those of the state alone; temperature,
+        tracer, vapour and plastic strain are in snapshots.
         """
         along_z, along_r = (np.atleast_1d(np.asarray(x, float)) for x in (z, r))
         return self._native.sample(medium, along_z, along_r)

@@ -54,7 +54,8 @@ class _Solver:
 
         - `pressure`: −σ_zz on the surface, Pa; `velocity`: along +z, m/s. Of one alone the other follows from the wave that
           runs into the medium; both are taken as they are: the star state of a coupling of your own.
-        - `power`: mean of pressure times velocity, W/m²; their product if left out.
+        - One of pressure and velocity is needed where the medium has a surface.
+        - `power`: mean of pressure times velocity, W/m², only with both; their product if left out.
         - errors: ValueError for a `dt` with a Courant number above 0.5 (or the case's `time.cfl`, if that is more): `time_step_limit()` is
           always taken.
         """

@@ -73,8 +73,9 @@ class Bubble:
 
     @property
     def collapse_time(self) -> float:
-        """Rayleigh's, 0.915 R₀ √(ρ/Δp) with Δp = p∞ − p_gas, s."""
-        return RAYLEIGH_FACTOR * self.radius * float(np.sqrt(self.density / (self.pressure - self.gas_pressure)))
+        """Rayleigh's, 0.915 R₀ √(ρ/Δp) with Δp = p∞ − p_gas, s; NaN where the gas has p∞ or more."""
+        driving = self.pressure - self.gas_pressure
+        return RAYLEIGH_FACTOR * self.radius * float(np.sqrt(self.density / driving)) if driving > 0 else float("nan")
 
     def rayleigh(self, points: int = 400) -> tuple[Floats, Floats]:
         """Times in s and radii in m of the collapse at constant Δp in incompressible liquid, to R = 0.
