@@ -139,3 +139,9 @@ fn a_missing_file_and_a_directory_are_named() {
     let errors = Case::load(&path, &[]).expect_err("no text").to_string();
     assert!(errors.contains("UTF-8"), "{errors}");
 }
+
+#[test]
+fn no_snapshots_but_the_first_and_the_last_may_be_asked_of_any_case() {
+    let case = with(&["time.snapshot_every=3.1e-7", "time.snapshots=[]"]);
+    assert_eq!(case.time.snapshots, [0.0, case.time.end]);
+}

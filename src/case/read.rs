@@ -151,7 +151,8 @@ fn time(root: &mut Table<'_>, faults: &mut Faults) -> Option<Time> {
     let every = table.number("snapshot_every", faults);
     table.finish(faults);
 
-    if let (Some(_), Some(every)) = (&snapshots, &every) {
+    // No snapshots at all is what `--set` may ask of any case.
+    if let (Some(_), Some(every)) = (snapshots.as_ref().filter(|given| !given.value.is_empty()), &every) {
         faults.of(every, "snapshots and snapshot_every exclude each other", "remove one of the two");
     }
     let end = end?;

@@ -102,7 +102,8 @@ pub(super) fn check(
         let message = format!(
             "these laws of liquid and vapour are no pair: at {ROOM} K they have saturated vapour of {at_room:e} Pa"
         );
-        let help = "water-nasg goes with water-vapour, water-2.35 with water-vapour-1.43; look at energy and entropy of both";
+        let help = "water-nasg goes with water-vapour, water-2.35 with water-vapour-1.43; look at gamma, pi, covolume, heat_capacity, \
+                    energy and entropy of fluid.liquid and fluid.gas";
         faults.of(asked, message, help);
         return;
     }

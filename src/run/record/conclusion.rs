@@ -63,7 +63,8 @@ pub fn conclude(
     whole.extend(per_volume.map(|work| ("work_per_pit_volume".to_owned(), work)));
     whole.extend(cells.map(|cells| ("cells_per_smallest_radius".to_owned(), json!(cells))));
     let zone = case.solid.as_ref().and_then(|solid| zone_warning(&whole, solid));
-    let warnings: Vec<String> = warnings(&whole).into_iter().chain(zone).collect();
+    let strain = case.solid.as_ref().and_then(|solid| strain_warning(&whole, solid));
+    let warnings: Vec<String> = warnings(&whole).into_iter().chain(zone).chain(strain).collect();
     for warning in &warnings {
         tracing::warn!("{warning}");
     }
@@ -233,6 +234,24 @@ fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> 
     deep.into_iter().chain(moves)
 }
 
+/// The share of Young's modulus in a von Mises stress above which elastic strains are no longer small.
+const LARGEST_STRAIN: f64 = 0.05;
+
+/// What has to be said of an elastic solid that is soft for what acts on it; of one that yields its pit says so.
+fn strain_warning(whole: &Map<String, Value>, solid: &SolidCase) -> Option<String> {
+    let stress =
+        whole.get("von_mises_peak").and_then(Value::as_f64).filter(|_| solid.plasticity.is_none())?;
+    let strain = stress / solid.material.young();
+    (strain > LARGEST_STRAIN).then(|| {
+        format!(
+            "the largest von Mises stress is {:.0} % of Young's modulus; above {:.0} % strains are no longer small, and the solid's equations \
+             are for small ones",
+            100.0 * strain,
+            100.0 * LARGEST_STRAIN
+        )
+    })
+}
+
 /// What has to be said of a plastic zone that reaches the sides of the solid beyond which there is more of it.
 fn zone_warning(whole: &Map<String, Value>, solid: &SolidCase) -> Option<String> {
     let number = |key: &str| whole.get(key).and_then(Value::as_f64);
@@ -323,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plastic_zone_that_reaches_a_side_that_absorbs_is_warned_of() {
+    fn plastic_zones_that_reach_sides_that_absorb_and_large_elastic_strains_are_warned_of() {
         let solid = |sets: &[&str]| {
             let text = "[time]\nend = 1e-7\n[solid]\nz = [-4e-3, 0.0]\nr = [0.0, 3e-3]\ncells = [64, 48]\nmaterial = \"structural-steel\"\n\
                         [coupling]\nscheme = \"load\"\n[coupling.load]\namplitude = 1e9\nradius = 1e-3\nhistory = [[0.0, 0.0], [1e-8, 1.0]]\n";
@@ -342,6 +361,13 @@ mod tests {
         }
         let closed = solid(&["solid.boundary.z_min=\"fixed\"", "solid.boundary.r_max=\"free\""]);
         assert_eq!(told(&closed, 4e-3, 3e-3), None);
+        let strained = |stress: f64| {
+            let whole = json!({ "von_mises_peak": stress });
+            strain_warning(whole.as_object().expect("an object"), &open)
+        };
+        let young = open.material.young();
+        assert_eq!(strained(0.04 * young), None);
+        assert!(strained(0.06 * young).is_some_and(|words| words.contains("6 % of Young's modulus")));
     }
 
     #[test]

@@ -88,7 +88,7 @@ impl Viscosity {
         let [z, r] = std::array::from_fn(|_| FaceStress { normal: next(), shear: next(), hoop: next() });
         let metric = block.metric;
         let most = most_diffusivity(metric.dt, metric.inverse_h);
-        // What differs among them is not looked at; nowhere is it bounded then.
+        // Cells of one viscosity meet half-way, and where the lightest of them bears it no share of it has to be found.
         let are_one = passes::is_uniform(shear) && passes::is_uniform(bulk);
         let own = longitudinal([shear[metric.origin], bulk[metric.origin]]);
         let may_be_bounded = !(are_one && own <= most * passes::least(density));

@@ -141,3 +141,50 @@ pub(super) fn most_diffusivity([gas, liquid]: [f64; 2], density: &[f64], phi: &[
         phi * gas + (1.0 - phi) * liquid
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::NamedFluid;
+
+    #[test]
+    fn rows_have_the_heat_of_their_cells() {
+        let [liquid, gas] =
+            ["water-nasg", "air"].map(|name| NamedFluid::of(name).expect("it is in the library").law);
+        let caloric = Caloric::of(&Mixture::new(liquid, gas)).expect("both have heat capacities");
+        let phi: Vec<f64> = (0..37).map(|k| (f64::from(k) * 0.7).sin().max(0.0)).collect();
+        let pressure: Vec<f64> = (0..37).map(|k| 1e5 * f64::from(k + 1)).collect();
+        let density: Vec<f64> = phi.iter().map(|phi| 1000.0 - 998.0 * phi).collect();
+        let shares: Vec<f64> = phi.iter().zip(&density).map(|(phi, density)| phi * 1.2 / density).collect();
+        for kind in [GasMass::Absent, GasMass::Unknown, GasMass::Shares(&shares)] {
+            let mut found = [0, 1, 2].map(|_| vec![0.0; 37]);
+            heat(&caloric, [&density, &pressure, &phi], kind, found.each_mut().map(|row| &mut row[..]));
+            for k in 0..37 {
+                let expected = match kind {
+                    GasMass::Absent => caloric.of_phases([density[k], pressure[k], 0.0], 0.0),
+                    GasMass::Unknown => caloric.of_mixture([density[k], pressure[k], phi[k]]),
+                    GasMass::Shares(_) => {
+                        caloric.of_phases([density[k], pressure[k], phi[k]], shares[k] * density[k])
+                    }
+                };
+                let CellHeat { temperature, capacity, gas_share } = expected;
+                assert_eq!(found.each_ref().map(|row| row[k]), [temperature, capacity, gas_share], "{k}");
+            }
+        }
+    }
+
+    #[test]
+    fn liquid_conducts_no_more_than_the_cell_of_less_heat_capacity_bears() {
+        let capacity: Vec<f64> = (0..40).map(|k| 1.0 + f64::from(k % 7)).collect();
+        let mut conductance = vec![0.0; 40];
+        conductances_of_liquid((2.5, 0.8, 10.0), (3..30, 4), &capacity, &mut conductance);
+        for k in 0..40 {
+            let expected = if (3..30).contains(&k) {
+                10.0 * (0.8 * capacity[k].min(capacity[k + 4])).min(2.5)
+            } else {
+                0.0
+            };
+            assert_eq!(conductance[k], expected, "{k}");
+        }
+    }
+}

@@ -286,3 +286,7 @@ impl<'a> Around<'a> {
         hoop_of(parts, [normal[0][k], normal[1][k]], [hoop[0][k], hoop[1][k]])
     }
 }
+
+#[cfg(test)]
+#[path = "passes_tests.rs"]
+mod tests;
