@@ -4,6 +4,7 @@ use mesh::Side;
 
 use super::ConductionTerm;
 use super::caloric::CellHeat;
+use super::rows::{bounded, conductances_of_liquid, heat};
 use crate::phase_change::holds_both;
 use crate::reconstruction::Rows;
 use crate::state::primitive::{PHI, PRESSURE, RHO};
@@ -141,7 +142,7 @@ impl ConductionTerm {
     pub(super) fn gather(&self, rows: &Rows<'_>, block: &TermBlock<'_>, work: &mut Work<'_>) {
         let Work { temperature, capacity, gas_share, .. } = work;
         let cells = [rows[RHO], rows[PRESSURE], block.before[PHI]];
-        super::rows::heat(&self.caloric, cells, block.gas, [temperature, capacity, gas_share]);
+        heat(&self.caloric, cells, block.gas, [temperature, capacity, gas_share]);
         Work::set_beyond(block, work.temperature);
     }
 
@@ -160,15 +161,10 @@ impl ConductionTerm {
         for ((axis, step), conductance) in [1, metric.stride].into_iter().enumerate().zip(&mut *conductances)
         {
             let inverse = metric.inverse_h[axis];
-            let bounded = |k: usize, conductivity: f64| {
-                let (low, high) = (capacity[k], capacity[k + step]);
-                let bound = most * if low < high { low } else { high };
-                inverse * if conductivity > bound { bound } else { conductivity }
-            };
             let range = face_range(block.cells, [metric.origin, metric.stride], step);
             if matches!(block.gas, GasMass::Absent) {
                 let of_step = (self.asked.liquid, most, inverse);
-                super::rows::conductances_of_liquid(of_step, (range, step), capacity, conductance);
+                conductances_of_liquid(of_step, (range, step), capacity, conductance);
                 continue;
             }
             for k in range {
@@ -182,8 +178,8 @@ impl ConductionTerm {
                     && [(low, low_share), (high, high_share)]
                         .into_iter()
                         .all(|(phi, gas_share)| holds_both(phi) && gas_share < 0.5);
-                conductance[k] =
-                    bounded(k, if by_vapour { self.asked.gas.max(self.asked.liquid) } else { layers });
+                let conductivity = if by_vapour { self.asked.gas.max(self.asked.liquid) } else { layers };
+                conductance[k] = inverse * bounded(conductivity, most, [capacity[k], capacity[k + step]]);
             }
         }
         for (side, kind) in block.bounding_sides() {
@@ -196,8 +192,7 @@ impl ConductionTerm {
                     let share = gas_share[inner].clamp(0.0, 1.0);
                     let within = self.resistivity.to_face(own, share, own > next);
                     let conductivity = 1.0 / (within + resistance * metric.inverse_h[axis]);
-                    let bound = most * capacity[inner];
-                    metric.inverse_h[axis] * if conductivity > bound { bound } else { conductivity }
+                    metric.inverse_h[axis] * bounded(conductivity, most, [capacity[inner]; 2])
                 });
                 conductances[axis][inner.min(ghost)] = through;
             }

@@ -128,9 +128,15 @@ pub(super) fn conductances_of_liquid(
     let (low, high) = (&capacity[first..][..n], &capacity[first + step..][..n]);
     let conductance = &mut conductance[faces];
     for k in 0..n {
-        let bound = most * if low[k] < high[k] { low[k] } else { high[k] };
-        conductance[k] = inverse_h * if conductivity > bound { bound } else { conductivity };
+        conductance[k] = inverse_h * bounded(conductivity, most, [low[k], high[k]]);
     }
+}
+
+/// A conductivity, but no more than the cell of less heat capacity bears in a step.
+#[inline(always)]
+pub(super) fn bounded(conductivity: f64, most: f64, [low, high]: [f64; 2]) -> f64 {
+    let bound = most * if low < high { low } else { high };
+    if conductivity > bound { bound } else { conductivity }
 }
 
 /// The largest of λ/C per density, of mixtures of gas and liquid that have these.

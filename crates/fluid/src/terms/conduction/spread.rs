@@ -32,11 +32,7 @@ impl Spreading for ConductionTerm {
     fn diffusivity(&self, density: &[f64], phi: &[f64]) -> f64 {
         let [c_g, c_l] = self.caloric.capacities();
         let [gas, liquid] = [2.0 * self.asked.gas / c_g, self.asked.liquid / c_l];
-        let of = |(density, phi): (&f64, &f64)| {
-            let phi = phi.clamp(0.0, 1.0);
-            (phi * gas + (1.0 - phi) * liquid) / density
-        };
-        density.iter().zip(phi).map(of).fold(0.0, f64::max)
+        super::rows::most_diffusivity([gas, liquid], density, phi)
     }
 
     /// The largest rate of decay is no more than twice the largest Σ G_f A_f/(C V) of a cell (Gershgorin).

@@ -9,6 +9,7 @@ use super::{
 };
 use crate::Boundary;
 use crate::state::primitive::{PHI, RHO};
+use crate::terms::diffusion::largest_per_density;
 use crate::terms::super_stepping::{Frame, Shape, Spreading, View};
 use crate::terms::{TermBlock, WallCell, for_cells_without_mid_step};
 
@@ -35,10 +36,7 @@ impl Spreading for Viscosity {
     /// (4μ/3 + κ)/ρ; of gas that of liquid over its density, which it may have on faces towards mixed cells.
     fn diffusivity(&self, density: &[f64], phi: &[f64]) -> f64 {
         let liquid = longitudinal([self.liquid.shear, self.liquid.bulk]);
-        let of = |(density, phi): (&f64, &f64)| {
-            if *phi > 1e-3 { self.most() / density } else { liquid / density }
-        };
-        density.iter().zip(phi).map(of).fold(0.0, f64::max)
+        largest_per_density(density, phi, |phi| if phi > 1e-3 { self.most() } else { liquid })
     }
 
     fn begin(&self, block: &TermBlock<'_>, _work: &mut Vec<f64>, kept: [&mut [f64]; 2]) -> f64 {
