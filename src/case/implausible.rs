@@ -1,6 +1,6 @@
 //! Numbers that a unit was taken wrong in, and states that change at once.
 
-use fluid::{EvaporationLaw, Phase, Shape};
+use fluid::{Phase, Shape};
 use solid::InitialStress;
 
 use super::format::si;
@@ -65,21 +65,10 @@ fn cold_gas(fluid: &FluidCase, number: usize, warnings: &mut Vec<String>) {
     }
 }
 
-/// The accommodation coefficient above which mixed cells condense no faster.
-const FASTEST: f64 = 0.1;
-
-/// What a bubble's vapour does at once, and what it cannot do.
+/// What a bubble's vapour does at once.
 fn vapour(fluid: &FluidCase, (number, pressure): (usize, f64), warnings: &mut Vec<String>) {
     let (ambient, terms) = (&fluid.initial.ambient, &fluid.terms);
     let Some(change) = &terms.phase_change else { return };
-    if let EvaporationLaw::HertzKnudsen { accommodation } = change.law
-        && accommodation > FASTEST
-    {
-        warnings.push(format!(
-            "fluid.terms.phase_change.accommodation = {accommodation:?}: vapour that condenses on a bubble that collapses comes to its wall no faster \
-             than with about {FASTEST}, on any grid; see \"One velocity\" in docs/theory/phase-change.md"
-        ));
-    }
     let (Some(temperature), Some(saturated)) = fluid.warmth() else { return };
     let vapour = change.vapour_fraction * pressure;
     let ratio = saturated / vapour;
@@ -183,15 +172,5 @@ mod tests {
         assert_eq!(told(&[pressed]), 1);
         assert_eq!(told(&[pressed, "solid.initial_stress=hydrostatic"]), 0);
         assert_eq!(told(&["fluid.ambient.pressure=2e8"]), 0);
-    }
-
-    #[test]
-    fn vapour_that_condenses_faster_than_cells_let_it_is_warned_of() {
-        let told = |accommodation: f64| {
-            let law =
-                format!("fluid.terms.phase_change={{law=\"hertz-knudsen\", accommodation={accommodation}}}");
-            warnings(&[&law]).into_iter().filter(|own| own.contains("accommodation")).count()
-        };
-        assert_eq!([told(0.04), told(0.1), told(0.4)], [0, 0, 1]);
     }
 }

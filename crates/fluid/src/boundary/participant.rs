@@ -158,6 +158,7 @@ impl<const N: usize> FluidSolver<N> {
             wall: Some(around),
             capillary,
             gas: GasMass::Absent,
+            vapour: None,
             closure: None,
             heat_beyond: HeatBeyond::Nothing,
             spread: None,

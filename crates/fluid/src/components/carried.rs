@@ -85,6 +85,13 @@ impl CarriedScratch {
         }
     }
 
+    /// Adds to the fluxes along z and r.
+    pub fn add(&mut self, more: [&[f64]; 2]) {
+        for (fluxes, more) in self.fluxes.iter_mut().zip(more) {
+            fluxes.iter_mut().zip(more).for_each(|(flux, more)| *flux += more);
+        }
+    }
+
     /// The component's new cells: ρY of the beginning less what has left through the faces.
     pub fn update<const N: usize>(&self, old: &[f64], metric: &Metric<'_>, new: &mut [f64]) {
         let [z, r] = &self.fluxes;

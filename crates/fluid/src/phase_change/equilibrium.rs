@@ -12,13 +12,13 @@ struct Mixed {
 }
 
 /// The least mass of vapour, and of liquid, that is left, relative to that of the cell.
-const LEAST: f64 = 1e-10;
+const LEAST: f64 = 1e-14;
 
 /// What brings a cell to equilibrium at its mass and energy: Saurel, Petitpas & Abgrall (2008) with Noble–Abel stiffened gases.
 ///
 /// For a mass of vapour, both phases have one pressure and one temperature ([`mixed`]); that mass is then found for which the
 /// vapour's partial pressure is [`Saturation::vapour_pressure`]. More vapour is colder and under more pressure, so that the difference of the
-/// logarithms falls, and a bracketed root is the only one. Where there is none, all but a 10⁻¹⁰ of the cell's mass has changed.
+/// logarithms falls, and a bracketed root is the only one. Where there is none, all but a 10⁻¹⁴ of the cell's mass has changed.
 ///
 /// - returns: `None` where nothing changes, nothing makes sense, or the liquid is above the critical point.  errors: none.
 /// - tested by: `tests.rs` (an independent solution, random states).

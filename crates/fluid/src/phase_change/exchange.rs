@@ -8,7 +8,7 @@ use super::holding::{Changed, Holding, holds_both};
 use super::laws::{EvaporationLaw, PhaseChange};
 use super::rate::at_finite_rate;
 use super::saturation::Saturation;
-use super::surface::{area_density, borders_gas};
+use super::surface::{area_density, borders_gas, condensing_area, lies_beside_gas};
 use crate::Mixture;
 use crate::capillarity::{CapillaryRows, SinglePressure};
 use crate::state::conserved::{ENERGY, GAS, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
@@ -62,6 +62,11 @@ impl Exchange {
         Some(Self { asked, saturation: Saturation::of(mixture)?, vapour })
     }
 
+    /// The component of the vapour's mass.
+    pub fn vapour(&self) -> usize {
+        self.vapour
+    }
+
     /// Lets mass go from one phase to the other in those cells of a block where they meet, and opens liquid under tension.
     ///
     /// Mass and momentum of a cell stay, its energy with the reference energies and that of surface tension, too. A cell that would be left below the floor of the pressure, or
@@ -82,12 +87,15 @@ impl Exchange {
         for cell in 0..N * N {
             let phi = new[PHI * N * N + cell];
             let meets = holds_both(phi);
-            if !meets && (self.asked.cavitation.is_none() || phi > 0.5) {
+            let k = Padded::<N>::index((cell % N) as isize, (cell / N) as isize);
+            // Vapour that came into liquid beside the gas, see `terms/gas_slip.rs`.
+            let has_come =
+                !meets && phi > 0.0 && phi < 0.5 && lies_beside_gas(place.phi, k, Padded::<N>::STRIDE);
+            if !meets && !has_come && (self.asked.cavitation.is_none() || phi > 0.5) {
                 continue;
             }
             let at = |component: usize| component * N * N + cell;
             let u = [RHO, MOMENTUM_Z, MOMENTUM_R, ENERGY].map(|component| new[at(component)]);
-            let k = Padded::<N>::index((cell % N) as isize, (cell / N) as isize);
             let jump = if meets { place.capillary.jump(k) } else { 0.0 };
             // Only few cells have a jump: the others need no laws of their own.
             let uneven = (jump != 0.0).then(|| {
@@ -100,6 +108,8 @@ impl Exchange {
             let (holding, kinetic) = holding(u, phi, [new[at(GAS)], new[at(self.vapour)]], single);
             let changed = if meets {
                 self.where_phases_meet(&holding, saturation, place, k, Padded::<N>::STRIDE)
+            } else if has_come {
+                to_equilibrium(&holding, saturation).filter(|changed| changed.evaporated < 0.0)
             } else {
                 self.under_tension(&holding)
             };
@@ -120,7 +130,7 @@ impl Exchange {
                 changed.evaporated,
                 [energy - tension_work, tension_work],
                 (place.volume)(cell / N),
-                !meets,
+                !meets && !has_come,
             );
         }
         done
@@ -138,8 +148,10 @@ impl Exchange {
             EvaporationLaw::Equilibrium => to_equilibrium(cell, saturation)
                 .filter(|changed| changed.evaporated <= 0.0 || borders_gas(place.phi, k, stride)),
             EvaporationLaw::HertzKnudsen { accommodation } => {
-                let area = area_density(place.phi, k, stride, place.inverse_h, holds_both);
-                at_finite_rate(cell, accommodation * place.dt * area, saturation)
+                let evaporating = area_density(place.phi, k, stride, place.inverse_h, holds_both);
+                let condensing = condensing_area(place.phi, k, stride, place.inverse_h);
+                let rates = [evaporating, condensing].map(|area| accommodation * place.dt * area);
+                at_finite_rate(cell, rates, saturation)
             }
         }
     }

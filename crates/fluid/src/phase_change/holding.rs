@@ -3,12 +3,12 @@
 use super::saturation::Saturation;
 
 /// Gas fractions nearer than this to 0 and 1 are of one phase: the traces that interfaces leave behind change nothing.
-const BOTH: f64 = 1e-3;
+pub(crate) const HELD: f64 = 1e-3;
 
 /// Whether a cell holds both phases.
 #[inline(always)]
 pub(crate) fn holds_both(phi: f64) -> bool {
-    (phi > BOTH) & (phi < 1.0 - BOTH)
+    (phi > HELD) & (phi < 1.0 - HELD)
 }
 
 /// What a cell holds, per volume.
@@ -61,10 +61,7 @@ impl Holding {
 
     /// Temperature of the liquid at a pressure, K.
     pub fn liquid_temperature(&self, pressure: f64, saturation: &Saturation) -> f64 {
-        let law = saturation.mixture.liquid;
-        let density = self.liquid() / (1.0 - self.phi);
-        (pressure + law.pi) * law.free_share(density)
-            / ((law.gamma - 1.0) * saturation.liquid_heat.capacity * density)
+        saturation.liquid_temperature(self.liquid(), 1.0 - self.phi, pressure)
     }
 
     /// Temperature of the gas at a pressure, K.

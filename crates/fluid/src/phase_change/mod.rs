@@ -14,7 +14,7 @@ mod saturation;
 mod surface;
 
 pub(crate) use exchange::{BlockExchange, BlockPlace, Exchange};
-pub(crate) use holding::holds_both;
+pub(crate) use holding::{HELD, holds_both};
 pub use laws::{EvaporationLaw, PhaseChange};
 pub use saturation::Saturation;
-pub(crate) use surface::area_density;
+pub(crate) use surface::{area_density, facing};

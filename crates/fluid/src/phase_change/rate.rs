@@ -13,18 +13,23 @@ const MOST: f64 = 0.5;
 /// The step is implicit, Δm = Δt a j(state after Δm), by a bracketed root: however fast the rate, the cell does not go beyond
 /// equilibrium. At most half of a phase changes in a step.
 ///
-/// - `rate`: α Δt times the area of the interface per volume, s/m.
+/// - `evaporating`, `condensing`: α Δt times the area of the interface per volume for either, s/m.
 /// - returns: `None` where nothing changes or the liquid is above the critical point.  errors: none.
 /// - tested by: `tests.rs` (the ordinary differential equation, a step of any length).
-pub(super) fn at_finite_rate(cell: &Holding, rate: f64, saturation: &Saturation) -> Option<Changed> {
+pub(super) fn at_finite_rate(
+    cell: &Holding,
+    [evaporating, condensing]: [f64; 2],
+    saturation: &Saturation,
+) -> Option<Changed> {
     let pressure = cell.pressure(saturation);
     let temperature = cell.liquid_temperature(pressure, saturation);
     let makes_sense = pressure > 0.0 && temperature > 0.0 && cell.gas > 0.0 && cell.liquid() > 0.0;
     if !makes_sense || pressure >= Saturation::CRITICAL[1] || temperature >= Saturation::CRITICAL[0] {
         return None;
     }
-    let explicit = rate * driving(cell, pressure, temperature, saturation);
-    let sign = if explicit > 0.0 { 1.0 } else { -1.0 };
+    let driving_now = driving(cell, pressure, temperature, saturation);
+    let (sign, rate) = if driving_now > 0.0 { (1.0, evaporating) } else { (-1.0, condensing) };
+    let explicit = rate * driving_now;
     let most = MOST * if sign > 0.0 { cell.liquid() } else { cell.vapour };
     let bound = explicit.abs().min(most);
     if !(bound > 0.0) {
@@ -44,7 +49,7 @@ pub(super) fn at_finite_rate(cell: &Holding, rate: f64, saturation: &Saturation)
 
 /// (p_v,eq − p_v)/√(2π R T_l), kg/(m² s).
 fn driving(cell: &Holding, pressure: f64, temperature: f64, saturation: &Saturation) -> f64 {
-    let gas_constant = (saturation.mixture.gas.gamma - 1.0) * saturation.gas_heat.capacity;
+    let gas_constant = saturation.gas_constant();
     let difference = saturation.vapour_pressure(temperature, pressure) - pressure * cell.vapour / cell.gas;
     difference / (std::f64::consts::TAU * gas_constant * temperature).sqrt()
 }

@@ -78,7 +78,7 @@ fn the_rate_is_that_of_its_equation() {
         let error = |steps: u32| {
             let mut now = start;
             for _ in 0..steps {
-                let changed = at_finite_rate(&now, rate / f64::from(steps), &water).expect("it goes on");
+                let changed = at_finite_rate(&now, [rate / f64::from(steps); 2], &water).expect("it goes on");
                 now = now.with(changed, &water);
             }
             let got = [now.gas - start.gas, now.phi - start.phi, now.pressure(&water)];
@@ -101,7 +101,7 @@ fn a_step_of_any_length_stays_within_equilibrium() {
         (cell(0.99, 1e3, [320.0, 300.0], 0.3), true),
     ] {
         for rate in [1e-6, 1e-2, 1.0, 1e4, 1e12] {
-            let changed = at_finite_rate(&start, rate, &water).expect("it changes");
+            let changed = at_finite_rate(&start, [rate; 2], &water).expect("it changes");
             let after = start.with(changed, &water);
             let (p, before) = (after.pressure(&water), start.pressure(&water));
             assert_eq!(changed.evaporated > 0.0, is_evaporation, "{changed:?}");

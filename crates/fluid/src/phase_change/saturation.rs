@@ -74,6 +74,26 @@ impl Saturation {
         pressure
     }
 
+    /// The laws of both.
+    pub(crate) fn mixture(&self) -> &Mixture {
+        &self.mixture
+    }
+
+    /// R of the vapour, J/(kg K).
+    pub(crate) fn gas_constant(&self) -> f64 {
+        (self.mixture.gas.gamma - 1.0) * self.gas_heat.capacity
+    }
+
+    /// Temperature of the liquid, K.
+    ///
+    /// - `mass`: of it in a cell, kg/m³; `share`: its part of the cell's volume; `pressure`: its own, Pa.
+    pub(crate) fn liquid_temperature(&self, mass: f64, share: f64, pressure: f64) -> f64 {
+        let law = self.mixture.liquid;
+        let density = mass / share;
+        (pressure + law.pi) * law.free_share(density)
+            / ((law.gamma - 1.0) * self.liquid_heat.capacity * density)
+    }
+
     /// q_l − q_v, J/kg: what a mass that evaporates adds to the energy that is counted without the references.
     #[must_use]
     pub fn reference_difference(&self) -> f64 {

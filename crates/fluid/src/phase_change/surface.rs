@@ -1,5 +1,7 @@
 //! How much interface there is in a cell.
 
+use super::holding::{HELD, holds_both};
+
 /// The area of the interface in a cell per its volume, 1/m, for cells that hold both phases.
 ///
 /// |∇φ| integrated over a front is its area. Part of that integral lies in pure cells beside it, which cannot change phase: what φ steps by between
@@ -16,11 +18,45 @@ pub(crate) fn area_density(
     inverse_h: [f64; 2],
     holds_both: impl Fn(f64) -> bool,
 ) -> f64 {
-    let slope = |step: usize, inverse_h: f64| {
-        let towards = |other: usize| if holds_both(phi[other]) { 0.5 } else { 1.0 } * (phi[other] - phi[k]);
-        (towards(k + step) - towards(k - step)) * inverse_h
-    };
-    slope(1, inverse_h[0]).hypot(slope(stride, inverse_h[1]))
+    let [z, r] = slope(phi, k, stride, inverse_h, holds_both);
+    z.hypot(r)
+}
+
+/// ∇φ of [`area_density`].
+fn slope(
+    phi: &[f64],
+    k: usize,
+    stride: usize,
+    inverse_h: [f64; 2],
+    holds_both: impl Fn(f64) -> bool,
+) -> [f64; 2] {
+    let towards = |other: usize| if holds_both(phi[other]) { 0.5 } else { 1.0 } * (phi[other] - phi[k]);
+    [(1, inverse_h[0]), (stride, inverse_h[1])]
+        .map(|(step, inverse_h)| (towards(k + step) - towards(k - step)) * inverse_h)
+}
+
+/// How much of the interface in a cell faces z and r: |n_z|, |n_r| of its normal n.
+///
+/// - arguments: as of [`area_density`].
+pub(crate) fn facing(phi: &[f64], k: usize, stride: usize, inverse_h: [f64; 2]) -> [f64; 2] {
+    let slope = slope(phi, k, stride, inverse_h, holds_both);
+    let length = slope[0].hypot(slope[1]);
+    slope.map(|along| if length > 0.0 { (along / length).abs() } else { 0.0 })
+}
+
+/// The area on which the liquid of a cell takes up vapour, 1/m. What φ steps by from cells of liquid counts for those, into which
+/// vapour comes through this one (`terms/gas_slip.rs`): that little liquid in a cell does not take up for all beyond.
+///
+/// - arguments: as of [`area_density`].
+pub(super) fn condensing_area(phi: &[f64], k: usize, stride: usize, inverse_h: [f64; 2]) -> f64 {
+    let facing = facing(phi, k, stride, inverse_h);
+    let of_liquid = |other: usize| if phi[other] <= HELD { phi[k] - phi[other] } else { 0.0 };
+    let beyond: f64 = [1, stride]
+        .into_iter()
+        .zip(facing.into_iter().zip(inverse_h))
+        .map(|(step, (facing, inverse_h))| (of_liquid(k + step) + of_liquid(k - step)) * facing * inverse_h)
+        .sum();
+    (area_density(phi, k, stride, inverse_h, holds_both) - beyond).max(0.0)
 }
 
 /// Gas fraction from which on a cell counts as the gas's own.
@@ -34,13 +70,22 @@ const GAS: f64 = 0.9;
 ///
 /// - tested by: superheated liquid beside vapour, `tests/verification/superheated.rs`, which boils 25 % too fast without it.
 pub(super) fn borders_gas(phi: &[f64], k: usize, stride: usize) -> bool {
-    let most = [k - 1, k + 1, k - stride, k + stride].into_iter().map(|k| phi[k]).fold(0.0, f64::max);
+    let most = most_beside(phi, k, stride);
     most >= GAS || most <= phi[k]
+}
+
+/// Whether a cell next to this one holds gas that may change phase.
+pub(super) fn lies_beside_gas(phi: &[f64], k: usize, stride: usize) -> bool {
+    most_beside(phi, k, stride) > HELD
+}
+
+/// The largest gas fraction of the cells beside one.
+fn most_beside(phi: &[f64], k: usize, stride: usize) -> f64 {
+    [k - 1, k + 1, k - stride, k + stride].into_iter().map(|k| phi[k]).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::holding::holds_both;
     use super::*;
 
     const N: usize = 64;

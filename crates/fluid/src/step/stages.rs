@@ -212,12 +212,15 @@ impl<'a, const N: usize> TileStep<'a, N> {
         if !ctx.model.terms.is_empty() {
             self.add_to_fluxes(scratch);
         }
-        let BlockScratch { cells, carried, gas_shares, z_faces, r_faces, .. } = scratch;
+        let BlockScratch { cells, carried, gas_shares, z_faces, r_faces, works, .. } = scratch;
         let own = ctx.model.carried.iter().zip(ctx.model.carried_components());
         for ((own, component), carried) in own.zip(carried) {
             if own.is_of_gas() {
                 let (fraction, stride) = (cells.component(component), self.frame.stride());
                 carried.carry_with_gas(fraction, gas_shares, stride, [z_faces, r_faces]);
+                if let Some(selected) = ctx.model.terms.selected_vapour(works, fraction.len()) {
+                    carried.add(selected);
+                }
                 continue;
             }
             let cells = CarriedCells {
@@ -295,7 +298,7 @@ impl<'a, const N: usize> TileStep<'a, N> {
             let rows = component * N * N..(component + 1) * N * N;
             carried.update::<N>(&old[rows.clone()], &metric, &mut new[rows]);
         }
-        if ctx.model.terms.is_diffusive && self.gas.phases().is_some() {
+        if !ctx.model.terms.is_empty() && self.gas.phases().is_some() {
             report.tension[1] += self.finish_terms(scratch, new);
         }
         if let Some(exchange) = &ctx.model.exchange {

@@ -1,6 +1,6 @@
 //! Where terms come into a step: of one block, as they are made block by block.
 
-use mesh::FaceState;
+use mesh::{FaceState, TileRows};
 
 use super::TileStep;
 use super::scratch::BlockScratch;
@@ -23,7 +23,7 @@ impl<const N: usize> TileStep<'_, N> {
         [state, before]: [Rows<'b>; 2],
         more: MoreForTerms<'b>,
     ) -> TermBlock<'b> {
-        let MoreForTerms { capillary, gas_shares, wall, wall_temperatures } = more;
+        let MoreForTerms { capillary, gas_shares, vapour, wall, wall_temperatures } = more;
         let heat_beyond = match (&self.ctx.model.wall_heat, &self.ctx.model.wall_memory) {
             (WallHeat::Isothermal(temperature), _) => HeatBeyond::Kept(*temperature),
             (_, Some(memory)) => HeatBeyond::Wall {
@@ -42,11 +42,17 @@ impl<const N: usize> TileStep<'_, N> {
             wall: (!wall.is_empty()).then_some(wall),
             capillary,
             gas: self.gas.mass(gas_shares),
+            vapour,
             closure: (self.gas.phases().is_some() && self.ctx.model.scheme.phases.has_closure())
                 .then_some(&self.ctx.model.mixture),
             heat_beyond,
             spread: View::of(self.ctx.prepared, self.ctx.mesh, self.slot),
         }
+    }
+
+    /// The vapour's part of the mass in the padded cells.
+    fn vapour_in<'b>(&self, cells: &'b TileRows<N>) -> Option<&'b [f64]> {
+        self.ctx.model.exchange.as_ref().map(|exchange| cells.component(exchange.vapour()))
     }
 
     /// What terms add to the states at mid-step.
@@ -59,7 +65,8 @@ impl<const N: usize> TileStep<'_, N> {
             scratch;
         let BlockScratch { gas_shares, wall, wall_temperatures, .. } = scratch;
         let (metric, rows) = (self.metric(face_weight, inverse_weight), cells.split());
-        let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
+        let vapour = self.vapour_in(cells);
+        let more = MoreForTerms { capillary, gas_shares, vapour, wall, wall_temperatures };
         let block = self.term_block(&metric, inverse_r, [rows; 2], more);
         let [_, v_z, v_r, p, _] = half.split_mut::<COUNT>();
         if terms.is_viscous {
@@ -80,7 +87,8 @@ impl<const N: usize> TileStep<'_, N> {
         let BlockScratch { cells, half, inverse_r, face_weight, inverse_weight, capillary, .. } = scratch;
         let BlockScratch { gas_shares, wall, wall_temperatures, spread_work, .. } = scratch;
         let metric = self.metric(face_weight, inverse_weight);
-        let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
+        let vapour = self.vapour_in(cells);
+        let more = MoreForTerms { capillary, gas_shares, vapour, wall, wall_temperatures };
         let block = self.term_block(&metric, inverse_r, [half.split(), cells.split()], more);
         SpreadBlock::begin(self.slot, of, &block, (self.ctx.mesh, group), spread_work)
     }
@@ -92,7 +100,8 @@ impl<const N: usize> TileStep<'_, N> {
         let BlockScratch { wall, wall_temperatures, .. } = scratch;
         let metric = &self.metric(face_weight, inverse_weight);
         let rows = [half.split(), cells.split()];
-        let more = MoreForTerms { capillary, gas_shares, wall, wall_temperatures };
+        let vapour = self.vapour_in(cells);
+        let more = MoreForTerms { capillary, gas_shares, vapour, wall, wall_temperatures };
         let block = self.term_block(metric, inverse_r, rows, more);
         with_sources.clear();
         with_sources.extend_from_slice(self.ctx.old.block(self.slot));
@@ -125,6 +134,8 @@ struct MoreForTerms<'a> {
     capillary: &'a CapillaryRows,
     /// m_g/ρ of the padded cells.
     gas_shares: &'a [f64],
+    /// See [`TermBlock::vapour`].
+    vapour: Option<&'a [f64]>,
     /// See [`TermBlock::wall`]; empty where there is none.
     wall: &'a [FaceState],
     /// See [`HeatBeyond::Wall`].

@@ -7,6 +7,7 @@
 pub(crate) mod conduction;
 pub(crate) mod diffusion;
 mod finished_cells;
+pub(crate) mod gas_slip;
 pub(crate) mod gravity;
 pub(crate) mod heating;
 pub(crate) mod super_stepping;
@@ -25,6 +26,7 @@ use crate::{Boundary, EvaporationLaw, FluidSetup, Mixture};
 pub(crate) use finished_cells::FinishedCells;
 
 use conduction::ConductionTerm;
+use gas_slip::GasSlip;
 use super_stepping::{Spreading, View};
 
 /// Cells of which so much is of one phase are not mixed.
@@ -61,6 +63,8 @@ pub(crate) struct TermBlock<'a> {
     pub capillary: &'a CapillaryRows,
     /// How much of the mass is gas at the beginning of the step.
     pub gas: GasMass<'a>,
+    /// The vapour's part of the mass at the beginning of the step, where masses change phase.
+    pub vapour: Option<&'a [f64]>,
     /// The laws of phases that give way each by its own, as in the five-equation model.
     pub closure: Option<&'a Mixture>,
     /// What walls do with heat.
@@ -205,6 +209,13 @@ pub(crate) trait Term: Send + Sync {
         None
     }
 
+    /// What vapour passes through the faces along z and r beyond its part of the gas, kg/(m² s).
+    ///
+    /// - `work`: as its own [`Term::add_fluxes`] has left it; `padded`: the length of padded rows.
+    fn selected_vapour<'w>(&self, _work: &'w [f64], _padded: usize) -> Option<[&'w [f64]; 2]> {
+        None
+    }
+
     /// What of it spreads in stages within a step, if it does.
     fn spreading(&self) -> Option<&dyn Spreading> {
         None
@@ -250,7 +261,11 @@ impl Terms {
         let boils = setup.phase_change.is_some_and(|asked| asked.law == EvaporationLaw::Equilibrium);
         let conduction = setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture, boils));
         let (is_viscous, conducts) = (setup.viscosity.is_some(), conduction.is_some());
-        let all: [Option<Box<dyn Term>>; 4] = [
+        let all: [Option<Box<dyn Term>>; 5] = [
+            setup
+                .phase_change
+                .and_then(|asked| GasSlip::of(&asked, &mixture))
+                .map(|slip| Box::new(slip) as _),
             setup.gravity.map(|gravity| Box::new(gravity) as _),
             setup.viscosity.map(|viscosity| Box::new(viscosity) as _),
             conduction.map(|conduction| Box::new(conduction) as _),
@@ -311,6 +326,11 @@ impl Terms {
     /// See [`Term::wall_heat`].
     pub fn wall_heat<'w>(&self, works: &'w [Vec<f64>], padded: usize) -> Option<[&'w [f64]; 2]> {
         self.list.iter().zip(works).find_map(|(term, work)| term.wall_heat(work, padded))
+    }
+
+    /// See [`Term::selected_vapour`].
+    pub fn selected_vapour<'w>(&self, works: &'w [Vec<f64>], padded: usize) -> Option<[&'w [f64]; 2]> {
+        self.list.iter().zip(works).find_map(|(term, work)| term.selected_vapour(work, padded))
     }
 
     /// What spreads in stages within a step.

@@ -9,6 +9,7 @@ mod beside_fast_gas;
 mod boundaries;
 mod bubble;
 mod bubble_cut;
+mod condensation;
 mod conduction;
 mod conduction_media;
 mod conduction_walls;
