@@ -14,8 +14,7 @@ const MORE: Additions = Additions {
     surface_tension: 50.0,
     viscosity: 60.0,
     conduction: 45.0,
-    equilibrium: 50.0,
-    kinetics: 110.0,
+    phase_change: 50.0,
     tracer: 25.0,
 };
 /// The same of a solid, ns.
@@ -63,10 +62,7 @@ struct Additions {
     surface_tension: f64,
     viscosity: f64,
     conduction: f64,
-    /// Phase change in equilibrium.
-    equilibrium: f64,
-    /// Phase change by Hertz and Knudsen.
-    kinetics: f64,
+    phase_change: f64,
     /// A passive tracer.
     tracer: f64,
 }
@@ -77,19 +73,16 @@ fn of_fluid(fluid: &FluidCase) -> f64 {
         fluid::RiemannSolver::Exact => EXACT * FLUID,
     };
     let terms = &fluid.terms;
-    let evaporation = terms.phase_change.map_or(0.0, |change| match change.law {
-        fluid::EvaporationLaw::Equilibrium => MORE.equilibrium,
-        fluid::EvaporationLaw::HertzKnudsen { .. } => MORE.kinetics,
-    });
     let asked = [
         (fluid.liquid.covolume + fluid.gas.covolume > 0.0, MORE.covolume),
         (terms.surface_tension.is_some(), MORE.surface_tension),
         (terms.viscosity.is_some(), MORE.viscosity),
         (terms.conduction.is_some(), MORE.conduction),
+        (terms.phase_change.is_some(), MORE.phase_change),
         (fluid.tracer.is_some(), MORE.tracer),
     ];
     let more: f64 = asked.into_iter().filter_map(|(is_asked, cost)| is_asked.then_some(cost)).sum();
-    waves + evaporation + more
+    waves + more
 }
 
 fn of_solid(solid: &SolidCase) -> f64 {
@@ -178,8 +171,8 @@ mod tests {
         assert_eq!(of(&[&viscous]), FLUID + MORE.viscosity);
         assert_eq!(of(&[&tense]), FLUID + MORE.viscosity + MORE.surface_tension);
         let with_laws = |term: &str| of(&[laws[0], laws[1], term]) - FLUID - MORE.covolume;
-        assert_eq!(with_laws(&boils), MORE.equilibrium);
-        assert_eq!(with_laws(&evaporates), MORE.kinetics + MORE.conduction);
+        assert_eq!(with_laws(&boils), MORE.phase_change);
+        assert_eq!(with_laws(&evaporates), MORE.phase_change + MORE.conduction);
     }
 
     #[test]

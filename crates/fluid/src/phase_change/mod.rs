@@ -2,7 +2,7 @@
 //!
 //! It acts on single cells at the end of a block's step: mass goes from one phase to the other at the cell's mass, momentum and energy,
 //! reference energies counted. The field has one component more, the vapour's mass, which the gas's mass flux carries
-//! (`components/carried.rs`). Equations and limits: `docs/theory/phase-change.md`.
+//! (`components/carried.rs`). Before that gas slips past liquid to where it condenses (`terms/gas_slip.rs`). Equations and limits: `docs/theory/phase-change.md`.
 
 mod equilibrium;
 mod exchange;

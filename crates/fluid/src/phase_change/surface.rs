@@ -1,6 +1,6 @@
 //! How much interface there is in a cell.
 
-use super::holding::{HELD, holds_both};
+use super::holding::HELD;
 
 /// The area of the interface in a cell per its volume, 1/m, for cells that hold both phases.
 ///
@@ -18,45 +18,35 @@ pub(crate) fn area_density(
     inverse_h: [f64; 2],
     holds_both: impl Fn(f64) -> bool,
 ) -> f64 {
-    let [z, r] = slope(phi, k, stride, inverse_h, holds_both);
-    z.hypot(r)
-}
-
-/// ∇φ of [`area_density`].
-fn slope(
-    phi: &[f64],
-    k: usize,
-    stride: usize,
-    inverse_h: [f64; 2],
-    holds_both: impl Fn(f64) -> bool,
-) -> [f64; 2] {
-    let towards = |other: usize| if holds_both(phi[other]) { 0.5 } else { 1.0 } * (phi[other] - phi[k]);
-    [(1, inverse_h[0]), (stride, inverse_h[1])]
-        .map(|(step, inverse_h)| (towards(k + step) - towards(k - step)) * inverse_h)
+    let slope = |step: usize, inverse_h: f64| {
+        let towards = |other: usize| if holds_both(phi[other]) { 0.5 } else { 1.0 } * (phi[other] - phi[k]);
+        (towards(k + step) - towards(k - step)) * inverse_h
+    };
+    slope(1, inverse_h[0]).hypot(slope(stride, inverse_h[1]))
 }
 
 /// How much of the interface in a cell faces z and r: |n_z|, |n_r| of its normal n.
 ///
 /// - arguments: as of [`area_density`].
 pub(crate) fn facing(phi: &[f64], k: usize, stride: usize, inverse_h: [f64; 2]) -> [f64; 2] {
-    let slope = slope(phi, k, stride, inverse_h, holds_both);
+    // Three cells beside each other, as Parker & Youngs (1992) have it: a front's normal is that of its neighbours, too.
+    let across = |step: usize, along: usize| {
+        let rise = |k: usize| phi[k + step] - phi[k - step];
+        2.0 * rise(k) + rise(k - along) + rise(k + along)
+    };
+    let slope = [across(1, stride) * inverse_h[0], across(stride, 1) * inverse_h[1]];
     let length = slope[0].hypot(slope[1]);
     slope.map(|along| if length > 0.0 { (along / length).abs() } else { 0.0 })
 }
 
-/// The area on which the liquid of a cell takes up vapour, 1/m. What φ steps by from cells of liquid counts for those, into which
-/// vapour comes through this one (`terms/gas_slip.rs`): that little liquid in a cell does not take up for all beyond.
+/// The area on which the liquid of a cell takes up vapour, 1/m: what φ steps by to cells of more gas. What it steps by from a cell of liquid
+/// counts there (`terms/gas_slip.rs`), so that little liquid in a cell does not take up the heat for all that is behind.
 ///
 /// - arguments: as of [`area_density`].
 pub(super) fn condensing_area(phi: &[f64], k: usize, stride: usize, inverse_h: [f64; 2]) -> f64 {
-    let facing = facing(phi, k, stride, inverse_h);
-    let of_liquid = |other: usize| if phi[other] <= HELD { phi[k] - phi[other] } else { 0.0 };
-    let beyond: f64 = [1, stride]
-        .into_iter()
-        .zip(facing.into_iter().zip(inverse_h))
-        .map(|(step, (facing, inverse_h))| (of_liquid(k + step) + of_liquid(k - step)) * facing * inverse_h)
-        .sum();
-    (area_density(phi, k, stride, inverse_h, holds_both) - beyond).max(0.0)
+    let rise = |other: usize| (phi[other] - phi[k]).max(0.0);
+    let [z, r] = facing(phi, k, stride, inverse_h);
+    (rise(k + 1) + rise(k - 1)) * z * inverse_h[0] + (rise(k + stride) + rise(k - stride)) * r * inverse_h[1]
 }
 
 /// Gas fraction from which on a cell counts as the gas's own.
@@ -86,6 +76,7 @@ fn most_beside(phi: &[f64], k: usize, stride: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::holding::holds_both;
     use super::*;
 
     const N: usize = 64;
