@@ -23,10 +23,13 @@ const MOST: f64 = 0.1;
 ///
 /// w_c = (x p* − p_eq(T_l, p_l))/(ρ_g √(2πRT_l)/α + Z), p_s = p* − Z w_c,
 ///
-/// with 1/α = 0 in equilibrium, and w_c = 0 where it would evaporate. It is vapour that goes with w_c; what does not condense stays. The gas of a mixed cell m comes
-/// to p_s besides, in an implicit step of that pressure, with K_m = γ p_m/φ_m:
+/// and w_c = 0 where it would evaporate. It is vapour that condenses; the other gas stays. The gas of a mixed cell m comes to p_s besides, in an implicit step of that pressure, with
+/// K_m = γ p_m/φ_m:
 ///
 /// w = φ_n (1 − Y_m) [|n| w_c + (p_s − p_m)/(Z + K_m Δt/h)].
+///
+/// In equilibrium 1/α = 0, and the gas of m is at p_eq itself: only w_c is left. To let vapour leave m besides made bubbles in superheated liquid
+/// grow bumps, `study_of_scrivens_bubbles`.
 ///
 /// n is the interface's normal along the face's, Y the gas's part of the mass: without liquid in m the faces' Riemann problem has the
 /// gas's velocity already. Mass, momentum and enthalpy pass with w. The face's pressure falls by Y_n Z w, as far as the cell n moves as its gas does. In
@@ -128,22 +131,21 @@ impl GasSlip {
         let velocity = |cell: usize, axis: usize| block.before[VELOCITY[axis]][cell];
         let arriving = there.pressure + impedance * sign * (velocity(from, axis) - star);
         let courant = metric.dt * metric.inverse_h[axis];
-        let condensing = self
-            .condensing(block, shares, to, (&there, arriving, impedance))
-            .min(MOST / courant * there.vapour);
         // Of what faces along both axes bring to a front each brings its part.
-        let facing = |cell: usize| facing(phi, cell, metric.stride, metric.inverse_h)[axis];
         let is_mixed = phi[to] > HELD;
-        let condensing =
-            if condensing > 0.0 { condensing * facing(if is_mixed { to } else { from }) } else { 0.0 };
-        let (mut speed, mut donor, mut least) = (condensing, (from, &there), 0.0);
-        let here = if is_mixed { Some(Self::gas(block, rows, to)?) } else { None };
+        let place = if is_mixed { to } else { from };
+        let facing = facing(phi, place, metric.stride, metric.inverse_h)[axis];
+        let condensing = self.condensing(block, shares, to, (&there, arriving, impedance));
+        let condensing = facing * condensing.min(MOST / courant * there.vapour);
+        let (mut speed, mut donor) = (condensing, (from, &there));
+        let comes_to_rest = is_mixed && self.accommodation.is_finite();
+        let here = if comes_to_rest { Some(Self::gas(block, rows, to)?) } else { None };
         if let Some(here) = &here {
             let surface = arriving - impedance * condensing;
             speed += (surface - here.pressure) / (impedance + gamma * here.pressure / phi[to] * courant);
-            least = -MOST / courant * phi[to];
             donor = if speed < 0.0 { (to, here) } else { donor };
         }
+        let least = if comes_to_rest { -MOST / courant * phi[to] } else { 0.0 };
         let selected = if speed > 0.0 { (condensing / speed).min(1.0) * (1.0 - there.vapour) } else { 0.0 };
         let speed = (phi[from] * heavy * speed).max(least).min(MOST / courant * phi[from]);
         let (cell, gas) = donor;
