@@ -108,10 +108,9 @@ impl Exchange {
             let (holding, kinetic) = holding(u, phi, [new[at(GAS)], new[at(self.vapour)]], single);
             let changed = if meets {
                 self.where_phases_meet(&holding, saturation, place, k, Padded::<N>::STRIDE)
-            } else if has_come {
-                to_equilibrium(&holding, saturation).filter(|changed| changed.evaporated < 0.0)
             } else {
-                self.under_tension(&holding)
+                let come = if has_come { to_equilibrium(&holding, saturation) } else { None };
+                come.filter(|changed| changed.evaporated < 0.0).or_else(|| self.under_tension(&holding))
             };
             let Some(changed) = changed else { continue };
             let after = holding.with(changed, saturation);
@@ -130,7 +129,7 @@ impl Exchange {
                 changed.evaporated,
                 [energy - tension_work, tension_work],
                 (place.volume)(cell / N),
-                !meets && !has_come,
+                !meets && changed.evaporated > 0.0,
             );
         }
         done
