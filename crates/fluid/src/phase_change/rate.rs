@@ -49,9 +49,8 @@ pub(super) fn at_finite_rate(
 
 /// (p_v,eq − p_v)/√(2π R T_l), kg/(m² s).
 fn driving(cell: &Holding, pressure: f64, temperature: f64, saturation: &Saturation) -> f64 {
-    let gas_constant = saturation.gas_constant();
     let difference = saturation.vapour_pressure(temperature, pressure) - pressure * cell.vapour / cell.gas;
-    difference / (std::f64::consts::TAU * gas_constant * temperature).sqrt()
+    difference / saturation.kinetic_speed(temperature)
 }
 
 /// A cell after a mass has gone from one phase to the other.

@@ -79,9 +79,12 @@ impl Saturation {
         &self.mixture
     }
 
-    /// R of the vapour, J/(kg K).
-    pub(crate) fn gas_constant(&self) -> f64 {
-        (self.mixture.gas.gamma - 1.0) * self.gas_heat.capacity
+    /// √(2πRT), m/s: by which a difference of the vapour's pressures makes a flux in the kinetic theory of gases.
+    ///
+    /// - `temperature`: of the surface, K.
+    pub(crate) fn kinetic_speed(&self, temperature: f64) -> f64 {
+        let gas_constant = (self.mixture.gas.gamma - 1.0) * self.gas_heat.capacity;
+        (std::f64::consts::TAU * gas_constant * temperature).sqrt()
     }
 
     /// Temperature of the liquid, K.

@@ -79,11 +79,15 @@ impl GasSlip {
         Some(Self { saturation: Saturation::of(mixture)?, accommodation })
     }
 
+    /// The pressure of the gas of a padded cell, Pa.
+    fn pressure(block: &TermBlock<'_>, cell: usize) -> f64 {
+        block.before[PRESSURE][cell] + block.capillary.excess().map_or(0.0, |excess| excess[cell])
+    }
+
     /// The gas of a padded cell; `None` without a pressure of its own.
     fn gas(block: &TermBlock<'_>, [shares, vapour]: [&[f64]; 2], cell: usize) -> Option<Gas> {
-        let excess = block.capillary.excess().map_or(0.0, |excess| excess[cell]);
         let density = shares[cell] * block.before[RHO][cell] / block.before[PHI][cell];
-        let pressure = block.before[PRESSURE][cell] + excess;
+        let pressure = Self::pressure(block, cell);
         let vapour = (vapour[cell] / shares[cell]).clamp(0.0, 1.0);
         (density > 0.0 && pressure > 0.0).then_some(Gas { density, pressure, vapour })
     }
@@ -100,8 +104,7 @@ impl GasSlip {
     ) -> f64 {
         let [density, phi] = [RHO, PHI].map(|c| block.before[c][cell]);
         let mass = density * (1.0 - shares[cell]);
-        let excess = block.capillary.excess().map_or(0.0, |excess| excess[cell]);
-        let pressure = block.before[PRESSURE][cell] + excess - block.capillary.jump(cell);
+        let pressure = Self::pressure(block, cell) - block.capillary.jump(cell);
         let temperature = self.saturation.liquid_temperature(mass, 1.0 - phi, pressure);
         if !(temperature > 0.0 && temperature < Saturation::CRITICAL[0] && pressure < Saturation::CRITICAL[1])
         {
@@ -111,8 +114,7 @@ impl GasSlip {
         if !(beyond > 0.0) {
             return 0.0;
         }
-        let gas_constant = self.saturation.gas_constant();
-        let per_pressure = self.accommodation / (std::f64::consts::TAU * gas_constant * temperature).sqrt();
+        let per_pressure = self.accommodation / self.saturation.kinetic_speed(temperature);
         beyond / (gas.density / per_pressure + impedance)
     }
 
@@ -131,12 +133,14 @@ impl GasSlip {
         let velocity = |cell: usize, axis: usize| block.before[VELOCITY[axis]][cell];
         let arriving = there.pressure + impedance * sign * (velocity(from, axis) - star);
         let courant = metric.dt * metric.inverse_h[axis];
-        // Of what faces along both axes bring to a front each brings its part.
         let is_mixed = phi[to] > HELD;
-        let place = if is_mixed { to } else { from };
-        let facing = facing(phi, place, metric.stride, metric.inverse_h)[axis];
-        let condensing = self.condensing(block, shares, to, (&there, arriving, impedance));
-        let condensing = facing * condensing.min(MOST / courant * there.vapour);
+        let mut condensing = self.condensing(block, shares, to, (&there, arriving, impedance));
+        if condensing > 0.0 {
+            // Of what faces along both axes bring to a front each brings its part.
+            let place = if is_mixed { to } else { from };
+            let facing = facing(phi, place, metric.stride, metric.inverse_h)[axis];
+            condensing = facing * condensing.min(MOST / courant * there.vapour);
+        }
         let (mut speed, mut donor) = (condensing, (from, &there));
         let comes_to_rest = is_mixed && self.accommodation.is_finite();
         let here = if comes_to_rest { Some(Self::gas(block, rows, to)?) } else { None };

@@ -1,17 +1,15 @@
 //! Vapour that condenses: no slower than it should, though it has to come into cells of liquid.
 
-use std::f64::consts::PI;
-
 use fluid::{
-    Boundary, Conduction, EvaporationLaw, FarField, FluidSetup, FluidSolver, InitialCondition,
-    InitialPressure, Mixture, NamedFluid, Phase, PhaseChange, PhaseState, Primitive, Region, RiemannSolver,
-    Saturation, Shape, ThinGas, WallHeat,
+    Boundary, EvaporationLaw, FarField, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Mixture,
+    PhaseChange, Primitive, RiemannSolver, Shape,
 };
 use mesh::Domain;
 
-use crate::conduction::erf;
 use crate::helpers::*;
+use crate::phase_change::{cavity, laws as water, saturation};
 use crate::stefan::{BOILING, P, fill, laws, outlet, strip};
+use crate::superheated::{conducting, erfc, growth_constant};
 
 const RADIUS: f64 = 1e-3;
 const FAR: f64 = 1e5;
@@ -24,8 +22,8 @@ const RADII: [f64; 3] = [0.9, 0.7, 0.5];
 /// condenses on liquid of one temperature by Hertz's and Knudsen's j; what leaves takes its own enthalpy with it, and so what stays
 /// remains on its adiabat: p = p₀ (m/m₀)^γ (R₀/R)^3γ.
 fn left_of_vapour(accommodation: f64) -> [f64; 3] {
-    let [liquid, gas] = ["water-nasg", "water-vapour"].map(|name| NamedFluid::of(name).unwrap().law);
-    let saturated = Saturation::of(&Mixture::new(liquid, gas)).unwrap().vapour_pressure(TEMPERATURE, FAR);
+    let [liquid, gas] = water();
+    let saturated = saturation().vapour_pressure(TEMPERATURE, FAR);
     let density = liquid.density_at(FAR, TEMPERATURE).unwrap();
     let gas_constant = (gas.gamma - 1.0) * gas.heat.unwrap().capacity;
     let vapour = gas.density_at(saturated, TEMPERATURE).unwrap();
@@ -55,23 +53,12 @@ fn left_of_vapour(accommodation: f64) -> [f64; 3] {
 ///
 /// - returns: how far what is left is off what should be.
 fn bubble_of_vapour(cells: usize, accommodation: f64) -> [f64; 3] {
-    let [liquid, gas] = ["water-nasg", "water-vapour"].map(|name| NamedFluid::of(name).unwrap().law);
-    let mixture = Mixture::new(liquid, gas);
-    let saturated = Saturation::of(&mixture).unwrap().vapour_pressure(TEMPERATURE, FAR);
-    let state = |phase, law: fluid::NobleAbelStiffenedGas, pressure| PhaseState {
-        phase,
-        density: law.density_at(pressure, TEMPERATURE).unwrap(),
-        pressure,
-        velocity: [0.0; 2],
-    };
+    let [liquid, gas] = water();
+    let saturated = saturation().vapour_pressure(TEMPERATURE, FAR);
+    let ball = Shape::Sphere { centre: [0.0; 2], radius: RADIUS };
     let initial = InitialCondition {
-        ambient: state(Phase::Liquid, liquid, FAR),
         pressure: InitialPressure::Rayleigh,
-        regions: vec![Region {
-            shape: Shape::Sphere { centre: [0.0; 2], radius: RADIUS },
-            state: state(Phase::Gas, gas, saturated),
-        }],
-        pulses: vec![],
+        ..cavity(ball, [FAR, TEMPERATURE], [saturated, TEMPERATURE])
     };
     let domain = Domain { geometry: AXIAL, z: [0.0, 4.0 * RADIUS], r: [0.0, 4.0 * RADIUS] };
     let sides = [Boundary::Symmetry, Boundary::FarField, Boundary::Axis, Boundary::FarField];
@@ -80,7 +67,7 @@ fn bubble_of_vapour(cells: usize, accommodation: f64) -> [f64; 3] {
         liquid,
         gas,
         phase_change: Some(PhaseChange { law, vapour_fraction: 1.0, cavitation: None }),
-        far_field: FarField::of(&initial, &mixture, &domain, sides, None, 1.0).ok(),
+        far_field: FarField::of(&initial, &Mixture::new(liquid, gas), &domain, sides, None, 1.0).ok(),
         riemann: RiemannSolver::HllcLowMach,
         ..FluidSetup::new(domain, [4 * cells; 2], sides)
     };
@@ -147,14 +134,7 @@ fn on_cold_liquid(cells: usize, law: EvaporationLaw, conductivity: f64) -> f64 {
     let heat = density * liquid.gamma * liquid.heat.unwrap().capacity;
     let (diffusivity, ratio) = (conductivity / heat, vapour / density);
     let jakob = heat * colder / (vapour * latent);
-    let erfc = |x: f64| 1.0 - erf(x);
-    let of = |beta: f64| PI.sqrt() * beta * (ratio * beta).powi(2).exp() * erfc(-ratio * beta);
-    let [mut low, mut high] = [0.0, 100.0];
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        *if of(middle) < jakob { &mut low } else { &mut high } = middle;
-    }
-    let beta = high;
+    let beta = growth_constant(jakob, -ratio);
     let [begin, end] = [5e-6, 10e-6].map(|layer: f64| layer * layer / diffusivity);
     let (size, surface) = (100e-6, 80.3e-6);
     let h = size / cells as f64;
@@ -165,15 +145,9 @@ fn on_cold_liquid(cells: usize, law: EvaporationLaw, conductivity: f64) -> f64 {
         let eta = (surface - z) / (2.0 * (diffusivity * begin).sqrt()) - ratio * beta;
         BOILING - colder * (1.0 - erfc(eta) / erfc(-ratio * beta))
     };
-    let conduction = Conduction {
-        liquid: conductivity,
-        gas: 0.025,
-        thin_gas: ThinGas::Bounded,
-        wall: WallHeat::Adiabatic,
-    };
     let setup = FluidSetup {
         inflow: outlet(gas, vapour, [begin, end], flowing),
-        ..strip(size, cells, [liquid, gas], conduction, law)
+        ..strip(size, cells, [liquid, gas], conducting(conductivity), law)
     };
     let of_gas = Primitive { density: vapour, v_z: flowing(begin), v_r: 0.0, pressure: P, phi: 1.0 };
     let mut fluid = FluidSolver::<8>::from_fn(&setup, |[z, _]| {

@@ -9,11 +9,11 @@ use mesh::{Adaptation, Domain, Geometry};
 
 use crate::helpers::*;
 
-fn laws() -> [NobleAbelStiffenedGas; 2] {
+pub fn laws() -> [NobleAbelStiffenedGas; 2] {
     ["water-nasg", "water-vapour"].map(|name| NamedFluid::of(name).unwrap().law)
 }
 
-fn saturation() -> Saturation {
+pub fn saturation() -> Saturation {
     let [liquid, gas] = laws();
     Saturation::of(&Mixture::new(liquid, gas)).unwrap()
 }
@@ -29,7 +29,7 @@ fn setup(geometry: Geometry, cells: [usize; 2], phase_change: Option<PhaseChange
 }
 
 /// Vapour in a shape and water around it, each with a pressure and a temperature.
-fn cavity(shape: Shape, liquid: [f64; 2], gas: [f64; 2]) -> InitialCondition {
+pub fn cavity(shape: Shape, liquid: [f64; 2], gas: [f64; 2]) -> InitialCondition {
     let [liquid_law, gas_law] = laws();
     let state = |phase, law: NobleAbelStiffenedGas, [pressure, temperature]: [f64; 2]| PhaseState {
         phase,

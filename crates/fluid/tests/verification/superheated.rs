@@ -13,8 +13,26 @@ use crate::helpers::*;
 use crate::stefan::{BOILING, P, fill, interface, laws, outlet, strip};
 
 /// erfc, by Simpson's rule on what is left of the integral.
-fn erfc(x: f64) -> f64 {
+pub fn erfc(x: f64) -> f64 {
     1.0 - crate::conduction::erf(x)
+}
+
+/// β of a plane front at 2β√(Dt): Ja = √π β exp(ε²β²) erfc(εβ).
+///
+/// - `ratio`: ε, of the densities of vapour and liquid; below 0 where vapour condenses on liquid at rest.
+pub fn growth_constant(jakob: f64, ratio: f64) -> f64 {
+    let of = |beta: f64| PI.sqrt() * beta * (ratio * beta).powi(2).exp() * erfc(ratio * beta);
+    let (mut low, mut high) = (0.0, 100.0);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if of(middle) < jakob { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// Vapour of 0.025 W/(m K) beside a liquid that conducts, between walls that do not.
+pub fn conducting(liquid: f64) -> Conduction {
+    Conduction { liquid, gas: 0.025, thin_gas: ThinGas::Bounded, wall: WallHeat::Adiabatic }
 }
 
 /// A plane front from 10 to 20 µm: it is at 2β√(Dt), and the liquid is pushed away (Welch & Wilson 2000).
@@ -28,14 +46,7 @@ fn plane(cells: usize, law: EvaporationLaw, jakob: f64) -> f64 {
     let diffusivity = conductivity / (density * capacity);
     let superheat = jakob * vapour * latent / (density * capacity);
     let ratio = vapour / density;
-    // Ja = √π β exp(ε²β²) erfc(εβ).
-    let of = |beta: f64| PI.sqrt() * beta * (ratio * beta).powi(2).exp() * erfc(ratio * beta);
-    let (mut low, mut high) = (0.0, 100.0);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if of(middle) < jakob { low = middle } else { high = middle }
-    }
-    let beta = high;
+    let beta = growth_constant(jakob, ratio);
     let temperature = |x: f64, t: f64| {
         let eta = x / (2.0 * (diffusivity * t).sqrt());
         if eta <= beta {
@@ -50,15 +61,9 @@ fn plane(cells: usize, law: EvaporationLaw, jakob: f64) -> f64 {
     let h = size / cells as f64;
     let pushing = |t: f64| (1.0 - ratio) * beta * (diffusivity / t).sqrt();
     let pushed = pushing(begin);
-    let conduction = Conduction {
-        liquid: conductivity,
-        gas: 0.025,
-        thin_gas: ThinGas::Bounded,
-        wall: WallHeat::Adiabatic,
-    };
     let setup = FluidSetup {
         inflow: outlet(liquid, density, [begin, end], pushing),
-        ..strip(size, cells, [liquid, gas], conduction, law)
+        ..strip(size, cells, [liquid, gas], conducting(conductivity), law)
     };
     let gas_state = Primitive { density: vapour, v_z: 0.0, v_r: 0.0, pressure: P, phi: 1.0 };
     let state = |z: f64| {
