@@ -6,7 +6,7 @@ use crate::analysis::Scales;
 use crate::boundary::PressureHistory;
 use crate::state::Contents;
 use crate::{
-    Boundary, Conduction, FarField, FollowedBubble, Gravity, Model, NearWall, NobleAbelStiffenedGas,
+    Boundary, Conduction, FarField, FollowedBubble, Gravity, Mixture, Model, NearWall, NobleAbelStiffenedGas,
     PhaseChange, RiemannSolver, Shape, Sharpening, StiffenedGas, SurfaceTension, Viscosity,
 };
 
@@ -87,6 +87,13 @@ impl FluidSetup {
             phase_change: None,
             tracer: None,
         }
+    }
+
+    /// Both phases. In the five-equation model traces of gas stay closed in liquid under tension, but where liquid opens by itself.
+    pub(crate) fn mixture(&self) -> Mixture {
+        let mixture = Mixture::new(self.liquid, self.gas);
+        let opens = self.phase_change.is_some_and(|asked| asked.cavitation.is_some());
+        if self.model == Model::FiveEquation && !opens { mixture.with_closed_traces() } else { mixture }
     }
 
     /// Components of the field: the model's, and those that the mass carries besides.

@@ -44,7 +44,7 @@ impl<const N: usize> FluidSolver<N> {
     /// - errors: [`FluidError::Mesh`], [`FluidError::NoInflow`], [`FluidError::Rayleigh`],
     ///   [`FluidError::NonPhysical`].
     pub fn new(setup: &FluidSetup, initial: &InitialCondition) -> Result<Self, FluidError> {
-        let mixture = Mixture::new(setup.liquid, setup.gas);
+        let mixture = setup.mixture();
         let (Domain { geometry, .. }, gravity) = (setup.domain, setup.gravity);
         let field = RayleighField::of(initial, gravity, &setup.domain, setup.boundaries)?;
         Self::with(
@@ -87,7 +87,7 @@ impl<const N: usize> FluidSolver<N> {
             return Err(FluidError::NoHeatCapacity);
         }
         let periodic = [Side::ZMin, Side::RMin].map(|side| kinds[side as usize] == Boundary::Periodic);
-        let mixture = Mixture::new(setup.liquid, setup.gas);
+        let mixture = setup.mixture();
         let components = setup.field_components();
         let has_phases = setup.model.components() > COUNT;
         let carried = setup.model.components()..components;

@@ -283,8 +283,8 @@ impl<'a, const N: usize> TileStep<'a, N> {
             NewCells { conserved: split_block::<N>(state), speeds: speeds.each_mut().map(|row| &mut **row) };
         update::<N>(old_rows, faces, &metric, (self.gas.is_present(), gas_after), &ctx.model.mixture, rows);
         if let Some(block) = self.gas.phases() {
-            let pressure = cells.component(PRESSURE);
-            let before = Before { number, old, pressure, inverse_r, metric: &metric, capillary };
+            let padded = [PRESSURE, PHI].map(|component| cells.component(component));
+            let before = Before { number, old, padded, inverse_r, metric: &metric, capillary };
             block.update(gas, before, faces, new, speeds, report);
         } else if self.gas.is_present() {
             let (is_left, removed) = remove_traces(&mut new[PHI * N * N..(PHI + 1) * N * N]);

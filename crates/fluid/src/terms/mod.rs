@@ -257,7 +257,7 @@ pub(crate) struct Terms {
 impl Terms {
     /// Those that a setup asks for.
     pub fn of(setup: &FluidSetup) -> Self {
-        let mixture = Mixture::new(setup.liquid, setup.gas);
+        let mixture = setup.mixture();
         let boils = setup.phase_change.is_some_and(|asked| asked.law == EvaporationLaw::Equilibrium);
         let conduction = setup.conduction.and_then(|asked| ConductionTerm::of(asked, &mixture, boils));
         let (is_viscous, conducts) = (setup.viscosity.is_some(), conduction.is_some());

@@ -13,6 +13,8 @@ pub struct Mixture {
     beta2_liquid: f64,
     beta2_difference: f64,
     covolumes: Covolumes,
+    /// Above this gas fraction a cell cannot bear tension.
+    largest_tense_fraction: f64,
     /// The liquid (φ = 0).
     pub liquid: NobleAbelStiffenedGas,
     /// The gas (φ = 1).
@@ -37,9 +39,21 @@ impl Mixture {
             beta2_liquid: beta2(liquid),
             beta2_difference: beta2(gas) - beta2(liquid),
             covolumes: Covolumes::of([liquid, gas].map(|law| [law.covolume, beta1(law), beta2(law)])),
+            largest_tense_fraction: GAS_FLOOR_FRACTION,
             liquid,
             gas,
         }
+    }
+
+    /// The same with traces of gas that stay closed in liquid under tension, see [`crate::two_phase::traces`].
+    pub(crate) fn with_closed_traces(self) -> Self {
+        Self { largest_tense_fraction: LARGEST_TRACE, ..self }
+    }
+
+    /// Whether traces of gas stay closed in liquid under tension.
+    #[inline(always)]
+    pub(crate) fn has_closed_traces(&self) -> bool {
+        self.largest_tense_fraction == LARGEST_TRACE
     }
 
     /// β₁(φ).
@@ -158,15 +172,16 @@ impl Mixture {
     }
 
     /// Whether a cell of this gas fraction cannot bear tension.
-    pub(crate) fn has_gas_floor(phi: f64) -> bool {
-        phi > GAS_FLOOR_FRACTION
+    #[inline(always)]
+    pub(crate) fn has_gas_floor(&self, phi: f64) -> bool {
+        phi > self.largest_tense_fraction
     }
 
     /// The lowest pressure that a cell may hold: 1e-4 Pa above vacuum where there is gas, else a tension of
     /// 0.9 π of the liquid. What lies below is lifted and counted, see [`crate::Fixups`].
     #[inline(always)]
     pub fn pressure_floor(&self, phi: f64) -> f64 {
-        if phi > GAS_FLOOR_FRACTION { 1e-4 - self.gas.pi } else { 1e-6 - 0.9 * self.liquid.pi }
+        if self.has_gas_floor(phi) { 1e-4 - self.gas.pi } else { 1e-6 - 0.9 * self.liquid.pi }
     }
 }
 
@@ -201,6 +216,10 @@ impl Covolumes {
 
 /// Above this gas fraction a cell cannot bear tension.
 const GAS_FLOOR_FRACTION: f64 = 1e-3;
+
+/// The same where traces of gas stay closed. A bubble of 10 µm at −1 MPa, 8 cells per radius, against Keller and Miksis: with 10⁻³
+/// +2.5 %, 10⁻² 0.0 %, 10⁻¹ −0.4 %.
+const LARGEST_TRACE: f64 = 1e-2;
 
 #[cfg(test)]
 mod tests {

@@ -20,7 +20,7 @@ use crate::step::report::BlockReport;
 use crate::step::update::{Metric, NewCells};
 use crate::step::{BlockScratch, split_block};
 use crate::terms::GasMass;
-use crate::{Boundary, Mixture, RiemannSolver};
+use crate::{Boundary, RiemannSolver};
 
 /// A share of the slopes that is none, but not for want of admissible ones: the cell has face states of its own.
 const NOT_THEIRS: f64 = -0.0;
@@ -103,9 +103,9 @@ pub(crate) struct Before<'a> {
     pub number: usize,
     /// Conserved components without ghosts.
     pub old: &'a [f64],
-    /// Pressure and 1/r (or 0) of the padded cells.
-    pub pressure: &'a [f64],
-    /// See `pressure`.
+    /// Pressure and φ of the padded cells.
+    pub padded: [&'a [f64]; 2],
+    /// 1/r of the padded cells, or 0.
     pub inverse_r: &'a [f64],
     pub metric: &'a Metric<'a>,
     pub capillary: &'a CapillaryRows,
@@ -221,12 +221,12 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         speeds: [&mut [f64]; 3],
         report: &mut BlockReport<N>,
     ) {
-        let Before { number, old, pressure, inverse_r, metric, capillary } = before;
+        let Before { number, old, padded: [pressure, phi], inverse_r, metric, capillary } = before;
         let row = |c: usize| &old[c * N * N..(c + 1) * N * N];
         let (old_rows, old_gas) = (std::array::from_fn(row), row(GAS));
         let (first, new_gas) = new[..(GAS + 1) * N * N].split_at_mut(GAS * N * N);
         let mut cells = NewCells { conserved: split_block::<N>(first), speeds };
-        let old = OldCells { conserved: old_rows, pressure, gas: [old_gas, new_gas] };
+        let old = OldCells { conserved: old_rows, padded: [pressure, phi], gas: [old_gas, new_gas] };
         let (windows, rule) =
             (gas.mixed.mixed(number), &CellRule { excess: capillary.excess(), ..self.rule(inverse_r) });
         let mut clipped = update_mixed::<N>(windows, &old, faces, metric, rule, &mut cells, &mut gas.marked);
@@ -256,7 +256,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
     /// - `before`: φ and m_g before the step; `gas`: m_g after it.
     fn expand(
         &self,
-        Before { pressure, metric, capillary, .. }: Before<'_>,
+        Before { padded: [pressure, _], metric, capillary, .. }: Before<'_>,
         before: [&[f64]; 2],
         gas: &[f64],
         cells: &mut NewCells<'_>,
@@ -268,7 +268,7 @@ impl<'a, const N: usize> GasBlock<'a, N> {
         for cell in 0..N * N {
             let added = cells.speeds[2][cell];
             let mut u: [f64; COUNT] = std::array::from_fn(|c| cells.conserved[c][cell]);
-            if added == 0.0 || !Mixture::has_gas_floor(u[PHI]) {
+            if added == 0.0 || !self.ctx.model.mixture.has_gas_floor(u[PHI]) {
                 continue;
             }
             u[ENERGY] -= added;

@@ -10,6 +10,7 @@ use super::cells::{Cells, FaceState, RowKinds, find_interface};
 use super::closure::{Compression, is_mixed, phase_densities};
 use super::face_states::FaceStates;
 use super::reconstruction::{CellRule, face_states};
+use super::traces::is_closed;
 use super::windows::{LANES, Window, lanes, windows};
 use crate::boundary::beside;
 use crate::capillarity::FaceJumps;
@@ -311,7 +312,7 @@ impl<const AXIS: usize> ListedFaces for Along<'_, AXIS> {
         let densities = phase_densities(rho, share, phi, mixture);
         let closure = Compression::at(p, phi, densities, mixture, options.has_closure);
         let behind = closure.star_fraction(phi, compression);
-        if is_mixed(phi) { behind } else { phi }
+        if is_mixed(phi) & !is_closed(p, phi, mixture) { behind } else { phi }
     }
 
     #[inline(always)]

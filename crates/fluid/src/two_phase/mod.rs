@@ -18,6 +18,7 @@ mod reconstruction;
 mod relaxation;
 mod scratch;
 mod thinc;
+mod traces;
 mod update;
 mod windows;
 

@@ -5,6 +5,7 @@ use mesh::Limiter;
 use super::closure::{Compression, is_mixed, phase_densities};
 use super::expansion::{Gas, expanded};
 use super::reconstruction::CellRule;
+use super::traces::is_closed;
 use crate::options::{Model, Sharpening, TwoPhaseOptions};
 use crate::physics::Fluid;
 use crate::state::conserved::{GAS, PHI, RHO};
@@ -68,6 +69,9 @@ impl PhaseModel {
         match self {
             Self::FiveEquation(options) if is_mixed(u[PHI]) => {
                 let [rho, _, _, p, phi] = primitive_of::<true>(u, gas, mixture);
+                if is_closed(p, phi, mixture) {
+                    return 0.0;
+                }
                 let densities = phase_densities(rho, gas / rho, phi, mixture);
                 Compression::at(p, phi, densities, mixture, options.has_closure).expansion(phi)
             }
@@ -87,7 +91,7 @@ impl PhaseModel {
         let finished = finish_corrected(u, gas, mixture);
         match self {
             Self::FiveEquation(options)
-                if options.has_closure && finished.floor > 0.0 && Mixture::has_gas_floor(u[PHI]) =>
+                if options.has_closure && finished.floor > 0.0 && mixture.has_gas_floor(u[PHI]) =>
             {
                 let [_, _, _, pressure, phi] = primitive_of::<true>(old, old_gas, mixture);
                 let before = Gas { pressure, phi, mass: old_gas };

@@ -6,6 +6,7 @@ use super::cells::Cells;
 use super::closure::{Compression, PURE};
 use super::face_states::{Bounded, FaceStates};
 use super::thinc;
+use super::traces::closed;
 use super::windows::{LANES, Lane, Window, bits, lanes};
 use crate::Mixture;
 use crate::options::TwoPhaseOptions;
@@ -132,7 +133,9 @@ fn window_states(
         }
     }
     let of_gas = rule.of_gas(at, &w[PRESSURE]);
-    let mut half = half_step(&w, &of_gas, &differences, &at.load(rule.inverse_r, 0), rule);
+    let padded = [primitive::PRESSURE, primitive::PHI].map(|row| cells.rows[row]);
+    let is_closed = closed(at, padded, cells.stride, rule.mixture);
+    let mut half = half_step(&w, (&of_gas, &is_closed), &differences, &at.load(rule.inverse_r, 0), rule);
     let mut shares = [1.0; LANES];
     if !rule.options.has_closure {
         for (lane, k) in lanes(at.listed).zip(at.cells()) {
@@ -207,11 +210,11 @@ fn phases(cells: &Cells<'_>, at: Window, by: isize, else_densities: [&Lane; 2]) 
     phases
 }
 
-/// - `of_gas`: the gas's pressure, Pa.
+/// - `of_gas`: the gas's pressure, Pa; `is_closed`: whether it does not give way, see [`closed`].
 #[inline(always)]
 fn half_step(
     w: &Phases,
-    of_gas: &Lane,
+    (of_gas, is_closed): (&Lane, &[bool; LANES]),
     [s_z, s_r]: &[Phases; 2],
     inverse_r: &Lane,
     rule: &CellRule<'_>,
@@ -229,7 +232,9 @@ fn half_step(
         let (d_z, d_r) = (per_width(of(s_z), inverse_hz), per_width(of(s_r), inverse_hr));
         let phi = cell[PHI];
         let densities = [cell[RHO_G], cell[RHO_L]];
-        let c = Compression::at(of_gas[k], phi, densities, rule.mixture, rule.options.has_closure);
+        let within = if is_closed[k] { 0.0 } else { phi };
+        let mut c = Compression::at(of_gas[k], within, densities, rule.mixture, rule.options.has_closure);
+        c.gas = if is_closed[k] { 1.0 } else { c.gas };
         let per_rho = 1.0 / (phi * cell[RHO_G] + (1.0 - phi) * cell[RHO_L]);
         let divergence = d_z[V_Z] + d_r[V_R] + cell[V_R] * inverse_r[k];
         let source = [
@@ -238,7 +243,7 @@ fn half_step(
             -d_z[PRESSURE] * per_rho,
             -d_r[PRESSURE] * per_rho,
             -c.modulus * divergence,
-            c.expansion(phi) * divergence,
+            c.expansion(within) * divergence,
         ];
         for c in 0..6 {
             half[c][k] = cell[c] + half_dt * (source[c] - (cell[V_Z] * d_z[c] + cell[V_R] * d_r[c]));

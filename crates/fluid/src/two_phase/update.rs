@@ -5,6 +5,7 @@ use std::hint::select_unpredictable;
 use super::closure::{bounded, is_bound, phase_densities};
 use super::reconstruction::CellRule;
 use super::relaxation::{Advected, relaxed_fractions};
+use super::traces::closed;
 use super::windows::{LANES, Lane, Window, bits, lanes};
 use crate::reconstruction::Rows;
 use crate::state::conserved::{ENERGY, MOMENTUM_R, MOMENTUM_Z, PHI, RHO};
@@ -148,8 +149,8 @@ fn without_trace(value: f64) -> f64 {
 pub(crate) struct OldCells<'a> {
     /// Conserved variables without ghosts.
     pub conserved: Rows<'a>,
-    /// Pressure of the padded cells.
-    pub pressure: &'a [f64],
+    /// Pressure and φ of the padded cells.
+    pub padded: [&'a [f64]; 2],
     /// m_g before and after the step.
     pub gas: [&'a [f64]; 2],
 }
@@ -193,7 +194,8 @@ pub(crate) fn update_mixed<const N: usize>(
         let before = old.conserved.map(|component| row::<LANES>(component, at));
         let [gas_before, gas_after] = old.gas.map(|component| row::<LANES>(component, at));
         let mut u = [[0.0; LANES]; COUNT];
-        let mut is_chosen = [false; LANES];
+        let (mut is_chosen, mut changes) = ([false; LANES], [0.0; LANES]);
+        let is_closed = closed(*window, old.padded, metric.stride, mixture);
         let mut cells = Advected::<LANES>::ZERO;
         for k in 0..LANES {
             let [west, east, south, north] = [west.at(k), east.at(k), south.at(k), north.at(k)];
@@ -204,12 +206,13 @@ pub(crate) fn update_mixed<const N: usize>(
             let volume =
                 widths.axial(east.velocity, west.velocity) + widths.radial(north.velocity, south.velocity);
             is_chosen[k] = window.has(k);
-            // What is not chosen has nothing to relax.
-            cells.volume[k] = if is_chosen[k] { volume } else { 0.0 };
+            // What is not chosen has nothing to relax, and gas that stays closed only goes with the flow.
+            cells.volume[k] = if is_chosen[k] & !is_closed[k] { volume } else { 0.0 };
+            changes[k] = volume;
             cells.gas[k] =
                 widths.axial(carried(east), carried(west)) + widths.radial(carried(north), carried(south));
         }
-        let pressure = rule.of_gas(*window, row::<LANES>(old.pressure, k));
+        let pressure = rule.of_gas(*window, row::<LANES>(old.padded[0], k));
         (cells.phi, cells.p, cells.fraction) = (*before[PHI], pressure, u[PHI]);
         if mixture.has_covolume() {
             take_covolumes(mixture, [before[RHO], gas_before], [&u[RHO], gas_after], &mut cells);
@@ -225,7 +228,7 @@ pub(crate) fn update_mixed<const N: usize>(
         for k in 0..LANES {
             // No other cell ends just there.
             is_clipped[k] = is_bound(u[PHI][k]);
-            let (rho, gas, change) = (before[RHO][k], gas_before[k], cells.volume[k]);
+            let (rho, gas, change) = (before[RHO][k], gas_before[k], changes[k]);
             let falls =
                 |before: f64, after: f64| after < LEAST_SHARE * if before > 0.0 { before } else { 0.0 };
             let is_drained = falls(rho, u[RHO][k])
