@@ -5,7 +5,7 @@
 //! is next to nothing, and hands on traces of its own. Liquid at −1 MPa would be foam soon, and no tension left. In water such nuclei
 //! are of less than a micrometre, and surface tension, 2σ/r, holds them.
 
-use super::windows::{LANES, Window};
+use super::windows::{LANES, Lane, Window};
 use crate::Mixture;
 
 /// A cell of more gas than this is the inside of a bubble; beside it gas is at an interface.
@@ -19,20 +19,37 @@ const INSIDE: f64 = 0.5;
 /// - `rows`: pressure (Pa) and φ of the padded cells; `stride`: between cells that neighbour each other along r.
 #[inline(always)]
 pub(super) fn closed(at: Window, rows: [&[f64]; 2], stride: usize, mixture: &Mixture) -> [bool; LANES] {
-    if !mixture.has_closed_traces() {
-        return [false; LANES];
+    let around = [0, -1, 1, -(stride as isize), stride as isize];
+    let lesser = |a: f64, b: f64| if a < b { a } else { b };
+    let mut lowest = [0.0; LANES];
+    for by in around {
+        let pressure = at.load(rows[0], by);
+        for k in 0..LANES {
+            lowest[k] = lesser(lowest[k], pressure[k]);
+        }
     }
-    let along_r = stride as isize;
-    let [pressures, fractions] = rows.map(|row| [0, -1, 1, -along_r, along_r].map(|by| at.load(row, by)));
-    let mut is_closed = [false; LANES];
-    for k in 0..LANES {
-        let lowest = pressures
-            .iter()
-            .fold(f64::INFINITY, |lowest, lane| if lane[k] < lowest { lane[k] } else { lowest });
-        let most = fractions.iter().fold(0.0, |most, lane| if lane[k] > most { lane[k] } else { most });
-        is_closed[k] = (lowest < 0.0) & (most < INSIDE) & !mixture.has_gas_floor(fractions[0][k]);
+    let is_tense = lowest.iter().fold(false, |is_tense, p| is_tense | (*p < 0.0));
+    if is_tense & mixture.has_closed_traces() {
+        of_tense(at, rows[1], around, lowest, mixture)
+    } else {
+        [false; LANES]
     }
-    is_closed
+}
+
+/// The same where there is tension: in a place of its own, as it is rare.
+#[inline(never)]
+fn of_tense(
+    at: Window,
+    fractions: &[f64],
+    around: [isize; 5],
+    lowest: Lane,
+    mixture: &Mixture,
+) -> [bool; LANES] {
+    let fractions = around.map(|by| at.load(fractions, by));
+    std::array::from_fn(|k| {
+        let is_beside_bubble = fractions.iter().any(|phi| phi[k] >= INSIDE);
+        (lowest[k] < 0.0) & !is_beside_bubble & !mixture.has_gas_floor(fractions[0][k])
+    })
 }
 
 /// Whether a state's gas is too little to count as a cavity and under tension: as far as a face, or a cell alone, can tell.
