@@ -35,5 +35,6 @@ mod super_stepping;
 mod superheated;
 mod surface_tension;
 mod symmetry;
+mod tension;
 mod tracer;
 mod viscosity;

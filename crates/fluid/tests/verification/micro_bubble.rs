@@ -11,10 +11,19 @@ use crate::helpers::*;
 
 const GAS_PRESSURE: f64 = 1e3;
 
-/// A quarter of a bubble as Rayleigh's collapse begins.
-///
-/// - `cells`: per radius and in the domain along both axes; `gas`: its pressure, Pa.
 fn bubble(radius: f64, cells: [usize; 2], gas: f64, change: impl Fn(&mut FluidSetup)) -> FluidSolver<8> {
+    bubble_at([1e5, gas], radius, cells, change)
+}
+
+/// A quarter of a bubble as its motion begins from rest.
+///
+/// - `far`, `gas`: pressures, Pa; `cells`: per radius and in the domain along both axes.
+pub fn bubble_at(
+    [far, gas]: [f64; 2],
+    radius: f64,
+    cells: [usize; 2],
+    change: impl Fn(&mut FluidSetup),
+) -> FluidSolver<8> {
     let length = radius * cells[1] as f64 / cells[0] as f64;
     let domain = Domain { geometry: AXIAL, z: [0.0, length], r: [0.0, length] };
     let sides = [Boundary::Symmetry, Boundary::FarField, Boundary::Axis, Boundary::FarField];
@@ -27,7 +36,7 @@ fn bubble(radius: f64, cells: [usize; 2], gas: f64, change: impl Fn(&mut FluidSe
     change(&mut setup);
     let state = |phase, density, pressure| PhaseState { phase, density, pressure, velocity: [0.0; 2] };
     let initial = InitialCondition {
-        ambient: state(Phase::Liquid, 997.0, 1e5),
+        ambient: state(Phase::Liquid, 997.0, far),
         pressure: InitialPressure::Rayleigh,
         regions: vec![Region {
             shape: Shape::Sphere { centre: [0.0; 2], radius },
