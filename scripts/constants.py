@@ -33,6 +33,7 @@ FILES = {
     "OPEN_SHARE": "crates/mesh/src/multiresolution/marks.rs",
     "LEAST": "crates/mesh/src/ghosts/mod.rs",
     "MOST": "crates/mesh/src/ghosts/mod.rs",
+    "LARGEST_TRACE": "crates/fluid/src/thermodynamics/mixture.rs",
 }
 BOTH_ADAPT = {"fluid.adapt": "true", "solid.adapt": "true", "time.local_steps": "true"}
 COLLAPSE = BOTH_ADAPT | {"fluid.model": "five-equation", "fluid.levels": "5", "solid.levels": "3", "time.snapshots": "[]"}

@@ -169,7 +169,7 @@ const FLOOR_BUDGET: f64 = 0.01;
 const REDONE_BUDGET: f64 = 1e-3;
 
 /// Likewise above which gas that had to expand in liquid under tension is.
-const EXPANDED_BUDGET: f64 = 1e-4;
+const EXPANDED_BUDGET: f64 = 1e-3;
 
 /// What of a run's corrections is too much to be passed over.
 fn warnings(whole: &Map<String, Value>) -> Vec<String> {

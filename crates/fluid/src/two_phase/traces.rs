@@ -57,3 +57,61 @@ fn of_tense(
 pub(super) fn is_closed(p: f64, phi: f64, mixture: &Mixture) -> bool {
     mixture.has_closed_traces() & (p < 0.0) & !mixture.has_gas_floor(phi)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STRIDE: usize = 12;
+
+    /// Whether the gas of the cell in the middle stays closed.
+    ///
+    /// - `own`, `beside`: pressure (Pa) and φ of it and of the cell above it; all others are liquid at 1 bar.
+    fn middle(own: [f64; 2], beside: [f64; 2], mixture: &Mixture) -> bool {
+        let place = 2 * STRIDE + 2;
+        let row = |component: usize, all: f64| {
+            let mut row = vec![all; 5 * STRIDE];
+            row[place] = own[component];
+            row[place + STRIDE] = beside[component];
+            row
+        };
+        let (pressures, fractions) = (row(0, 1e5), row(1, 0.0));
+        let window = Window { first: place, step: 1, listed: 1 };
+        let is_closed = closed(window, [&pressures, &fractions], STRIDE, mixture);
+        assert_eq!(
+            is_closed[2..],
+            [false; LANES - 2],
+            "no cell that holds nothing and has no tension beside"
+        );
+        is_closed[0]
+    }
+
+    #[test]
+    fn traces_stay_closed_where_there_is_tension_and_no_bubble_beside() {
+        let mixture = Mixture::water_and_air().with_closed_traces();
+        for (own, beside, is) in [
+            ([-1e5, 1e-6], [1e5, 0.0], true),
+            ([1e3, 9e-3], [-1.0, 0.0], true),
+            ([1e3, 1e-6], [1e3, 0.0], false),
+            ([-1e5, 1.1e-2], [-1e5, 0.0], false),
+            ([-1e5, 1e-3], [-1e5, 0.49], true),
+            ([-1e5, 1e-3], [1e3, 0.51], false),
+        ] {
+            assert_eq!(middle(own, beside, &mixture), is, "{own:?} {beside:?}");
+        }
+        assert!(
+            is_closed(-1.0, 9e-3, &mixture)
+                && !is_closed(-1.0, 1.1e-2, &mixture)
+                && !is_closed(1.0, 0.0, &mixture)
+        );
+        // The floor lets them: what stays closed may be in tension.
+        assert!(mixture.pressure_floor(9e-3) < -1e8 && mixture.pressure_floor(1.1e-2) > 0.0);
+    }
+
+    #[test]
+    fn they_open_where_liquid_does() {
+        let mixture = Mixture::water_and_air();
+        assert!(!middle([-1e5, 1e-6], [-1e5, 0.0], &mixture) && !is_closed(-1.0, 1e-6, &mixture));
+        assert!(mixture.pressure_floor(1.1e-3) > 0.0);
+    }
+}
