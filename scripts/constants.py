@@ -5,7 +5,7 @@
 
 For each constant the program is built again with it halved and doubled in a copy of the sources, and two cases are run: the figures'
 collapse with both limiters, and the acoustic pulse. Prints the changes of the results in percent as Markdown. All constants are
-sixteen programs and three runs of each, some five minutes a program on two cores. --list only says where the constants are. Needs
+eighteen programs and three runs of each, some five minutes a program on two cores. --list only says where the constants are. Needs
 cargo, git and scripts/requirements.txt.
 """
 

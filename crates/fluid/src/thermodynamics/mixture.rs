@@ -218,7 +218,7 @@ impl Covolumes {
 const GAS_FLOOR_FRACTION: f64 = 1e-3;
 
 /// The same where traces of gas stay closed. A bubble of 10 µm at −1 MPa, 8 cells per radius, against Keller and Miksis: with 10⁻³
-/// +2.5 %, 10⁻² 0.0 %, 10⁻¹ −0.4 %.
+/// +2.5 %, 10⁻² 0.0 %, 10⁻¹ −0.4 %. Half and twice of it: `docs/verification/constants.md`.
 const LARGEST_TRACE: f64 = 1e-2;
 
 #[cfg(test)]
