@@ -89,11 +89,11 @@ impl FluidSetup {
         }
     }
 
-    /// Both phases. In the five-equation model traces of gas stay closed in liquid under tension, but where liquid opens by itself.
+    /// Both phases. In the five-equation model traces of gas stay closed in liquid under tension; where phases change, vapour may grow from them.
     pub(crate) fn mixture(&self) -> Mixture {
         let mixture = Mixture::new(self.liquid, self.gas);
-        let opens = self.phase_change.is_some_and(|asked| asked.cavitation.is_some());
-        if self.model == Model::FiveEquation && !opens { mixture.with_closed_traces() } else { mixture }
+        let has_closed_traces = self.model == Model::FiveEquation && self.phase_change.is_none();
+        if has_closed_traces { mixture.with_closed_traces() } else { mixture }
     }
 
     /// Components of the field: the model's, and those that the mass carries besides.
