@@ -48,7 +48,7 @@ fn of_tense(
     let fractions = around.map(|by| at.load(fractions, by));
     std::array::from_fn(|k| {
         let is_beside_bubble = fractions.iter().any(|phi| phi[k] >= INSIDE);
-        (lowest[k] < 0.0) & !is_beside_bubble & !mixture.has_gas_floor(fractions[0][k])
+        is_closed(lowest[k], fractions[0][k], mixture) & !is_beside_bubble
     })
 }
 
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn they_open_where_liquid_does() {
+    fn other_mixtures_have_no_such_rule() {
         let mixture = Mixture::water_and_air();
         assert!(!middle([-1e5, 1e-6], [-1e5, 0.0], &mixture) && !is_closed(-1.0, 1e-6, &mixture));
         assert!(mixture.pressure_floor(1.1e-3) > 0.0);

@@ -38,12 +38,7 @@ fn left_of_vapour(accommodation: f64) -> [f64; 3] {
     let dt = 1e-9;
     RADII.map(|wanted| {
         while y[0] > wanted * RADIUS {
-            let add = |k: [f64; 3], w: f64| std::array::from_fn(|c| y[c] + w * k[c]);
-            let k1 = rate(y);
-            let k2 = rate(add(k1, 0.5 * dt));
-            let k3 = rate(add(k2, 0.5 * dt));
-            let k4 = rate(add(k3, dt));
-            y = std::array::from_fn(|c| y[c] + dt / 6.0 * (k1[c] + 2.0 * k2[c] + 2.0 * k3[c] + k4[c]));
+            y = runge_kutta(y, dt, rate);
         }
         y[2]
     })

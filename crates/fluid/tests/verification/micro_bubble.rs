@@ -11,10 +11,6 @@ use crate::helpers::*;
 
 const GAS_PRESSURE: f64 = 1e3;
 
-fn bubble(radius: f64, cells: [usize; 2], gas: f64, change: impl Fn(&mut FluidSetup)) -> FluidSolver<8> {
-    bubble_at([1e5, gas], radius, cells, change)
-}
-
 /// A quarter of a bubble as its motion begins from rest.
 ///
 /// - `far`, `gas`: pressures, Pa; `cells`: per radius and in the domain along both axes.
@@ -47,6 +43,11 @@ pub fn bubble_at(
     let mixture = Mixture::new(setup.liquid, setup.gas);
     setup.far_field = FarField::of(&initial, &mixture, &domain, sides, None, 1.0).ok();
     FluidSolver::new(&setup, &initial).unwrap()
+}
+
+/// The same at 1 bar.
+fn bubble(radius: f64, cells: [usize; 2], gas: f64, change: impl Fn(&mut FluidSetup)) -> FluidSolver<8> {
+    bubble_at([1e5, gas], radius, cells, change)
 }
 
 /// Lets it collapse to a part of its radius.
@@ -156,12 +157,7 @@ fn gilmore([sigma, mu]: [f64; 2], start: f64) -> [f64; 3] {
     while y[1] <= 0.0 {
         let [_, a] = rate(y);
         let dt = 5e-4 * (y[0] / (y[1].abs() + 1.0)).min((y[0] / a.abs()).sqrt());
-        let at = |share: f64, k: [f64; 2]| rate([y[0] + share * dt * k[0], y[1] + share * dt * k[1]]);
-        let k1 = rate(y);
-        let k2 = at(0.5, k1);
-        let k3 = at(0.5, k2);
-        let k4 = at(1.0, k3);
-        y = [0, 1].map(|c| y[c] + dt / 6.0 * (k1[c] + 2.0 * (k2[c] + k3[c]) + k4[c]));
+        y = runge_kutta(y, dt, rate);
         time += dt;
     }
     [y[0] / first, gas(y[0]), time]

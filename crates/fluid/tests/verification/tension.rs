@@ -21,12 +21,7 @@ fn keller_miksis(far: f64, end: f64) -> f64 {
     let (mut y, steps) = ([RADIUS, 0.0], 4000);
     let dt = end / f64::from(steps);
     for _ in 0..steps {
-        let at = |share: f64, k: [f64; 2]| rate([y[0] + share * dt * k[0], y[1] + share * dt * k[1]]);
-        let k1 = rate(y);
-        let k2 = at(0.5, k1);
-        let k3 = at(0.5, k2);
-        let k4 = at(1.0, k3);
-        y = [0, 1].map(|c| y[c] + dt / 6.0 * (k1[c] + 2.0 * (k2[c] + k3[c]) + k4[c]));
+        y = runge_kutta(y, dt, rate);
     }
     y[0] / RADIUS
 }
