@@ -64,7 +64,7 @@ fn bubble_of_vapour(cells: usize, accommodation: f64) -> [f64; 3] {
         phase_change: Some(PhaseChange { law, vapour_fraction: 1.0, cavitation: None }),
         far_field: FarField::of(&initial, &Mixture::new(liquid, gas), &domain, sides, None, 1.0).ok(),
         riemann: RiemannSolver::HllcLowMach,
-        ..FluidSetup::new(domain, [4 * cells; 2], sides)
+        ..setup_in(domain, [4 * cells; 2], sides)
     };
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
     let [radius, mass] = [fluid.bubble().equivalent_radius, fluid.totals().gas_mass];

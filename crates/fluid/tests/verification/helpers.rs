@@ -43,7 +43,13 @@ pub fn setup_of(
     boundaries: [Boundary; 4],
 ) -> FluidSetup {
     let domain = Domain { geometry, z: [0.0, 1.0], r: [0.0, 1.0] };
-    FluidSetup { model, sharpening, ..FluidSetup::new(domain, cells, boundaries) }
+    FluidSetup { model, sharpening, ..setup_in(domain, cells, boundaries) }
+}
+
+/// [`FluidSetup::new`] of a test.
+pub fn setup_in(domain: Domain, cells: [usize; 2], boundaries: [Boundary; 4]) -> FluidSetup {
+    keep_to_own_thread();
+    FluidSetup::new(domain, cells, boundaries)
 }
 
 /// A ball of gas in liquid of 1000 kg/m³.
@@ -228,6 +234,6 @@ pub fn l1<const N: usize, const K: usize>(
 mod shared;
 
 pub use shared::{
-    CFL, J1_ZEROS, assert_transposed, differences, j0, j1, order, relative_l1, scientific, step_locally,
-    step_together, strips,
+    CFL, J1_ZEROS, assert_transposed, differences, j0, j1, keep_to_own_thread, order, relative_l1,
+    scientific, step_locally, step_together, strips,
 };

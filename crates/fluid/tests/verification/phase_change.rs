@@ -179,11 +179,7 @@ fn a_bubble_in_equilibrium_across_a_tense_interface_stays_as_it_is() {
         liquid,
         gas,
         surface_tension: Some(tension),
-        ..FluidSetup::new(
-            Domain { geometry: AXIAL, z: [-length, length], r: [0.0, length] },
-            [64, 32],
-            CYLINDER,
-        )
+        ..setup_in(Domain { geometry: AXIAL, z: [-length, length], r: [0.0, length] }, [64, 32], CYLINDER)
     };
     let with = |law| FluidSetup {
         conduction: Some(conduction),

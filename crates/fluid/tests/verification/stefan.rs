@@ -146,7 +146,7 @@ pub fn strip(
         gas,
         conduction: Some(conduction),
         phase_change: Some(PhaseChange { law, vapour_fraction: 1.0, cavitation: None }),
-        ..FluidSetup::new(domain, [cells, 8], sides)
+        ..setup_in(domain, [cells, 8], sides)
     }
 }
 

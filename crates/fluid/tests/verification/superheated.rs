@@ -195,7 +195,7 @@ fn scriven(cells: usize, law: EvaporationLaw, jakob: f64) -> f64 {
         far_field: FarField::of(&initial, &mixture, &domain, sides, None, 1.0).ok(),
         riemann: RiemannSolver::HllcLowMach,
         surface_tension: Some(SurfaceTension { coefficient: 1e-3, density, may_touch_walls: false }),
-        ..FluidSetup::new(domain, [3 * cells; 2], sides)
+        ..setup_in(domain, [3 * cells; 2], sides)
     };
     let mut fluid = FluidSolver::<8>::new(&setup, &initial).unwrap();
     let speed = 2.0 * exact.beta * exact.beta * diffusivity / begin;

@@ -184,8 +184,7 @@ fn an_interface_at_a_wall_is_refused_without_an_angle() {
     let domain = Domain { geometry: AXIAL, z: [0.0, 4.0], r: [0.0, 2.0] };
     let at = |may_touch_walls: bool| {
         let tension = SurfaceTension { coefficient: 0.07, density: 1000.0, may_touch_walls };
-        let setup =
-            FluidSetup { surface_tension: Some(tension), ..FluidSetup::new(domain, [32, 16], CYLINDER) };
+        let setup = FluidSetup { surface_tension: Some(tension), ..setup_in(domain, [32, 16], CYLINDER) };
         FluidSolver::<8>::new(&setup, &ball_of_gas(([0.3, 0.0], 1.0), 1e5, AIR, 0.0))
     };
     let refused = at(false).err().unwrap();
@@ -204,7 +203,7 @@ fn liquid_in_tension_around_a_small_bubble_stays_at_rest() {
     let setup = FluidSetup {
         surface_tension: Some(tension),
         scales: Scales { pressure: 1e5, density: 1e3 },
-        ..FluidSetup::new(domain, [96, 48], CYLINDER)
+        ..setup_in(domain, [96, 48], CYLINDER)
     };
     let initial = InitialCondition {
         ambient: state(Phase::Liquid, 1000.0, gas_pressure - 2.0 * sigma / radius),

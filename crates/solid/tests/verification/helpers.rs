@@ -15,6 +15,7 @@ pub const AXIAL: Geometry = Geometry::Axisymmetric;
 
 /// Steel and the MC limiter on `cells` over [0, 1] × [0, 1] m.
 pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -> SolidSetup {
+    keep_to_own_thread();
     SolidSetup {
         domain: Domain { geometry, z: [0.0, 1.0], r: [0.0, 1.0] },
         coarsest: cells,
@@ -109,6 +110,6 @@ pub fn l1<const N: usize>(
 mod shared;
 
 pub use shared::{
-    CFL, J1_ZEROS, assert_transposed, differences, j0, j1, j1_over, order, relative_l1, step_locally,
-    step_together, strips,
+    CFL, J1_ZEROS, assert_transposed, differences, j0, j1, j1_over, keep_to_own_thread, order, relative_l1,
+    step_locally, step_together, strips,
 };
