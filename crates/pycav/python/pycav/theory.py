@@ -1,19 +1,20 @@
-"""A single bubble in unbounded liquid, waves on a surface: what runs are compared with."""
+"""A single bubble in unbounded liquid, waves on a surface: what runs are compared with.
+
+SciPy is imported where it computes: it takes as long as all else that a picture needs, and few need it.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import gamma, pi, sqrt
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
-from scipy.special import beta, betainc
 
 from .mesh import Floats
 from .result import Result
 
-RAYLEIGH_FACTOR = float(beta(5 / 6, 1 / 2) / np.sqrt(6))
-"""Collapse time over R₀ √(ρ/Δp): 0.91468."""
+RAYLEIGH_FACTOR = gamma(5 / 6) * sqrt(pi) / gamma(4 / 3) / sqrt(6)
+"""Collapse time over R₀ √(ρ/Δp), B(5/6, 1/2)/√6: 0.91468."""
 
 
 def rayleigh_wave_speed(c1: float, c2: float) -> float:
@@ -21,6 +22,8 @@ def rayleigh_wave_speed(c1: float, c2: float) -> float:
 
     - `c1`, `c2`: speeds of dilatational and of shear waves, m/s, c₁ ≥ √2 c₂.
     """
+    from scipy.optimize import brentq
+
     def excess(c: float) -> float:
         left = (2 - (c / c2) ** 2) ** 2
         return float(left - 4 * np.sqrt((1 - (c / c1) ** 2) * (1 - (c / c2) ** 2)))
@@ -82,6 +85,8 @@ class Bubble:
 
         Rayleigh (1917): t/T = 1 − I(x³; 5/6, 1/2) with x = R/R₀ and the regularised incomplete beta function I.
         """
+        from scipy.special import betainc
+
         x = np.linspace(1.0, 0.0, points)
         return self.collapse_time * (1.0 - betainc(5 / 6, 1 / 2, x**3)), self.radius * x
 
@@ -94,6 +99,8 @@ class Bubble:
         Where the liquid begins at a uniform pressure, that on the bubble's wall changes at once; the
         term R ṗ/(ρc) of the equation then starts the wall with Ṙ = (p − p∞)/(ρc).
         """
+        from scipy.integrate import solve_ivp
+
         rho, c, p_inf, taken, stiff = self.density, self.sound_speed, self.pressure, self.covolume_share, self.gas_stiffness
         twice, friction = 2 * self.surface_tension, 4 * self.viscosity
         start = (self.gas_pressure - twice / self.radius - p_inf) / (rho * c + friction / self.radius)

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray
-from scipy.optimize import brentq
 
 from ..mesh import Floats
 from .dataset import numeric, opened, values_along
@@ -174,6 +173,8 @@ def _order(shrinks: float, ratio: float, ratio_before: float) -> float:
         return low
     if shrinks >= _shrinks(high, ratio, ratio_before):
         return high
+    from scipy.optimize import brentq  # Here: it takes longer to import than all else that a sweep needs.
+
     return float(brentq(lambda order: _shrinks(order, ratio, ratio_before) - shrinks, low, high))
 
 
