@@ -16,6 +16,8 @@ use fluid::{Boundary as FluidBoundary, FluidSetup, FluidSolver, Model, Primitive
 use mesh::{BLOCK, Domain, Geometry, Limiter, Mesh};
 use solid::{Boundary as SolidBoundary, ElasticState, SolidSetup, SolidSolver, WaveSpeeds};
 
+use crate::own_thread::keep_to_own_thread;
+
 /// The fluid's solver as runs use it.
 pub type Fluid = FluidSolver<BLOCK>;
 /// The solid's solver as runs use it.
@@ -43,6 +45,7 @@ pub fn sound(pressure: f64) -> f64 {
 
 /// Reads a case from text.
 pub fn case(text: &str) -> Case {
+    keep_to_own_thread();
     Case::from_toml(text, "coupled", &[]).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
@@ -222,6 +225,7 @@ pub fn water(
     boundaries: [FluidBoundary; 4],
     state: impl Fn([f64; 2]) -> Primitive + Sync,
 ) -> Fluid {
+    keep_to_own_thread();
     let setup = FluidSetup {
         model: Model::SaurelAbgrall,
         sharpening: fluid::Sharpening::None,

@@ -15,6 +15,9 @@ mod ledgers;
 mod load;
 mod modes;
 mod near_wall;
+#[allow(clippy::unwrap_used, reason = "without a thread there is no test")]
+#[path = "../fixture/own_thread.rs"]
+mod own_thread;
 mod paper_schemes;
 mod participants;
 mod pits;
