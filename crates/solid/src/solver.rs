@@ -12,6 +12,7 @@ use crate::boundary::participant::BlockTraces;
 use crate::components::following::Following;
 use crate::components::untouched::Untouched;
 use crate::components::{self, Component};
+use crate::initial::InitialState;
 use crate::model::SolidMemory;
 use crate::physics::{Solid, Ways};
 use crate::plasticity::Plasticity;
@@ -49,13 +50,21 @@ impl<const N: usize> SolidSolver<N> {
     pub fn under_load(
         setup: SolidSetup,
         initial: impl Fn([f64; 2]) -> ElasticState + Sync,
-        at_rest: impl Fn([f64; 2]) -> ElasticState,
+        at_rest: impl Fn([f64; 2]) -> ElasticState + Sync,
+    ) -> Result<Self, SolidError> {
+        Self::filled(setup, &initial, &at_rest)
+    }
+
+    fn filled(
+        setup: SolidSetup,
+        initial: &InitialState<'_>,
+        at_rest: &InitialState<'_>,
     ) -> Result<Self, SolidError> {
         let plasticity = plasticity(&setup);
         let components = components::of(plasticity.as_ref(), setup.speeds);
         let analysis = analysis(&setup, &components);
-        let (mesh, state) = crate::initial::initial_mesh(&setup, &analysis, &components, &initial)?;
-        let beyond = Held::along_sides(&mesh, &initial, &with_weight(&setup, at_rest));
+        let (mesh, state) = crate::initial::initial_mesh(&setup, &analysis, &components, initial)?;
+        let beyond = Held::along_sides(&mesh, initial, &with_weight(&setup, at_rest));
         Self::with(setup, plasticity, (components, analysis), (mesh, state, None), beyond)
     }
 
@@ -84,7 +93,7 @@ impl<const N: usize> SolidSolver<N> {
             let (slot, i, j) = mesh.locate(point).expect("cells along the sides are in the domain");
             ElasticState::from_array(std::array::from_fn(|c| state.component(slot, c)[j * N + i]))
         };
-        let beyond = Held::along_sides(&mesh, &at, &with_weight(&setup, change));
+        let beyond = Held::along_sides(&mesh, &at, &with_weight(&setup, &change));
         Self::with(setup, plasticity, (components, analysis), (mesh, state, displacement), beyond)
     }
 
@@ -136,10 +145,7 @@ impl<const N: usize> SolidSolver<N> {
 }
 
 /// Stresses and those of the setup's weight, if it has one.
-fn with_weight(
-    setup: &SolidSetup,
-    stress: impl Fn([f64; 2]) -> ElasticState,
-) -> impl Fn([f64; 2]) -> ElasticState {
+fn with_weight(setup: &SolidSetup, stress: &InitialState<'_>) -> impl Fn([f64; 2]) -> ElasticState + Sync {
     let (weight, density) = (setup.weight, setup.speeds.density);
     move |point| {
         let mut state = stress(point);

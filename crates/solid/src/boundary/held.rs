@@ -3,6 +3,7 @@
 use mesh::{Mesh, Side, SideStates};
 
 use crate::ElasticState;
+use crate::initial::InitialState;
 
 /// How many cells within a side know their initial state.
 const DEPTH: usize = 4;
@@ -27,8 +28,8 @@ impl Held {
     ///   may differ from cell to cell.
     pub fn along_sides<const N: usize>(
         mesh: &Mesh<N>,
-        initial: &impl Fn([f64; 2]) -> ElasticState,
-        at_rest: &impl Fn([f64; 2]) -> ElasticState,
+        initial: &InitialState<'_>,
+        at_rest: &InitialState<'_>,
     ) -> SideStates<Self> {
         const { assert!(N >= DEPTH) };
         SideStates::new(mesh, |side, centre, widths| {

@@ -9,12 +9,15 @@ use crate::components::Component;
 use crate::state::component::{COUNT, V_R, V_Z};
 use crate::{Boundary, ElasticState, SolidError, SolidSetup};
 
+/// The state at a cell's centre (z, r): one type, so that meshes are not made by code of their own for each function.
+pub(crate) type InitialState<'a> = dyn Fn([f64; 2]) -> ElasticState + Sync + 'a;
+
 /// The mesh that the initial state asks for, filled with it.
 pub(crate) fn initial_mesh<const N: usize>(
     setup: &SolidSetup,
     analysis: &Analysis,
     components: &[Component],
-    initial: &(impl Fn([f64; 2]) -> ElasticState + Sync),
+    initial: &InitialState<'_>,
 ) -> Result<(Mesh<N>, Field), SolidError> {
     let periodic = periodic(setup);
     let fill = |mesh: &Mesh<N>| fill(mesh, components, initial);
@@ -34,7 +37,7 @@ pub(crate) fn earlier_cells<const N: usize>(
     components: &[Component],
     leaves: Vec<BlockId>,
     cells: &Field,
-    change: &(impl Fn([f64; 2]) -> ElasticState + Sync),
+    change: &InitialState<'_>,
 ) -> Result<(Mesh<N>, Field), SolidError> {
     let SolidSetup { domain, coarsest, levels, .. } = *setup;
     let blocks = leaves.len();
@@ -63,11 +66,7 @@ pub(crate) fn earlier_cells<const N: usize>(
 }
 
 /// The initial state at the cells' centres.
-fn fill<const N: usize>(
-    mesh: &Mesh<N>,
-    components: &[Component],
-    initial: &(impl Fn([f64; 2]) -> ElasticState + Sync),
-) -> Field {
+fn fill<const N: usize>(mesh: &Mesh<N>, components: &[Component], initial: &InitialState<'_>) -> Field {
     let mut state = Field::zeros(mesh.blocks(), N * N, COUNT + components.len());
     let mut reports = vec![(); mesh.blocks()];
     for_some_blocks(
