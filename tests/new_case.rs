@@ -153,6 +153,41 @@ fn every_kind_writes_cases_without_a_warning() {
     }
 }
 
+/// Church's pulse is in the case whatever the bubble's size, behind the front that its cells can bear.
+#[test]
+fn the_pulse_of_a_shock_has_its_impulse() {
+    for radius in [50e-6, 300e-6, 1e-3, 5e-3] {
+        let shock = ShockedBubble {
+            radius,
+            pressure: 1e5,
+            amplitude: 35e6,
+            stand_off: 2.0,
+            wall: Wall::Rigid,
+            cells_per_radius: 20.0,
+        };
+        let case: toml::Table = toml::from_str(&shock.text().expect("a case")).expect("TOML");
+        let rows = case["fluid"]["inflow"]["pressure"].as_array().expect("rows");
+        let number = |row: &toml::Value, k: usize| row[k].as_float().expect("a number");
+        let rows: Vec<[f64; 2]> = rows.iter().map(|row| [number(row, 0), number(row, 1) - 1e5]).collect();
+        let impulse = |rows: &[[f64; 2]]| -> f64 {
+            rows.windows(2).map(|pair| 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][0] - pair[0][0])).sum()
+        };
+        let (alpha, omega, third) = (9.1e5, 2.0 * std::f64::consts::PI * 83.3e3, std::f64::consts::FRAC_PI_3);
+        let exact = |t: f64| {
+            let part = |t: f64| {
+                let phase = omega * t + third;
+                2.0 * (-alpha * t).exp() * (omega * phase.sin() - alpha * phase.cos())
+                    / (alpha * alpha + omega * omega)
+            };
+            35e6 * (part(t) - part(0.0))
+        };
+        let (got, wanted) = (impulse(&rows[1..]), exact(rows[rows.len() - 1][0] - rows[1][0]));
+        // Of what it has before it turns to tension.
+        assert!((got - wanted).abs() < 5e-3 * 35e6 * 0.385e-6, "{radius}: {got} for {wanted}");
+        assert!((rows[1][1] - 35e6).abs() < 1e3, "it begins with the amplitude");
+    }
+}
+
 #[test]
 fn what_makes_no_case_is_named_with_what_is_allowed() {
     for (arguments, expected) in [
@@ -164,9 +199,12 @@ fn what_makes_no_case_is_named_with_what_is_allowed() {
         (["collapse", "--radius", "1psi"], "give a number with m, cm, mm"),
         (["load", "--wall", "rigid"], "a rigid wall takes no load"),
         (["load", "--duration", "1mm"], "give a number with s, ms"),
-        (["laser", "--equilibrium-radius", "30um"], "equilibrium_radius: must be larger, got 3e-5"),
+        (
+            ["laser", "--equilibrium-radius", "30um"],
+            "equilibrium_radius: must be above twice the radius at the start, 20 µm, got 3e-5",
+        ),
         (["laser", "--largest-radius", "-1mm"], "largest_radius: must be positive, got -0.001"),
-        (["laser", "--left-radius", "1mm"], "left_radius: must be less than R_n, got 0.001"),
+        (["laser", "--left-radius", "1mm"], "left_radius: must be less than R_n, 184.1 µm, got 0.001"),
         (["free", "--cells-per-radius", "nan"], "cells_per_radius: must be from 4 to 2000"),
         (["shock", "--amplitude", "-1MPa"], "amplitude: must be positive"),
     ] {

@@ -1,7 +1,8 @@
 //! Numbers that a unit was taken wrong in, and states that change at once.
 
 use fluid::{Phase, Shape};
-use solid::InitialStress;
+use mesh::Side;
+use solid::{Boundary, InitialStress};
 
 use super::format::si;
 use super::{FluidCase, SolidCase};
@@ -101,18 +102,10 @@ pub(super) fn solid(solid: &SolidCase, pressure: f64, warnings: &mut Vec<String>
         ));
     }
     let law = solid.plasticity.as_ref();
-    if let Some(strength) =
-        law.map(|law| law.yield_stress(0.0, 0.0, 0.0)).filter(|strength| pressure.abs() > *strength)
-        && solid.initial_stress == InitialStress::Uniaxial
-        && solid.initial.is_none()
-    {
-        warnings.push(format!(
-            "solid.initial_stress = \"uniaxial\" begins with a von Mises stress of {}, and the solid yields at {}: it flows at once, \
-             without a bubble; write solid.initial_stress = \"hydrostatic\"",
-            si(pressure.abs(), "Pa"),
-            si(strength, "Pa")
-        ));
+    if let Some(law) = law.filter(|_| solid.initial.is_none()) {
+        flows_at_once(solid, pressure, law.yield_stress(0.0, 0.0, 0.0), warnings);
     }
+    moves_at_once(solid, pressure, warnings);
     let strength = law.map_or(material.yield_strength(), |law| Some(law.yield_stress(0.0, 0.0, 0.0)));
     let share = strength.map(|strength| (strength, strength / material.young()));
     if let Some((strength, share)) = share.filter(|(_, share)| !(YIELD[0]..=YIELD[1]).contains(share)) {
@@ -121,6 +114,51 @@ pub(super) fn solid(solid: &SolidCase, pressure: f64, warnings: &mut Vec<String>
             si(strength, "Pa"),
             si(material.young(), "Pa")
         ));
+    }
+}
+
+/// A stress of the start that is beyond the yield strength, Pa.
+fn flows_at_once(solid: &SolidCase, pressure: f64, strength: f64, warnings: &mut Vec<String>) {
+    let is_uniaxial = solid.initial_stress == InitialStress::Uniaxial;
+    let weight = |z: f64| solid.weight.map_or(0.0, |weight| weight.stress(solid.material.density(), z));
+    // What σ_zz is beyond the others; along z it is linear.
+    let largest =
+        |borne: f64| solid.grid.z.map(|z| (weight(z) - borne).abs()).into_iter().fold(0.0, f64::max);
+    let (mises, by_weight) = (largest(if is_uniaxial { pressure } else { 0.0 }), largest(0.0));
+    if mises <= strength {
+        return;
+    }
+    let [mises, limit] = [mises, strength].map(|stress| si(stress, "Pa"));
+    let flows = format!(
+        "a von Mises stress of {mises}, and the solid yields at {limit}: it flows at once, without a bubble"
+    );
+    warnings.push(if is_uniaxial && by_weight <= strength {
+        format!(
+            "solid.initial_stress = \"uniaxial\" begins with {flows}; write solid.initial_stress = \"hydrostatic\""
+        )
+    } else {
+        format!("solid.gravity: the weight, which sigma_zz alone carries, begins with {flows}; take one less deep, or stronger")
+    });
+}
+
+/// A pressure of the start on a side that bears none.
+fn moves_at_once(solid: &SolidCase, pressure: f64, warnings: &mut Vec<String>) {
+    let is_hydrostatic = solid.initial_stress == InitialStress::Hydrostatic;
+    for (side, is_pressed) in [(Side::ZMin, true), (Side::RMin, is_hydrostatic), (Side::RMax, is_hydrostatic)]
+    {
+        if is_pressed
+            && pressure != 0.0
+            && solid.initial.is_none()
+            && solid.boundary[side as usize] == Boundary::Free
+        {
+            warnings.push(format!(
+                "solid.boundary.{} = \"free\" bears no pressure, and the solid begins with {} on it: it moves at once, without a \
+                 bubble; take another side{}",
+                side.name(),
+                si(pressure, "Pa"),
+                if side == Side::ZMin { "" } else { ", or solid.initial_stress = \"uniaxial\"" }
+            ));
+        }
     }
 }
 
@@ -172,5 +210,26 @@ mod tests {
         assert_eq!(told(&[pressed]), 1);
         assert_eq!(told(&[pressed, "solid.initial_stress=hydrostatic"]), 0);
         assert_eq!(told(&["fluid.ambient.pressure=2e8"]), 0);
+        // 6 mm of steel that weigh 47 MPa at their bottom.
+        let heavy =
+            ["solid.gravity=-1e6", "solid.plasticity.yield_strength=4e7", "solid.initial_stress=hydrostatic"];
+        let words = warnings(&heavy);
+        assert!(
+            words
+                .iter()
+                .any(|own| own.contains("sigma_zz alone carries, begins with a von Mises stress of 46.8 MPa")),
+            "{words:?}"
+        );
+        assert_eq!(warnings(&["solid.gravity=-1e6", heavy[2]]), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_pressure_on_a_free_side_is_warned_of() {
+        let told = |sets: &[&str]| {
+            warnings(sets).into_iter().filter(|own| own.contains("bears no pressure")).count()
+        };
+        assert_eq!(told(&["solid.boundary.r_max=free", "solid.initial_stress=hydrostatic"]), 1);
+        assert_eq!(told(&["solid.boundary.r_max=free"]), 0);
+        assert_eq!(told(&["solid.boundary.z_min=free"]), 1);
     }
 }

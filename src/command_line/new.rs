@@ -119,13 +119,13 @@ struct LaserArgs {
     /// Largest radius; the equilibrium radius follows from it by Gilmore's equation.
     #[arg(long, value_parser = length, conflicts_with = "equilibrium_radius")]
     largest_radius: Option<f64>,
-    /// Radius at the start; 20um, or in that proportion to the largest.
+    /// Radius at the start; without it 20um, or with a largest radius in proportion to that.
     #[arg(long, value_parser = length)]
     radius: Option<f64>,
     /// Radius at which its gas would be in equilibrium; 184.1um.
     #[arg(long, value_parser = length)]
     equilibrium_radius: Option<f64>,
-    /// The same of the gas that is left after the first maximum; none: all of it; 64um, or in that proportion to the largest.
+    /// The same of the gas that is left after the first maximum; none: all of it; without it 64um, or with a largest radius in proportion to that.
     #[arg(long, value_parser = length_or_none)]
     left_radius: Option<LengthOrNone>,
     /// Pressure of the liquid far away.

@@ -118,16 +118,28 @@ impl Reader {
         let bubble = [
             // Without gas there is no radius.
             titled(&self.fluid, RADIUS, "equivalent radius R(t)", "m").filter(is_there),
-            titled(&self.fluid, PRESSURE, "wall pressure on the axis", "Pa"),
+            titled(&self.fluid, PRESSURE, "wall pressure on the axis", "Pa").filter(|_| has_wall(&self.run)),
         ];
         bubble.into_iter().flatten().chain(solid).collect()
     }
 }
 
+/// A run's case.
+fn case_of(directory: &Path) -> Option<toml::Table> {
+    toml::from_str(&std::fs::read_to_string(directory.join(CASE)).ok()?).ok()
+}
+
+/// Whether `z_min` of the fluid is a wall: of a side that is open the history has the cells' pressure.
+fn has_wall(directory: &Path) -> bool {
+    let Some(case) = case_of(directory) else { return true };
+    let named = |table: &str, key: &str| case.get(table)?.get(key)?.as_str();
+    let z_min = case.get("fluid").and_then(|fluid| fluid.get("boundary")?.get("z_min")?.as_str());
+    named("coupling", "scheme") != Some("none") || matches!(z_min, Some("wall"))
+}
+
 /// When the run in a directory ends by its case, s.
 fn end_of(directory: &Path) -> Option<f64> {
-    let text = std::fs::read_to_string(directory.join(CASE)).ok()?;
-    let case: toml::Table = toml::from_str(&text).ok()?;
+    let case = case_of(directory)?;
     let time = case.get("time")?;
     ["end", "longest"].into_iter().find_map(|key| time.get(key)?.as_float())
 }

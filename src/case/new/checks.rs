@@ -38,7 +38,13 @@ impl Checks {
     /// Refuses resolutions that no case is written for.
     pub fn cells(&mut self, value: f64) -> &mut Self {
         let must = format!("from {} to {}", CELLS.start(), CELLS.end());
-        self.hold(CELLS.contains(&value), "cells_per_radius", value, &must, "40 is a good begin; 25 is quick")
+        self.hold(
+            CELLS.contains(&value),
+            "cells_per_radius",
+            value,
+            &must,
+            "leave it out for a good begin; half of that is quick",
+        )
     }
 
     /// A pressure that is more than that of the gas.

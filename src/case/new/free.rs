@@ -61,7 +61,7 @@ impl FreeBubble {
 #
 #   cav new free --radius {shown} --pressure {far} --gas-pressure {gas} --cells-per-radius {cells_per_radius}
 #
-# Rayleigh's collapse time is {}. `python -m pycav report` sets the radius beside Keller's and Miksis's.
+# Rayleigh's collapse time is {}. `pycav.plot.histories` sets the radius beside Keller's and Miksis's.
 
 ",
             si(bubble.rayleigh_time(), "s")

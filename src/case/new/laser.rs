@@ -132,7 +132,7 @@ impl LaserBubble {
             equilibrium_radius > 2.0 * radius,
             "equilibrium_radius",
             equilibrium_radius,
-            "larger",
+            &format!("above twice the radius at the start, {}", si(radius, "m")),
             help,
         );
         if let Some(stand_off) = self.stand_off {
@@ -141,7 +141,13 @@ impl LaserBubble {
         if let Some(left) = self.left_radius {
             checks.positive("left_radius", left, "m");
             let help = "give R_n of the gas that is left, or leave it out";
-            checks.hold(left < equilibrium_radius, "left_radius", left, "less than R_n", help);
+            checks.hold(
+                left < equilibrium_radius,
+                "left_radius",
+                left,
+                &format!("less than R_n, {}", si(equilibrium_radius, "m")),
+                help,
+            );
         }
         checks.done()?;
         let turns = turns(&self.content(), radius, equilibrium_radius, self.left_radius);

@@ -57,8 +57,13 @@ impl WallLoad {
             [(amplitude, Dimension::Pressure), (radius, Dimension::Length), (duration, Dimension::Time)]
                 .map(|(value, dimension)| dimension.shortest(value));
         let name = material.name();
+        let stays = if plasticity(material).is_empty() {
+            "it stays elastic, and keeps no pit"
+        } else {
+            "the pit that stays"
+        };
         Ok(format!(
-            "# A pressure of {peak} on a disc of radius {wide} presses on {name} for {long}: the pit that stays.
+            "# A pressure of {peak} on a disc of radius {wide} presses on {name} for {long}: {stays}.
 #
 #   cav new load --amplitude {peak} --radius {wide} --duration {long} --wall {name} --cells-per-radius {cells_per_radius}
 

@@ -25,8 +25,12 @@ const RISE: f64 = 20e-9;
 const RISE_CELLS: f64 = 8.0;
 /// The mean of the pulse over its positive part, in its amplitude: what drives the collapse.
 const MEAN: f64 = 0.6;
-/// Rows of the table of the pulse after its front.
-const ROWS: u32 = 40;
+/// Rows of the table of the pulse after its front, and the time that they cover at most, s: there it has fallen to a thousandth.
+const ROWS: u32 = 80;
+const COVERED: f64 = 8e-6;
+/// ∫ p dt over P of the pulse until it turns to tension, s, and the share that a front may add to that without a word.
+const IMPULSE: f64 = 0.385e-6;
+const ADDED: f64 = 0.05;
 
 /// A lithotripter's pulse collapses a gas bubble near a wall.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,27 +108,42 @@ impl ShockedBubble {
         ]
         .map(|(value, dimension)| dimension.shortest(value));
         let (stand_off, wall, cells) = (self.stand_off, self.wall.name(), self.cells_per_radius);
-        let [arrival, collapse] = [arrival, collapse].map(|time| si(time, "s"));
+        let rise = self.rise();
+        let added = 0.5 * rise / IMPULSE;
+        let slow = if added > ADDED {
+            format!(
+                "\n# On {cells} cells per radius that front adds {:.0} % to the impulse of the pulse until it turns to tension; finer cells add less.",
+                100.0 * added
+            )
+        } else {
+            String::new()
+        };
+        let [arrival, collapse, rise] = [arrival, collapse, rise].map(|time| si(time, "s"));
         format!(
             "# A lithotripter's pulse of {amplitude} collapses an air bubble of {radius}, {stand_off} radii above a wall ({wall}).
 #
 #   cav new shock --radius {radius} --pressure {pressure} --amplitude {amplitude} --stand-off {stand_off} --wall {wall} \\
 #       --cells-per-radius {cells}
 #
-# The pulse is Church's (1989), p = 2 P exp(-alpha t) cos(omega t + pi/3). Its front reaches the bubble at {arrival};
-# the bubble collapses at about {collapse}.
+# The pulse is Church's (1989), p = 2 P exp(-alpha t) cos(omega t + pi/3), behind a front of {rise}. It reaches the bubble at
+# {arrival}; {MEAN} P that stays collapses it by {collapse}.{slow}
 
 "
         )
     }
 
+    /// How long the front of the pulse takes, s: some cells, so that it does not ring.
+    fn rise(&self) -> f64 {
+        RISE.max(RISE_CELLS * self.radius / self.cells_per_radius / sound(self.pressure))
+    }
+
     /// `[fluid.inflow]`: Church's pulse as a table that is linear in between.
     fn pulse(&self, end: f64) -> String {
-        let rise = RISE.max(RISE_CELLS * self.radius / self.cells_per_radius / sound(self.pressure));
+        let (rise, span) = (self.rise(), (end - self.rise()).max(self.rise()));
         let shape = |t: f64| 2.0 * (-DECAY * t).exp() * (FREQUENCY * t + FRAC_PI_3).cos();
         let mut rows = vec![format!("[0.0, {}]", number(self.pressure))];
-        rows.extend((0..=ROWS).map(|row| {
-            let after = (end - rise).max(rise) * f64::from(row) / f64::from(ROWS);
+        let covered = (0..=ROWS).map(|row| span.min(COVERED) * f64::from(row) / f64::from(ROWS));
+        rows.extend(covered.chain((span > COVERED).then_some(span)).map(|after| {
             format!("[{}, {}]", number(rise + after), number(self.pressure + self.amplitude * shape(after)))
         }));
         let lines: Vec<String> = rows.chunks(4).map(|chunk| format!("    {},", chunk.join(", "))).collect();

@@ -57,8 +57,14 @@ fn si(value: f64, unit: &str) -> String {
     format::si(format!("{value:.2e}").parse().unwrap_or(value), unit)
 }
 
+/// A plastic strain of a stress that only round-off has lifted above its bound.
+const ROUND_OFF: f64 = 1e-12;
+
 /// A share with as many digits as it is worth.
 pub fn percent(share: f64) -> String {
+    if share > 0.0 && share < 1e-5 {
+        return format!("{:.0e} %", 100.0 * share);
+    }
     let digits = if share < 0.001 {
         3
     } else if share < 0.1 {
@@ -154,7 +160,7 @@ fn elsewhere(summary: Summary<'_>) -> Option<String> {
 fn solid(summary: Summary<'_>) -> Option<String> {
     let stress = summary.number("von_mises_peak")?;
     let (said, time) = (si(stress, "Pa"), summary.said("von_mises_peak_time", "s")?);
-    if let Some(strain) = summary.number("plastic_strain_peak").filter(|strain| *strain > 0.0) {
+    if let Some(strain) = summary.number("plastic_strain_peak").filter(|strain| *strain > ROUND_OFF) {
         // A strain below that of the zone's bound has no zone.
         let deep = summary.number("plastic_zone_depth").filter(|deep| *deep > 0.0);
         let deep = deep.map_or(String::new(), |deep| format!(", down to {}", si(deep, "m")));

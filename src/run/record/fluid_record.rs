@@ -59,11 +59,21 @@ pub struct FluidRecord {
 struct Seen {
     cells: CellCount,
     collapse: CollapseFinder,
+    /// Of each bubble, with several.
+    each: Vec<CollapseFinder>,
     peaks: Peaks,
     last_bubble: Bubble,
     largest_thin_volume: f64,
     cuts: BubbleCuts,
     film: ThinnestFilm,
+}
+
+impl Seen {
+    /// Whether no bubble has begun to collapse: each is larger than ever.
+    fn only_grow(&self) -> bool {
+        let one = std::slice::from_ref(&self.collapse);
+        (if self.each.is_empty() { one } else { &self.each }).iter().all(CollapseFinder::is_growing)
+    }
 }
 
 /// Largest values so far, with their times.
@@ -168,15 +178,21 @@ impl FluidRecord {
         if let Some(series) = self.bubbles {
             self.seen.cuts.follow(solver);
             let numbers = |b: Bubble| [b.volume, b.equivalent_radius, b.centroid_z, b.gas_mass];
-            let row: Vec<f64> = solver.bubbles(&self.seen.cuts).into_iter().flat_map(numbers).collect();
+            let bubbles = solver.bubbles(&self.seen.cuts);
+            self.seen.each.resize_with(bubbles.len(), CollapseFinder::default);
+            for (finder, bubble) in self.seen.each.iter_mut().zip(&bubbles) {
+                finder.push(time, bubble.volume);
+            }
+            let row: Vec<f64> = bubbles.into_iter().flat_map(numbers).collect();
             history.push(series, &row)?;
         }
         self.film.after_step(solver, &mut self.seen.film, history)?;
         self.seen.collapse.push(time, bubble.volume);
         self.seen.last_bubble = bubble;
         self.seen.largest_thin_volume = self.seen.largest_thin_volume.max(bubble.thin_volume);
+        let only_grow = self.cells_per_radius.is_some() && self.seen.only_grow();
         let peaks = &mut self.seen.peaks;
-        if self.cells_per_radius.is_some() && self.seen.collapse.is_growing() {
+        if only_grow {
             // What a bubble pushes away in its growth is no jet, and no load that its collapse puts on the wall.
             peaks.jet = [0.0; 2];
             self.interface.iter_mut().for_each(InterfaceHistory::forget_load);

@@ -124,6 +124,22 @@ fn levels_along_a_wall_find_it_equally_warm() {
     assert!((lost - fluid.ledger().wall_heat).abs() < 1e-12 * before, "{lost}");
 }
 
+/// Half a cell before a wall conducts twice as well as a whole one, also in the longest step that is stable.
+#[test]
+fn walls_heat_gas_in_steps_at_the_limit_of_conduction() {
+    let (d, end) = (40.0_f64, 4e-4_f64);
+    let wall = WallHeat::Isothermal(TEMPERATURE * (1.0 + AMPLITUDE));
+    let mut setup = above([128, 8], d, wall);
+    setup.conduction.as_mut().unwrap().thin_gas = ThinGas::Resolved;
+    let mut fluid = FluidSolver::<8>::from_fn(&setup, |_| warmer(Phase::Gas, 0.0)).unwrap();
+    run_to(&mut fluid, end);
+    let effusivity = DENSITIES[1] * CAPACITY * d.sqrt();
+    let wanted = -2.0 * effusivity * TEMPERATURE * AMPLITUDE * (end / std::f64::consts::PI).sqrt();
+    let share = fluid.ledger().wall_heat / wanted;
+    eprintln!("heat from a wall to gas, in {} steps: {share:.4} of the exact", fluid.steps());
+    assert!((share - 1.0).abs() < 0.01, "{share}");
+}
+
 /// In stages, too: thin gas beside walls.
 #[test]
 fn walls_heat_what_spreads_in_stages() {

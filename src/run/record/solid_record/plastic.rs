@@ -55,7 +55,7 @@ impl PlasticPeak {
             let given = work_on_solid(solver);
             put("work_on_solid", json!(given));
             // More comes from the stress that the run began with.
-            let share = (given != 0.0).then_some(whole_work(solver) / given).filter(|share| *share <= 1.0);
+            let share = (given > 0.0).then_some(whole_work(solver) / given).filter(|share| *share <= 1.0);
             put("plastic_work_share", json!(share));
         }
         if solver.has_heat() {

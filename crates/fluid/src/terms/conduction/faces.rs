@@ -192,7 +192,8 @@ impl ConductionTerm {
                     let share = gas_share[inner].clamp(0.0, 1.0);
                     let within = self.resistivity.to_face(own, share, own > next);
                     let conductivity = 1.0 / (within + resistance * metric.inverse_h[axis]);
-                    metric.inverse_h[axis] * bounded(conductivity, most, [capacity[inner]; 2])
+                    // Half a cell lies before the wall, of twice the conductance: so much is as stable there.
+                    metric.inverse_h[axis] * bounded(conductivity, 2.0 * most, [capacity[inner]; 2])
                 });
                 conductances[axis][inner.min(ghost)] = through;
             }
