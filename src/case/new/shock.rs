@@ -25,9 +25,9 @@ const RISE: f64 = 20e-9;
 const RISE_CELLS: f64 = 8.0;
 /// The mean of the pulse over its positive part, in its amplitude: what drives the collapse.
 const MEAN: f64 = 0.6;
-/// Rows of the table of the pulse after its front, and the time that they cover at most, s: there it has fallen to a thousandth.
+/// Rows of the table of the pulse after its front, and the time that they cover at most, s: there it has fallen to 10⁻⁵.
 const ROWS: u32 = 80;
-const COVERED: f64 = 8e-6;
+const COVERED: f64 = 12e-6;
 /// ∫ p dt over P of the pulse until it turns to tension, s, and the share that a front may add to that without a word.
 const IMPULSE: f64 = 0.385e-6;
 const ADDED: f64 = 0.05;
@@ -142,7 +142,8 @@ impl ShockedBubble {
         let (rise, span) = (self.rise(), (end - self.rise()).max(self.rise()));
         let shape = |t: f64| 2.0 * (-DECAY * t).exp() * (FREQUENCY * t + FRAC_PI_3).cos();
         let mut rows = vec![format!("[0.0, {}]", number(self.pressure))];
-        let covered = (0..=ROWS).map(|row| span.min(COVERED) * f64::from(row) / f64::from(ROWS));
+        // The closer the nearer to the front.
+        let covered = (0..=ROWS).map(|row| span.min(COVERED) * (f64::from(row) / f64::from(ROWS)).powi(2));
         rows.extend(covered.chain((span > COVERED).then_some(span)).map(|after| {
             format!("[{}, {}]", number(rise + after), number(self.pressure + self.amplitude * shape(after)))
         }));
