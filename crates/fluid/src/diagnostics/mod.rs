@@ -269,21 +269,24 @@ impl<const N: usize> FluidSolver<N> {
     /// The state at a point by the linear reconstruction in the cell that contains it; `None` outside.
     ///
     /// Slopes are limited along each direction. In the cell's corners both add up, so the sum is kept within the values of the cell and its
-    /// four neighbours: beside a bubble's surface densities would fall below 0.
+    /// four neighbours: beside a bubble's surface densities would fall below 0. At a wall behind a film of one cell the gas fraction still
+    /// would: there it is the state of the cell.
     pub fn sample(&self, point: [f64; 2]) -> Option<Primitive> {
         let ((slot, i, j), [a, b]) = self.mesh().place_in_cell(point)?;
         let k = Padded::<N>::index(i as isize, j as isize);
         Some(self.with_scratch(|scratch| {
             reconstruct(&self.context(0.0), slot, scratch);
             let BlockScratch { cells, s_z, s_r, .. } = scratch;
-            Primitive::from_array(std::array::from_fn(|c| {
+            let here = std::array::from_fn(|c| cells.component(c)[k]);
+            let there: [f64; COUNT] = std::array::from_fn(|c| {
                 let values = cells.component(c);
                 let near = [k - 1, k + 1, k - Padded::<N>::STRIDE, k + Padded::<N>::STRIDE];
                 let near = near.map(|k| values[k]).into_iter();
                 let [low, high] =
                     near.fold([values[k]; 2], |[low, high], value| [low.min(value), high.max(value)]);
                 (values[k] + a * s_z.component(c)[k] + b * s_r.component(c)[k]).clamp(low, high)
-            }))
+            });
+            Primitive::from_array(if (0.0..=1.0).contains(&there[PHI]) { there } else { here })
         }))
     }
 
