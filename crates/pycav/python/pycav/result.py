@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _toml
+from . import _pycav, _toml
 from ._given import Named, among, nearest_time
 from .case import Case
 from .mesh import Floats, Mesh
@@ -207,6 +207,21 @@ class Result:
         return _toml.parse((self.directory / "case.toml").read_text())
 
     @property
+    def state(self) -> str:
+        """"running", "finished", "failed" or "interrupted", as it is now and as `pycav.runs` has it."""
+        return _pycav.run_state(self.directory)
+
+    @property
+    def yield_strength(self) -> float | None:
+        """Where the solid begins to yield, Pa; `None` if its material has no yield strength."""
+        # A run that goes on, or was killed, has none in its summary.
+        solid = self.parameters.get("solid", {})
+        law = solid.get("plasticity", {})
+        own = law["table"][0][1] if "table" in law else law.get("yield_strength", solid.get("material", {}).get("yield_strength"))
+        found = self.summary.get("yield_strength", own)
+        return None if found is None else float(found)
+
+    @property
     def media(self) -> list[str]:
         """"fluid", "solid", or both."""
         found = [medium for medium in ("fluid", "solid") if (self.directory / f"{medium}.h5").exists()]
@@ -327,7 +342,7 @@ class Result:
         return float(self.radius * fluid["cells"][1] * 2 ** fluid.get("levels", 0) / (high - low))
 
     def __repr__(self) -> str:
-        state = "completed" if self.summary.get("completed") else "not completed"
+        state = "completed" if self.summary.get("completed") else "running" if self.state == "running" else "not completed"
         return f"<pycav.Result {str(self.directory)!r}, {state}>"
 
 

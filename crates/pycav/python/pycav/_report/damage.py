@@ -12,6 +12,7 @@ from .._axis import on_axis
 from .._numbers import percent, rounded, si, unit_in
 from ..plot.surface import has_pit
 from ..result import Result
+from .so_far import has_summary, known
 
 Rows = Iterable[tuple[str, str, str]]
 
@@ -21,9 +22,9 @@ LIKE = 0.5
 
 def damage(result: Result) -> Rows:
     """What the solid bore, and what stays of it: what, value, note."""
-    summary, data = result.summary, result.histories
+    summary, data = known(result), result.histories
     if "solid" in result.media:
-        strength = summary.get("yield_strength")
+        strength = result.yield_strength
         plastic = "plasticity" in result.parameters["solid"]
         yield "yield strength", si(strength, "Pa"), "" if strength else "the material has none"
         yield "largest von Mises stress", si(summary.get("von_mises_peak"), "Pa"), _place(summary, "von_mises_peak")
@@ -35,7 +36,7 @@ def damage(result: Result) -> Rows:
             if strength and len(duration):
                 yield "yields from, to", f"{si(duration[0], 's')}, {si(duration[-1], 's')}", "anywhere"
         else:
-            yield from _flowed(result)
+            yield from _flowed(result, summary)
             yield from _pit(result)
             yield from _load(summary)
     # A single row is that of t = 0.
@@ -49,22 +50,23 @@ def _place(summary: dict[str, Any], name: str) -> str:
     return "" if place is None else f"at z = {si(place[0], 'm')}, r = {si(place[1], 'm')}"
 
 
-def _flowed(result: Result) -> Rows:
+def _flowed(result: Result, summary: dict[str, Any]) -> Rows:
     """Plastic strain, zone and work."""
-    summary, parameters = result.summary, result.parameters
+    parameters = result.parameters
     strain = summary.get("plastic_strain_peak")
     if strain is None:
         return  # not known yet
-    when = f", at {si(summary.get('plastic_strain_peak_time'), 's')}" if strain else ""
-    yield "largest plastic strain", f"{100 * strain:.3g} %", _place(summary, "plastic_strain_peak") + when if strain else ""
-    rate = float(f"{summary.get('plastic_strain_rate_peak', 0.0):.3g}")
-    yield "its fastest growth", f"{rate:,.0f} 1/s", "in a step"
+    when = f"at {si(summary.get('plastic_strain_peak_time'), 's')}"
+    yield "largest plastic strain", f"{100 * strain:.3g} %", ", ".join(filter(None, [_place(summary, "plastic_strain_peak"), when])) if strain else ""
+    rate = summary.get("plastic_strain_rate_peak", None if not has_summary(result) else 0.0)
+    if rate is not None:
+        yield "its fastest growth", f"{float(f'{rate:.3g}'):,.0f} 1/s", "in a step"
     grows = result.histories["solid/time"].to_numpy()[np.diff(result.histories["solid/plastic_work"].to_numpy(), prepend=0.0) > 0]
     if len(grows):
         yield "flows from, to", f"{si(grows[0], 's')}, {si(grows[-1], 's')}", "anywhere"
     if "temperature_peak" in summary:
         yield "highest temperature", f"{summary['temperature_peak']:.4g} K", "of plastic work, without conduction"
-    for bound, shown in (("", "0.01 %"), ("_2e-3", "0.2 %")):
+    for bound, shown in (("", "0.01 %"), ("_2e-3", "0.2 %")) if has_summary(result) else ():
         depth, radius, volume = (summary.get(f"plastic_{name}{bound}") for name in ("zone_depth", "zone_radius", "volume"))
         content = f"out to r = {rounded(radius, 'm')}; {rounded(volume, unit_in(parameters, 'm³'))} in all"
         yield f"plastic zone, strains above {shown}", f"{rounded(depth, 'm')} deep" if volume else "none", content if volume else ""

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from .._convergence import Convergence, study_of
 from .._key_numbers import wall_peak
 from .._numbers import rounded, si, unit_in
 from ..plot.surface import has_pit
 from ..result import Result
+from .so_far import has_summary, known
 
 
 @dataclass(frozen=True)
@@ -54,13 +56,13 @@ def shown(value: float, unit: str) -> str:
 
 def key_numbers(result: Result) -> Iterable[Number]:
     """The numbers that a run has."""
-    summary, study = result.summary, study_of(result)
+    summary, study = known(result), study_of(result)
     has_wall = "interface/pressure" in result.histories
     on_axis = wall_peak(summary)
     for key, label in LABELS.items():
         name = on_axis if key == "wall_pressure_peak" else key
         value = summary.get(name)
-        if value is None or not math.isfinite(value) or _says_nothing(name, result) or (name.startswith("wall_") and not has_wall):
+        if value is None or not math.isfinite(value) or _says_nothing(name, summary, result) or (name.startswith("wall_") and not has_wall):
             continue
         if name == "wall_pressure_peak_anywhere" and value <= (summary.get(on_axis) or 0.0):
             continue  # it was on the axis
@@ -82,15 +84,14 @@ def _of_radius(smallest: float, result: Result) -> str:
     return f"{smallest / whole:.3g} of the {'largest' if largest else 'first'} radius" if whole else ""
 
 
-def _says_nothing(name: str, result: Result) -> bool:
+def _says_nothing(name: str, summary: dict[str, Any], result: Result) -> bool:
     """Numbers that are there though nothing stands behind them: without a bubble, a yield strength, a pit."""
-    summary = result.summary
     if name in ("jet_velocity_peak", "min_equivalent_radius"):
         planar = result.parameters.get("geometry") == "planar"
         return "bubble/equivalent_radius" not in result.histories or float(result.histories["bubble/equivalent_radius"][0]) <= 0 \
             or (planar and name == "jet_velocity_peak")
     if name == "yielded_volume_peak":
-        return not summary.get(name) or summary.get("yield_strength") is None or "plasticity" in result.parameters.get("solid", {})
+        return not summary.get(name) or result.yield_strength is None or "plasticity" in result.parameters.get("solid", {})
     return name == "pit_depth" and not has_pit(summary)
 
 
@@ -118,4 +119,6 @@ def resolution(result: Result) -> str:
     told += [" and ".join(f"{count:,} cells in the {medium}" for medium, count in counts.items()) + " at most"] if counts else []
     if study is not None:
         told.append(f"grid {study[1]} of 0 to {len(study[0].grids) - 1} of a convergence study; ± is its grid-convergence index")
+    if not has_summary(result):
+        told.append("peaks are those of the recorded steps")
     return "; ".join(told)

@@ -18,6 +18,7 @@ from .damage import damage
 from .frames import viewer
 from .health import health
 from .numbers import key_numbers, resolution
+from .so_far import known
 
 SCRIPTS = ("format.js", "axis.js", "picture.js", "viewer.js", "curve.js", "chart.js", "zoom.js", "csv.js", "start.js")
 """In their order: later ones use earlier ones."""
@@ -66,16 +67,21 @@ def _answer(result: Result) -> list[str]:
 
 
 def _state(result: Result) -> dict[str, Any]:
-    summary, cells = result.summary, result.cells_per_radius
-    told = [f"{si(summary.get('t_end'), 's')} in {summary.get('steps', 0):,} steps"]
+    summary, cells = known(result), result.cells_per_radius
+    completed, end = bool(summary.get("completed")), result.parameters.get("time", {}).get("end")
+    of = f" of {si(end, 's')}" if isinstance(end, (int, float)) and not completed else ""
+    told = [f"{si(summary.get('t_end'), 's')}{of} in {summary.get('steps', 0):,} steps"]
     told += [] if cells is None else [f"{cells:.4g} cells per radius"]
-    error = None if summary.get("completed") else str(summary.get("error") or "it was stopped")
-    return {"told": told, "error": error}
+    if completed or result.state == "running":
+        return {"told": told, "good": completed, "says": "completed" if completed else "still running"}
+    return {"told": told, "good": False, "says": f"Not completed: {summary.get('error') or 'it was stopped'}"}
 
 
 def _provenance(result: Result) -> list[tuple[str, str]]:
     attributes = result.histories.attrs
-    finished = datetime.fromtimestamp((result.directory / "summary.json").stat().st_mtime, timezone.utc)
+    # Until the end the summary is that of the start.
+    written = ["summary.json", *(f"{medium}.h5" for medium in result.media)]
+    finished = datetime.fromtimestamp(max((result.directory / name).stat().st_mtime for name in written), timezone.utc)
     return [
         ("case", _name(result)), ("case hash", str(attributes.get("case_hash", "unknown"))),
         ("program", str(attributes.get("program", "cav"))), ("revision", str(attributes.get("git_revision", "unknown"))),
@@ -85,8 +91,8 @@ def _provenance(result: Result) -> list[tuple[str, str]]:
 
 def _times(result: Result) -> list[tuple[str, str]]:
     """What the run cost."""
-    summary = result.summary
-    found = [("wall time", f"{summary.get('wall_seconds', float('nan')):.3g} s")]
+    summary = known(result)
+    found = [("wall time", f"{summary['wall_seconds']:.3g} s")] if "wall_seconds" in summary else []
     for medium in ("fluid", "solid"):
         spent, updates = summary.get("coupling", {}).get(medium), summary.get("cell_updates", {}).get(medium)
         if spent and updates:
