@@ -10,7 +10,6 @@ from PIL import Image
 
 import pycav
 from pycav._numbers import prefix
-from pycav.plot import flow
 from pycav.plot.overtime import _image, _panel
 
 WINDOW = (-0.04, 0.04, 0.03)
@@ -153,21 +152,6 @@ def test_a_tube_and_a_solid_alone_can_be_drawn(root, tmp_path):
     for draw in (pycav.plot.interface_continuity, pycav.plot.space_time):
         with pytest.raises(ValueError, match="no (interface|wall)"):
             draw(solid)
-
-
-def test_particles_move_with_the_flow(result):
-    start = np.array([[0.035, 0.001], [0.02, 0.02]])
-    track = flow.advect(result.fluid, start, 36e-6, 4)
-    assert track.shape == (2, 8, 2) and np.array_equal(track[:, 0], start)
-    assert track[0, -1, 0] < 0.0345 and track[1, -1, 1] < 0.0195, "towards the bubble that collapses"
-    finer = flow.advect(result.fluid, start, 36e-6, 16)
-    assert np.abs(track - finer).max() < 2e-5
-
-
-def test_pathlines_tell_what_they_enlarge(result, tmp_path):
-    figure = pycav.plot.pathlines(result, WINDOW, spacing=8e-3, substeps=2)
-    save(figure, tmp_path / "a.png")
-    assert "times enlarged" in texts(figure) and "Pathlines up to $t$ = 56 µs" in texts(figure)
 
 
 def test_histories_stand_beside_theory(result, tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,9 @@ from ..result import Snapshot, Snapshots, open_run
 from .section import Run, Section, Window, bar
 from .._numbers import prefix
 from .style import BLUE, INK, ORANGE, logarithmic, part_of, styled
+
+ENOUGH = 40
+"""Snapshots from which on a velocity that is linear between them makes good paths."""
 
 
 @styled
@@ -109,8 +113,9 @@ def pathlines(
 ) -> Figure:
     """Where particles of a regular grid have gone from t = 0 on, advected through the snapshots by Heun's method.
 
-    The velocity is linear in time between two snapshots, so the run needs enough of them: 40 and more are good. The
-    solid's displacements are enlarged, as the foot of the picture says.
+    The velocity is linear in time between two snapshots, so the run needs enough of them: 40 and more are good, and of fewer
+    a `UserWarning` tells. Where the solid's snapshots have the field `displacement` (a solid that can yield) its paths are that.
+    The solid's displacements are enlarged, as the foot of the picture says.
 
     - `until`: the last time, s; else the last snapshot.
     - `spacing`: of the grid, m; else a thirtieth of the window.
@@ -125,7 +130,12 @@ def pathlines(
     foot = ["From $t$ = 0 to the dots."]
     for medium in section.snapshots:
         series = result.snapshots(medium)
-        tracks = advect(series, _start(series, section, apart), last, substeps if medium == "fluid" else 1)
+        start = _start(series, section, apart)
+        if "displacement" in series.fields:
+            tracks = displaced(series, start, last)
+        else:
+            _warn_of_few(series)
+            tracks = advect(series, start, last, substeps if medium == "fluid" else 1)
         if medium == "fluid":
             gas = series[0].mesh.sample(series[0]["gas_fraction"], tracks[:, 0]) > 0.5
             groups = [(tracks[~gas], BLUE), (tracks[gas], ORANGE)]
@@ -157,11 +167,35 @@ def _start(series: Snapshots, section: Section, spacing: float) -> Floats:
     return np.stack(np.meshgrid(z, r, indexing="ij"), -1).reshape(-1, 2)
 
 
+def _warn_of_few(series: Snapshots) -> None:
+    if len(series) < ENOUGH:
+        more = f"time.snapshots or time.snapshot_every of the case give more, {ENOUGH} are enough"
+        if series.medium == "solid":
+            more += "; a solid that can yield needs none where output.fields has displacement"
+        warnings.warn(f"pathlines in the {series.medium}: the velocity is linear between {len(series)} snapshots, which are few: paths may be "
+                      f"off by a factor; {more}", stacklevel=4)
+
+
+def displaced(series: Snapshots, start: Floats, until: float) -> Floats:
+    """As `advect`, by the field `displacement`: the solver has added it up step by step."""
+    places = []
+    for snapshot in series[: _until(series, until)]:
+        field = snapshot["displacement"]
+        moved = np.column_stack([snapshot.mesh.sample(field[:, a], start, (1, -1)[a], bounded=False) for a in (0, 1)])
+        places.append(np.nan_to_num(moved))
+    # A wall that has been hit before begins with what is left of that.
+    return np.stack([start + moved - places[0] for moved in places], 1)
+
+
+def _until(series: Snapshots, time: float) -> int:
+    """How many snapshots there are up to a time; the first one always is."""
+    return max(1, int(np.searchsorted(series.times, time * (1 + 1e-9), side="right")))
+
+
 def advect(series: Snapshots, start: Floats, until: float, substeps: int) -> Floats:
     """Places of particles at all snapshots up to a time: shape (particles, snapshots, 2), (z, r) in m."""
     at, track = start.copy(), [start.copy()]
-    steps = int(np.searchsorted(series.times, until * (1 + 1e-9), side="right"))
-    for step in range(steps - 1):
+    for step in range(_until(series, until) - 1):
         one, other = series[step], series[step + 1]
         ends = [(end.mesh, end["velocity"]) for end in (one, other)]
         dt = (other.time - one.time) / substeps
