@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import warnings
+
 import matplotlib as mpl
 import numpy as np
 import pytest
@@ -51,6 +54,7 @@ OUTLINED = {
 }
 
 
+@pytest.mark.filterwarnings("ignore:pathlines in the")
 @pytest.mark.parametrize("kind", OUTLINED)
 def test_outlines_of_the_levels_are_drawn_when_they_are_asked_for(kind, result):
     draw = getattr(pycav.plot, kind)
@@ -333,3 +337,22 @@ def test_the_callers_settings_are_left_alone(result):
     before = dict(mpl.rcParams)
     pycav.plot.space_time(result)
     assert dict(mpl.rcParams) == before
+
+
+def test_of_a_stopped_run_nobody_is_warned_of_a_time_that_he_did_not_give(small, tmp_path):
+    """The answer's time is after the last snapshot, and pictures said that it is outside of what there is."""
+    case = small.with_({"time.snapshots": [1e-5], "solid.plasticity": {"law": "perfect", "yield_strength": 3e7}})
+    with pycav.Simulation(case, out=tmp_path / "run") as simulation:
+        simulation.advance_to(2.5e-5)
+    summary = tmp_path / "run" / "summary.json"
+    summary.write_text(json.dumps(json.loads(summary.read_text()) | {"von_mises_peak_time": 2.2e-5}))
+    run = pycav.open(tmp_path / "run")
+    assert run.solid.times[-1] == pytest.approx(1e-5, rel=0.01)
+    assert pycav.plot.default_time(run) == run.solid.times[-1]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for draw in (pycav.plot.schlieren, pycav.plot.overview, pycav.plot.yield_function, pycav.plot.pit, pycav.plot.volume):
+            draw(run)
+        assert run.solid.at(pycav.plot.default_time(run)).time == run.fluid.at(pycav.plot.default_time(run)).time
+    with pytest.warns(UserWarning, match="time = 2e-05 s is outside"):
+        pycav.plot.schlieren(run, 2e-5)

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from .._given import positive
 from ..mesh import Floats, Raster
 from ..result import Snapshot, Snapshots, open_run
-from .section import Run, Section, Window, bar
+from .section import Run, Section, Window, bar, last_shown
 from .._numbers import prefix
 from .style import BLUE, INK, ORANGE, logarithmic, part_of, styled
 
@@ -122,7 +122,7 @@ def pathlines(
     - `levels`: outlines of the levels of refinement at the last time.
     """
     result = open_run(run)
-    last = float(result.snapshots(result.media[0]).times[-1]) if until is None else until
+    last = last_shown(result) if until is None else until
     section = Section.of(result, last, window)
     section.time = last
     apart = (section.box[1] - section.box[0]) / 30 if spacing is None else positive("spacing", spacing, "m")

@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter
 from .._given import positive
 from ..mesh import Floats, Raster
 from .plastic import LABEL, LINES, colours, strain_of
-from .section import Run, Section, bar
+from .section import Run, Section, bar, last_shown
 from .._numbers import number, prefix, si
 from .style import BLUE, GREEN, GREY, INK, ORANGE, PINK, WHITE, WIDTH, legend, styled
 from .surface import Profile, has_pit
@@ -49,7 +49,8 @@ def pit(
     if len(labels) != len(profiles):
         raise ValueError(f"names are for the run and those beside: {len(profiles)}, not {len(labels)}")
     first = profiles[0]
-    section = Section.of(first.result, first.time, None)
+    # The surface is recorded more often than the strain, in a run that was stopped also after its last snapshot.
+    section = Section.of(first.result, min(first.time, last_shown(first.result)), None)
     across, down = _reach(first) if reach is None else (reach, reach)
     mesh = section.snapshots["solid"].mesh
     across, down = min(across, float(mesh.high[1])), min(down, float(mesh.high[0] - mesh.low[0]))

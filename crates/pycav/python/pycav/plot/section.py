@@ -26,16 +26,16 @@ Window = tuple[float, float, float]
 
 
 def default_time(run: Run) -> float:
-    """The time of the largest von Mises stress, else of the largest wall pressure, else of the end, s."""
+    """The time of the largest von Mises stress, else of the largest wall pressure, else of the end, s; none after the last snapshot."""
     result = open_run(run)
     times = (result.summary.get(f"{name}_time") for name in ("von_mises_peak", "wall_pressure_peak"))
-    last = float(result.snapshots(result.media[0]).times[-1])
-    return next((float(time) for time in times if time is not None), last)
+    last = last_shown(result)
+    return next((min(float(time), last) for time in times if time is not None), last)
 
 
-def _at_default(result: Result, medium: str) -> Snapshot:
-    series = result.snapshots(medium)
-    return series[int(np.argmin(np.abs(series.times - default_time(result))))]
+def last_shown(result: Result) -> float:
+    """The last time until which all media have snapshots, s: a run that was stopped has gone on after it."""
+    return min(float(result.snapshots(medium).times[-1]) for medium in result.media)
 
 
 @dataclass
@@ -54,8 +54,8 @@ class Section:
     @classmethod
     def of(cls, run: Run, time: float | None, window: Window | None) -> Section:
         result = open_run(run)
-        # The default is within the run, and where that has no snapshots the title tells the time.
-        snapshots = {medium: _at_default(result, medium) if time is None else result.snapshots(medium).at(time) for medium in result.media}
+        wanted = default_time(result) if time is None else time
+        snapshots = {medium: result.snapshots(medium).at(wanted) for medium in result.media}
         meshes = {medium: snapshot.mesh for medium, snapshot in snapshots.items()}
         low = np.min([mesh.low for mesh in meshes.values()], 0)
         high = np.max([mesh.high for mesh in meshes.values()], 0)
