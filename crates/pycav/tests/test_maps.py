@@ -6,6 +6,7 @@ import io
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
@@ -310,6 +311,21 @@ def test_the_damage_map_shows_values_marks_and_what_is_unsure():
     assert [line.get_label() for line in lines.axes[0].lines] == ["10 MPa", "40 MPa"]
     with pytest.raises(ValueError, match="needs a sweep over"):
         pycav.plot.damage_map(data.isel({"solid.material": 0}))
+
+
+def test_the_directory_of_a_sweep_is_no_map(line, tmp_path):
+    """It ended in "Unable to synchronously open file (file read failed ... Is a directory)"."""
+    data, root = line
+    draws = (lambda own: pycav.plot.sweep_lines(own, "wall_impulse"), pycav.plot.stand_off_map, pycav.plot.pit_map, pycav.plot.damage_map)
+    place = Path(data.attrs["out"])
+    assert (root / "map.nc").is_file() and place.is_dir()
+    for draw in draws:
+        with pytest.raises(ValueError, match=f"{place} is a directory, not a map.*to= of pycav.sweep names: give {root / 'map.nc'}"):
+            draw(place)
+    (tmp_path / "other.nc").write_text("")
+    (tmp_path / "sweep").mkdir()
+    with pytest.raises(ValueError, match="sweep is a directory.*none is in it or beside it"):
+        pycav.plot.damage_map(tmp_path / "sweep")
 
 
 def test_pictures_take_a_file_and_say_what_they_need(line):

@@ -121,8 +121,33 @@ def opened(data: xarray.Dataset | str | os.PathLike[str]) -> xarray.Dataset:
     if isinstance(data, xarray.Dataset):
         return data
     path = Path(data)
-    with xarray.open_dataset(path, engine="zarr" if path.suffix == ".zarr" else "h5netcdf") as found:
+    if path.is_dir() and path.suffix != ".zarr":
+        maps = ", ".join(str(file) for file in _maps_of(path))
+        cure = f"give {maps}" if maps else "none is in it or beside it, and the same call with to= writes one and runs nothing again"
+        raise ValueError(f"{path} is a directory, not a map, which is the file (.nc or .zarr) that to= of pycav.sweep names: {cure}")
+    with _file(path) as found:
         return found.load()
+
+
+def _file(path: Path) -> xarray.Dataset:
+    return xarray.open_dataset(path, engine="zarr" if path.suffix == ".zarr" else "h5netcdf")
+
+
+def _maps_of(directory: Path) -> list[Path]:
+    """The maps in a sweep's directory or beside it that say they are of that sweep."""
+    found = []
+    for path in sorted([*directory.glob("*"), *directory.parent.glob("*")]):
+        if path.suffix not in (".nc", ".zarr"):
+            continue
+        try:
+            with _file(path) as data:
+                own = str(data.attrs.get("out", ""))
+        except (OSError, ValueError, ImportError):
+            continue  # some other file, or Zarr is not installed
+        # A sweep's directory may have been given from elsewhere, or moved: its name is what is left.
+        if own and Path(own).resolve().name == directory.resolve().name:
+            found.append(path)
+    return found
 
 
 def numeric(data: xarray.Dataset) -> list[str]:
