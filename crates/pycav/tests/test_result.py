@@ -105,6 +105,18 @@ def test_summary_table_and_case(result):
 def test_a_directory_of_something_else_is_refused(tmp_path):
     with pytest.raises(FileNotFoundError, match="no run directory"):
         pycav.open(tmp_path)
+    with pytest.raises(FileNotFoundError, match="there is no such directory"):
+        pycav.open(tmp_path / "absent")
+
+
+def test_a_file_of_a_run_is_refused_with_its_directory(result, tmp_path):
+    """Of summary.json itself it said that it has no summary.json."""
+    for name in ("summary.json", "fluid.h5"):
+        with pytest.raises(FileNotFoundError, match=f"{name} is no run directory: it is a file; give the directory of its run, {result.directory}$"):
+            pycav.open(result.directory / name)
+    (tmp_path / "note").write_text("")
+    with pytest.raises(FileNotFoundError, match="it is a file, and no run is in its directory"):
+        pycav.open(tmp_path / "note")
 
 
 @pytest.mark.parametrize(("poisson", "ratio"), [(0.0, 0.874032), (0.25, 0.919402), (0.5 - 1e-9, 0.955313)])

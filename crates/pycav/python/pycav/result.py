@@ -187,7 +187,8 @@ class Result:
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = Path(directory)
         if not (self.directory / "summary.json").is_file():
-            raise FileNotFoundError(f"{self.directory} is no run directory: {_grids(self.directory) or 'it has no summary.json'}")
+            why = _grids(self.directory) or _file(self.directory) or "it has no summary.json"
+            raise FileNotFoundError(f"{self.directory} is no run directory: {why}")
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
@@ -344,6 +345,14 @@ class Result:
     def __repr__(self) -> str:
         state = "completed" if self.summary.get("completed") else "running" if self.state == "running" else "not completed"
         return f"<pycav.Result {str(self.directory)!r}, {state}>"
+
+
+def _file(path: Path) -> str:
+    """Of a path that is no directory: what to give instead."""
+    if path.is_file():
+        own = (path.parent / "summary.json").is_file()
+        return f"it is a file; give the directory of its run, {path.parent}" if own else "it is a file, and no run is in its directory"
+    return "" if path.exists() else "there is no such directory"
 
 
 def _grids(directory: Path) -> str:
