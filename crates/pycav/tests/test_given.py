@@ -101,3 +101,14 @@ def test_a_laser_bubble_grows_to_the_radius_that_a_camera_has_seen():
         pycav.laser_bubble(largest_radius=1e-3, equilibrium_radius=3e-4)
     with pytest.raises(pycav.CaseError, match="largest_radius: must be positive"):
         pycav.laser_bubble(largest_radius=-1e-3)
+
+
+def test_a_laser_bubbles_wall_needs_a_distance():
+    """The wall was left out without a word; the command line refuses it."""
+    for wall in ("steel", "rigid"):
+        with pytest.raises(ValueError, match=f"wall = '{wall}': the following required argument was not provided: stand_off"):
+            pycav.laser_bubble(wall=wall)
+        assert pycav.laser_bubble(wall=wall, stand_off=1.5).media == (["fluid"] if wall == "rigid" else ["fluid", "solid"])
+    assert pycav.laser_bubble(stand_off=1.5) == pycav.laser_bubble(stand_off=1.5, wall="rigid")
+    with pytest.raises(ValueError, match="no material `stel`"):
+        pycav.laser_bubble(wall="stel")

@@ -67,7 +67,7 @@ def laser_bubble(
     left_radius: float | Literal["scaled"] | None = "scaled",
     pressure: float = 1e5,
     stand_off: float | None = None,
-    wall: str = "rigid",
+    wall: str | None = None,
     *,
     largest_radius: float | None = None,
     cells_per_radius: float = 16.0,
@@ -88,19 +88,24 @@ def laser_bubble(
     stand_off
         d/R_max, the distance of the bubble's centre from a wall in largest radii; far from any wall with None.
     wall
-        As of `collapse`.
+        As of `collapse`, with a `stand_off`; rigid if left out.
     largest_radius
         What the bubble grows to, m, in the place of `equilibrium_radius`, which follows from it by Gilmore's equation.
     cells_per_radius
         Along the present radius, at least; 4 to 2000.
 
-    Errors as of `collapse`; ValueError for both a largest and an equilibrium radius.
+    Errors as of `collapse`; ValueError for both a largest and an equilibrium radius, and for a wall without `stand_off`.
     """
     if largest_radius is not None and equilibrium_radius is not None:
         raise ValueError("largest_radius and equilibrium_radius: give one, the other follows from it")
     left = None if left_radius == "scaled" else left_radius
     radii = (radius, equilibrium_radius, largest_radius)
-    return Case._of(_pycav.new_laser_bubble(radii, (left_radius is None, left), pressure, stand_off, wall, cells_per_radius))
+    case = _pycav.new_laser_bubble(radii, (left_radius is None, left), pressure, stand_off, "rigid" if wall is None else wall, cells_per_radius)
+    # Where there is such a wall: of another one the names that there are say more.
+    if wall is not None and stand_off is None:
+        raise ValueError(f"wall = {wall!r}: the following required argument was not provided: stand_off, the distance of the bubble's centre "
+                         "from the wall in largest radii; without it there is no wall")
+    return Case._of(case)
 
 
 def shocked_bubble(
