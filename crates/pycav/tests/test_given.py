@@ -112,3 +112,16 @@ def test_a_laser_bubbles_wall_needs_a_distance():
     assert pycav.laser_bubble(stand_off=1.5) == pycav.laser_bubble(stand_off=1.5, wall="rigid")
     with pytest.raises(ValueError, match="no material `stel`"):
         pycav.laser_bubble(wall="stel")
+
+
+@pytest.mark.parametrize(("make", "name", "unit"), [
+    (pycav.collapse, "radius", "m"), (pycav.free_bubble, "gas_pressure", "Pa"), (pycav.laser_bubble, "largest_radius", "m"),
+    (pycav.laser_bubble, "left_radius", "m"), (pycav.shocked_bubble, "amplitude", "Pa"), (pycav.wall_load, "duration", "s"),
+    (pycav.collapse, "stand_off", ""), (pycav.wall_load, "cells_per_radius", "")])
+def test_a_new_cases_numbers_are_in_si_units(make, name, unit):
+    """It was "must be real number, not str", of whichever argument."""
+    with pytest.raises(TypeError, match=f"^{name} = '1mm' is a str: give a number{f' in SI units, here {unit}' if unit else ''}$"):
+        make(**{name: "1mm"})
+    with pytest.raises(pycav.CaseError, match=f"{name}.*NaN"):
+        make(**{name: float("nan")})
+    assert pycav.collapse(radius=np.array(1e-3), pressure=np.float32(2e7)) == pycav.collapse()

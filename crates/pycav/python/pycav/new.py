@@ -2,13 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 from . import _pycav
 from .case import Case
 
 VAPOUR_PRESSURE = 2340.0
 """Water's at 20 °C, Pa: what a bubble holds at the least."""
+
+UNITS = {"pressure": "Pa", "gas_pressure": "Pa", "amplitude": "Pa", "duration": "s", "radius": "m", "equilibrium_radius": "m",
+         "left_radius": "m", "largest_radius": "m"}
+
+
+def _real(**given: Any) -> None:
+    """Checks that arguments are numbers: texts with units are the command line's. What they may be the program says."""
+    for name, value in given.items():
+        try:
+            if not isinstance(value, str):
+                float(value)
+                continue
+        except (TypeError, ValueError):
+            pass
+        unit = f" in SI units, here {UNITS[name]}" if name in UNITS else ""
+        raise TypeError(f"{name} = {value!r} is a {type(value).__name__}: give a number{unit}")
 
 
 def collapse(
@@ -47,6 +63,7 @@ def collapse(
     ValueError
         No such wall, with the nearest names.
     """
+    _real(radius=radius, pressure=pressure, stand_off=stand_off, gas_pressure=gas_pressure, cells_per_radius=cells_per_radius)
     return Case._of(_pycav.new_collapse(radius, pressure, stand_off, wall, gas_pressure, cells_per_radius, elastic))
 
 
@@ -58,6 +75,7 @@ def free_bubble(
     cells_per_radius: float = 40.0,
 ) -> Case:
     """A gas bubble that collapses in unbounded water and rebounds. Arguments and errors as of `collapse`."""
+    _real(radius=radius, pressure=pressure, gas_pressure=gas_pressure, cells_per_radius=cells_per_radius)
     return Case._of(_pycav.new_free_bubble(radius, pressure, gas_pressure, cells_per_radius))
 
 
@@ -98,7 +116,9 @@ def laser_bubble(
     """
     if largest_radius is not None and equilibrium_radius is not None:
         raise ValueError("largest_radius and equilibrium_radius: give one, the other follows from it")
-    left = None if left_radius == "scaled" else left_radius
+    left = None if isinstance(left_radius, str) and left_radius == "scaled" else left_radius
+    optional = {"radius": radius, "equilibrium_radius": equilibrium_radius, "left_radius": left, "stand_off": stand_off, "largest_radius": largest_radius}
+    _real(pressure=pressure, cells_per_radius=cells_per_radius, **{name: value for name, value in optional.items() if value is not None})
     radii = (radius, equilibrium_radius, largest_radius)
     case = _pycav.new_laser_bubble(radii, (left_radius is None, left), pressure, stand_off, "rigid" if wall is None else wall, cells_per_radius)
     # Where there is such a wall: of another one the names that there are say more.
@@ -123,6 +143,7 @@ def shocked_bubble(
 
     The others, and errors, are those of `collapse`.
     """
+    _real(radius=radius, pressure=pressure, amplitude=amplitude, stand_off=stand_off, cells_per_radius=cells_per_radius)
     return Case._of(_pycav.new_shocked_bubble(radius, pressure, amplitude, stand_off, wall, cells_per_radius))
 
 
@@ -138,4 +159,5 @@ def wall_load(
 
     - `amplitude`: A, Pa; `radius`: b, m; `duration`: T, s; `cells_per_radius`: of the load. Errors as of `collapse`.
     """
+    _real(amplitude=amplitude, radius=radius, duration=duration, cells_per_radius=cells_per_radius)
     return Case._of(_pycav.new_wall_load(amplitude, radius, duration, wall, cells_per_radius))
