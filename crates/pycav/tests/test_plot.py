@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import warnings
 
 import matplotlib as mpl
@@ -96,6 +97,16 @@ def test_the_yield_function_is_the_stress_less_the_strength(result):
 def _rigid(result):
     case = result.case.with_({"coupling.scheme": "rigid", "time.end": 1e-6, "time.snapshots": []})
     return pycav.run(case, result.directory.with_name("rigid"), force=True)
+
+
+def test_the_yield_strength_drawn_is_the_runs_own(result, small, tmp_path):
+    """It was 95, 250 and 502 MPa for every wall."""
+    def strengths(run):
+        return re.findall(r"Y_0\$ = ([0-9.]+) MPa", texts(pycav.plot.yield_function(run)))
+
+    assert result.summary["yield_strength"] == 250e6 and strengths(result) == ["250"]
+    without = {"solid.material": "tungsten-carbide", "time.end": 1e-6, "time.snapshots": []}
+    assert strengths(pycav.run(small.with_(without), tmp_path / "run")) == ["95", "250", "502"]
 
 
 def test_a_consistent_run_stands_beside(result):

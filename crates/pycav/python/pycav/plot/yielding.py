@@ -16,12 +16,14 @@ from .._numbers import number
 from .style import INK, WHITE, styled
 
 MEGA = 1e-6
+PAPER = (95e6, 250e6, 502e6)
+"""Yield strengths of the paper's aluminium, structural and stainless steel, Pa."""
 
 
 @styled
 def yield_function(
     run: Run,
-    yield_strength: float | Sequence[float] = (95e6, 250e6, 502e6),
+    yield_strength: float | Sequence[float] | None = None,
     time: float | None = None,
     window: Window | None = None,
     *,
@@ -30,11 +32,12 @@ def yield_function(
     one_scale: bool = True,
     levels: bool = False,
 ) -> Figure:
-    """The yield function Φ = σ_vM − Y₀ of the solid for one or several yield strengths in Pa, a panel each.
+    """The yield function Φ = σ_vM − Y₀ of the solid for one or several yield strengths, a panel each. The line is Φ = 0.
 
-    All these panels are evaluated on the stresses of the one elastic run, as the paper does: what a softer material would do
-    is then only indicated. The line is Φ = 0.
+    All these panels are evaluated on the stresses of the one run, as the paper does with an elastic one: what a softer material
+    would do is then only indicated.
 
+    - `yield_strength`: in Pa; else the run's own, and where its material has none the paper's 95, 250 and 502 MPa.
     - `names`: of the materials, for the titles.
     - `beside`: runs with the consistent materials, as `pycav.consistent_runs` makes them; a panel each with the yield strength
       that their cases name.
@@ -42,11 +45,14 @@ def yield_function(
     - `levels`: outlines of the levels of refinement.
     """
     first = solid_section(run, time, window)
+    if yield_strength is None:
+        own = first.result.yield_strength
+        yield_strength = PAPER if own is None else own
     panels = [(first, _strength(strength), names[k] if names else "")
               for k, strength in enumerate([yield_strength] if isinstance(yield_strength, (str, int, float)) else yield_strength)]
     for other in beside:
         section = solid_section(other, first.time, window)
-        strength = section.result.summary.get("yield_strength")
+        strength = section.result.yield_strength
         if strength is None:
             raise ValueError(f"the material of {section.result.directory} has no yield strength")
         material = section.result.parameters["solid"]["material"]
