@@ -59,11 +59,16 @@ impl Reader {
         let end = told.as_ref().map(|standing| standing.end).or_else(|| end_of(&self.run));
         let text = |value: &Value| value.as_str().map(str::to_owned);
         let is_over = state != RunState::Running;
+        let standing = match (told, self.standing(&summary)) {
+            // The last steps before a run was stopped have come too soon to be told.
+            (Some(told), Some(own)) if is_over && own.line.time > told.line.time => Some(own),
+            (told, own) => told.or(own),
+        };
         Ok(Seen {
             directory: self.run.clone(),
             grid,
             state,
-            standing: told.or_else(|| self.standing(&summary)),
+            standing,
             curves: self.curves(is_over.then_some(&summary)),
             end,
             error: summary.get("error").filter(|_| is_over).and_then(text),

@@ -42,6 +42,33 @@ impl Shape {
             Self::Box { z: [z0, z1], r: [r0, r1] } => z >= *z0 && z < *z1 && r >= *r0 && r < *r1,
         }
     }
+
+    /// From where to where it reaches along z and r, m.
+    pub(crate) fn extent(&self) -> [[f64; 2]; 2] {
+        match *self {
+            Self::Sphere { centre, radius } => centre.map(|middle| [middle - radius, middle + radius]),
+            Self::Box { z, r } => [z, r],
+        }
+    }
+
+    /// Whether all of another shape is within it.
+    pub(crate) fn holds(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Sphere { centre, radius }, Self::Sphere { centre: [z, r], radius: within }) => {
+                (z - centre[0]).hypot(r - centre[1]) + within <= *radius
+            }
+            (Self::Sphere { centre, radius }, Self::Box { z, r }) => {
+                let is_within = |z: f64, r: f64| (z - centre[0]).hypot(r - centre[1]) <= *radius;
+                z.iter().all(|z| r.iter().all(|r| is_within(*z, *r)))
+            }
+            (Self::Box { .. }, _) => {
+                let [[z, r], [other_z, other_r]] = [self, other].map(Self::extent);
+                // A rectangle from the axis on has all of what is about the axis.
+                let from = if r[0] == 0.0 { other_r[0].max(0.0) } else { other_r[0] };
+                z[0] <= other_z[0] && other_z[1] <= z[1] && r[0] <= from && other_r[1] <= r[1]
+            }
+        }
+    }
 }
 
 /// Whether a shape's edge may pass through the cell.
