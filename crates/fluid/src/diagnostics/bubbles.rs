@@ -294,8 +294,12 @@ mod tests {
         let cuts = |spheres: &[[f64; 2]]| BubbleCuts::of(&of_spheres(spheres, 0.0)).cuts;
         assert_eq!(cuts(&[[2.0, 1.0]]), []);
         assert_eq!(cuts(&[[5.0, 0.5], [2.0, 1.0]]), [3.75], "in the order of z");
-        let nested = cuts(&[[2.0, 1.5], [2.25, 0.1], [6.0, 1.0]]);
-        assert_eq!(nested, [2.25, 3.675], "between the middles");
+        assert_eq!(cuts(&[[2.0, 1.5], [2.5, 1.1], [6.0, 1.0]]), [2.45, 4.3]);
+        assert_eq!(
+            cuts(&[[2.0, 1.5], [2.25, 0.1], [6.0, 1.0]]),
+            [4.25],
+            "what is within another one is none"
+        );
     }
 
     /// The sums in batches of columns are those cell by cell.
