@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import numpy as np
@@ -38,9 +39,10 @@ def known(result: Result) -> dict[str, Any]:
     place = data.get("solid/von_mises_max_position")
     if place is not None and "von_mises_peak" in found:
         found["von_mises_peak_position"] = place[int(np.nanargmax(data["solid/von_mises_max"].to_numpy()))].to_numpy().tolist()
-    if "bubble/jet_velocity" in data and len(radii := data["bubble/equivalent_radius"].to_numpy()):
-        # What moves while a bubble grows is no jet.
-        begin = int(np.argmax(radii))
+    if "bubble/jet_velocity" in data and len(data["bubble/equivalent_radius"]):
+        # What moves while all bubbles grow is no jet.
+        each = [name for name in data if re.fullmatch(r"bubbles/\d+/equivalent_radius", str(name))]
+        begin = min(int(np.argmax(data[name].to_numpy())) for name in each or ["bubble/equivalent_radius"])
         jets = data["bubble/jet_velocity"].to_numpy()[begin:]
         if np.isfinite(jets).any() and np.nanmax(jets) > 0:
             found |= _peak(result, "jet_velocity_peak", "bubble/jet_velocity", begin + int(np.nanargmax(jets)))
