@@ -207,6 +207,8 @@ fn what_makes_no_case_is_named_with_what_is_allowed() {
         (["laser", "--left-radius", "1mm"], "left_radius: must be less than R_n, 184.1 µm, got 0.001"),
         (["free", "--cells-per-radius", "nan"], "cells_per_radius: must be from 4 to 2000"),
         (["shock", "--amplitude", "-1MPa"], "amplitude: must be positive"),
+        // Not by an option of its own, but by what it leads to.
+        (["laser", "--equilibrium-radius", "10cm"], "fluid.cells: the finest grid has"),
     ] {
         let joined = [arguments[1], arguments[2]].join("=");
         let refused = cav(&["new", arguments[0], &joined]);

@@ -137,7 +137,7 @@ fn flows_at_once(solid: &SolidCase, pressure: f64, strength: f64, warnings: &mut
             "solid.initial_stress = \"uniaxial\" begins with {flows}; write solid.initial_stress = \"hydrostatic\""
         )
     } else {
-        format!("solid.gravity: the weight, which sigma_zz alone carries, begins with {flows}; take one less deep, or stronger")
+        format!("solid.gravity: the weight, which sigma_zz alone carries, begins with {flows}; take a solid that is less deep, or a stronger one")
     });
 }
 

@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 use solid::Material;
 
 use super::arguments::time;
-use crate::case::CaseErrors;
+use crate::case::{Case, CaseErrors};
 use crate::case::new::{
     Collapse, Dimension, FreeBubble, LaserBubble, LaserRadii, ShockedBubble, Wall, WallLoad,
 };
@@ -183,9 +183,15 @@ struct LoadArgs {
     cells_per_radius: f64,
 }
 
-/// The case that is asked for, or the kinds there are.
+/// The case that is asked for, which reads without a fault, or the kinds there are.
 pub(super) fn text(args: New) -> Result<String, CaseErrors> {
     let Some(kind) = args.kind else { return Ok(KINDS.to_owned()) };
+    let written = written(kind)?;
+    Case::read(&written, "new", "the case that these numbers give", &[])?;
+    Ok(written)
+}
+
+fn written(kind: Kind) -> Result<String, CaseErrors> {
     match kind {
         Kind::Collapse(asked) => Collapse {
             radius: asked.radius,

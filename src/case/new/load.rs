@@ -57,11 +57,8 @@ impl WallLoad {
             [(amplitude, Dimension::Pressure), (radius, Dimension::Length), (duration, Dimension::Time)]
                 .map(|(value, dimension)| dimension.shortest(value));
         let name = material.name();
-        let stays = if plasticity(material).is_empty() {
-            "it stays elastic, and keeps no pit"
-        } else {
-            "the pit that stays"
-        };
+        let law = plasticity(material);
+        let stays = if law.is_empty() { "it stays elastic, and keeps no pit" } else { "the pit that stays" };
         Ok(format!(
             "# A pressure of {peak} on a disc of radius {wide} presses on {name} for {long}: {stays}.
 #
@@ -89,7 +86,6 @@ history = [
             half = number(0.5 * duration),
             duration = number(duration),
             grid = Blocks::of(radius, cells_per_radius).keys(REACH * radius, 0.0, REACH * radius, &format!("{cells_per_radius} cells per radius of the load")),
-            law = plasticity(material),
             amplitude = number(amplitude),
             radius = number(radius),
             rows = lines.join("\n"),

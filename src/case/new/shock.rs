@@ -28,8 +28,7 @@ const MEAN: f64 = 0.6;
 /// Rows of the table of the pulse after its front, and the time that they cover at most, s: there it has fallen to 10⁻⁵.
 const ROWS: u32 = 80;
 const COVERED: f64 = 12e-6;
-/// ∫ p dt over P of the pulse until it turns to tension, s, and the share that a front may add to that without a word.
-const IMPULSE: f64 = 0.385e-6;
+/// The share that a front may add without a word to the impulse of the pulse until it turns to tension.
 const ADDED: f64 = 0.05;
 
 /// A lithotripter's pulse collapses a gas bubble near a wall.
@@ -109,7 +108,7 @@ impl ShockedBubble {
         .map(|(value, dimension)| dimension.shortest(value));
         let (stand_off, wall, cells) = (self.stand_off, self.wall.name(), self.cells_per_radius);
         let rise = self.rise();
-        let added = 0.5 * rise / IMPULSE;
+        let added = 0.5 * rise / positive_impulse();
         let slow = if added > ADDED {
             format!(
                 "\n# On {cells} cells per radius that front adds {:.0} % to the impulse of the pulse until it turns to tension; finer cells add less.",
@@ -140,7 +139,6 @@ impl ShockedBubble {
     /// `[fluid.inflow]`: Church's pulse as a table that is linear in between.
     fn pulse(&self, end: f64) -> String {
         let (rise, span) = (self.rise(), (end - self.rise()).max(self.rise()));
-        let shape = |t: f64| 2.0 * (-DECAY * t).exp() * (FREQUENCY * t + FRAC_PI_3).cos();
         let mut rows = vec![format!("[0.0, {}]", number(self.pressure))];
         // The closer the nearer to the front.
         let covered = (0..=ROWS).map(|row| span.min(COVERED) * (f64::from(row) / f64::from(ROWS)).powi(2));
@@ -150,4 +148,21 @@ impl ShockedBubble {
         let lines: Vec<String> = rows.chunks(4).map(|chunk| format!("    {},", chunk.join(", "))).collect();
         format!("\n[fluid.inflow]\npressure = [\n{}\n]\n", lines.join("\n"))
     }
+}
+
+/// Church's pulse over its amplitude, p/P = 2 exp(−αt) cos(ωt + π/3), `t` s after its front.
+fn shape(t: f64) -> f64 {
+    2.0 * (-DECAY * t).exp() * (FREQUENCY * t + FRAC_PI_3).cos()
+}
+
+/// ∫ p dt over P of the pulse from its front until it turns to tension at ωt = π/6, s.
+fn positive_impulse() -> f64 {
+    // Of 2 Re exp((iω − α) t + iπ/3) from 0 to π/(6ω).
+    let (real, turn) = (-DECAY, PI / 6.0 / FREQUENCY);
+    let integral = |t: f64| {
+        let phase = FREQUENCY * t + FRAC_PI_3;
+        2.0 * (-DECAY * t).exp() * (real * phase.cos() + FREQUENCY * phase.sin())
+            / (real * real + FREQUENCY * FREQUENCY)
+    };
+    integral(turn) - integral(0.0)
 }
