@@ -4,10 +4,10 @@ use clap::{Args, Subcommand};
 use solid::Material;
 
 use super::arguments::time;
-use crate::case::{Case, CaseErrors};
 use crate::case::new::{
     Collapse, Dimension, FreeBubble, LaserBubble, LaserRadii, ShockedBubble, Wall, WallLoad,
 };
+use crate::case::{Case, CaseErrors};
 
 /// What `cav new` lists.
 const KINDS: &str = "\

@@ -79,7 +79,7 @@ fn scales(fluid: &FluidCase) -> fluid::Scales {
 
 /// A case's fluid, filled with its initial condition.
 pub fn fluid_solver(case: &Case, fluid: &FluidCase) -> Result<FluidSolver<BLOCK>, FluidError> {
-    FluidSolver::new(&fluid_setup(case, fluid), &fluid.initial)
+    FluidSolver::compiled(&fluid_setup(case, fluid), &fluid.initial)
 }
 
 /// The setup of a case's solid.
@@ -144,7 +144,9 @@ pub fn solid_and_displacement(
             let displacement = wall.displacement().to_vec();
             Ok((wall.solver(setup, initial)?, Some(displacement)))
         }
-        None => Ok((SolidSolver::under_load(setup, initial, |point| carried.stress(point))?, None)),
+        None => {
+            Ok((SolidSolver::compiled_under_load(setup, &initial, &|point| carried.stress(point))?, None))
+        }
     }
 }
 

@@ -192,7 +192,13 @@ impl Wall<'static> {
             let now = pressed(point).to_array();
             ElasticState::from_array(std::array::from_fn(|c| now[c] - before[c]))
         };
-        Ok(SolidSolver::at_rest_with(setup, self.leaves.into_owned(), &self.cells, self.moved, change)?)
+        Ok(SolidSolver::compiled_at_rest_with(
+            setup,
+            self.leaves.into_owned(),
+            &self.cells,
+            self.moved,
+            &change,
+        )?)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use mesh::{BlockSolver, Domain, Mesh, SavedBlocks, Side, SideStates, Tile};
+use mesh::{BLOCK, BlockSolver, Domain, Mesh, SavedBlocks, Side, SideStates, Tile};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
@@ -166,6 +166,15 @@ impl<const N: usize> FluidSolver<N> {
     }
 }
 
+impl FluidSolver<BLOCK> {
+    /// [`FluidSolver::new`], compiled here as [`mesh::CompiledSolver`] is.
+    ///
+    /// - errors: as there.
+    pub fn compiled(setup: &FluidSetup, initial: &InitialCondition) -> Result<Self, FluidError> {
+        Self::new(setup, initial)
+    }
+}
+
 /// The memory of the wall on z_min, if that conducts heat.
 fn wall_memory<const N: usize>(setup: &FluidSetup, mesh: &Mesh<N>) -> Option<WallMemory> {
     let WallHeat::Conducting(wall) = setup.conduction?.wall else { return None };
@@ -174,3 +183,4 @@ fn wall_memory<const N: usize>(setup: &FluidSetup, mesh: &Mesh<N>) -> Option<Wal
 }
 
 mesh::derefs!([const N: usize] FluidSolver<N> => BlockSolver<Fluid, N>, 0);
+mesh::compiled_solver!(FluidSolver<BLOCK>, Fluid);

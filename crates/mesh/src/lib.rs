@@ -30,8 +30,8 @@ mod tree;
 
 pub use block_solver::stage_timer::StageTimer;
 pub use block_solver::{
-    BlockSolver, BlockWork, FaceState, Interface, Marks, Model, Place, Progress, Reports, SavedBlocks,
-    Scratches, Step,
+    BlockSolver, BlockWork, CompiledSolver, FaceState, Interface, Marks, Model, Place, Progress, Reports,
+    SavedBlocks, Scratches, Step,
 };
 pub use cell_fields::{CellField, CellLevels, CellSnapshot};
 pub use ghosts::cell_below;

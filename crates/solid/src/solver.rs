@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use mesh::{BlockId, BlockSolver, Field, Mesh, MeshError, SavedBlocks, SideStates, Tile};
+use mesh::{BLOCK, BlockId, BlockSolver, Field, Mesh, MeshError, SavedBlocks, SideStates, Tile};
 
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
@@ -144,6 +144,32 @@ impl<const N: usize> SolidSolver<N> {
     }
 }
 
+impl SolidSolver<BLOCK> {
+    /// [`SolidSolver::under_load`], compiled here as [`mesh::CompiledSolver`] is.
+    ///
+    /// - errors: as there.
+    pub fn compiled_under_load(
+        setup: SolidSetup,
+        initial: &InitialState<'_>,
+        at_rest: &InitialState<'_>,
+    ) -> Result<Self, SolidError> {
+        Self::filled(setup, initial, at_rest)
+    }
+
+    /// [`SolidSolver::at_rest_with`], compiled here.
+    ///
+    /// - errors: as there.
+    pub fn compiled_at_rest_with(
+        setup: SolidSetup,
+        leaves: Vec<BlockId>,
+        cells: &Field,
+        displacement: Option<Field>,
+        change: &InitialState<'_>,
+    ) -> Result<Self, SolidError> {
+        Self::at_rest_with(setup, leaves, cells, displacement, change)
+    }
+}
+
 /// Stresses and those of the setup's weight, if it has one.
 fn with_weight(setup: &SolidSetup, stress: &InitialState<'_>) -> impl Fn([f64; 2]) -> ElasticState + Sync {
     let (weight, density) = (setup.weight, setup.speeds.density);
@@ -169,3 +195,4 @@ fn analysis(setup: &SolidSetup, components: &[Component]) -> Analysis {
 }
 
 mesh::derefs!([const N: usize] SolidSolver<N> => BlockSolver<Solid, N>, 0);
+mesh::compiled_solver!(SolidSolver<BLOCK>, Solid);

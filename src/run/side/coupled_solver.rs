@@ -7,7 +7,7 @@ use std::ops::DerefMut;
 
 use coupler::{Meeting, Participant, ShortStep, StarSolver, TraceRow};
 use fluid::{Fluid, FluidSolver};
-use mesh::{BLOCK, BlockSolver, Geometry, GroupStep, Model, Part};
+use mesh::{BLOCK, BlockSolver, CompiledSolver, Geometry, GroupStep, Model, Part};
 use solid::{Solid, SolidSolver};
 
 use crate::case::{Case, LocalSteps, SMALLEST_STEP};
@@ -32,23 +32,28 @@ pub struct StepRule {
 }
 
 /// A solver, whichever medium it is for: a [`BlockSolver`] that can show the other side what is on the interface.
-pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> + Sync {
+pub trait CoupledSolver:
+    CompiledSolver<Self::Physics> + DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> + Sync
+{
     /// What its cells obey.
     type Physics: Model<BLOCK, Error: Into<RunError>>;
     /// Which side of the interface it is.
     const OWN: Participant;
 
-    /// [`BlockSolver::start`]. What steps is compiled here, once for each solver, and not in every program that drives a side.
-    fn start_group(&mut self, limit: f64) -> GroupStep;
+    /// [`CompiledSolver::run`].
+    fn run_part(&mut self, step: GroupStep, part: Part) -> Result<(), RunError> {
+        self.run(step, part).map_err(Into::into)
+    }
 
-    /// [`BlockSolver::run`].
-    fn run_part(&mut self, step: GroupStep, part: Part) -> Result<(), RunError>;
+    /// [`CompiledSolver::finish`].
+    fn finish_step(&mut self) -> Result<(), RunError> {
+        self.finish().map_err(Into::into)
+    }
 
-    /// [`BlockSolver::finish`].
-    fn finish_step(&mut self) -> Result<(), RunError>;
-
-    /// [`BlockSolver::step`].
-    fn whole_step(&mut self, dt: f64) -> Result<(), RunError>;
+    /// [`CompiledSolver::step`].
+    fn whole_step(&mut self, dt: f64) -> Result<(), RunError> {
+        self.step(dt).map_err(Into::into)
+    }
 
     /// Writes the traces on the faces of those blocks that are `due`, before a step of length `dt`.
     fn write_trace_of(
@@ -69,28 +74,11 @@ pub trait CoupledSolver: DerefMut<Target = BlockSolver<Self::Physics, BLOCK>> + 
     }
 }
 
-/// What is compiled for both solvers.
 macro_rules! coupled_solver {
     ($solver:ident, $physics:ident) => {
         impl CoupledSolver for $solver<BLOCK> {
             type Physics = $physics;
             const OWN: Participant = Participant::$physics;
-
-            fn start_group(&mut self, limit: f64) -> GroupStep {
-                self.start(limit)
-            }
-
-            fn run_part(&mut self, step: GroupStep, part: Part) -> Result<(), RunError> {
-                Ok(self.run(step, part)?)
-            }
-
-            fn finish_step(&mut self) -> Result<(), RunError> {
-                Ok(self.finish()?)
-            }
-
-            fn whole_step(&mut self, dt: f64) -> Result<(), RunError> {
-                Ok(self.step(dt)?)
-            }
 
             fn write_trace_of(
                 &self,
@@ -98,7 +86,7 @@ macro_rules! coupled_solver {
                 is_due: &dyn Fn(usize) -> bool,
                 put: &mut dyn FnMut(TraceRow, usize, f64),
             ) {
-                $solver::write_trace(self, dt, is_due, put);
+                self.compiled_trace(dt, is_due, put);
             }
         }
     };
@@ -187,7 +175,7 @@ impl StepRule {
 pub fn begin_long<M: CoupledSolver>(medium: &mut M, dt: f64, rule: &StepRule) -> Result<GroupStep, RunError> {
     let base = rule.long(medium).base;
     medium.begin_step(dt, base);
-    let step = medium.start_group(f64::INFINITY);
+    let step = medium.start(f64::INFINITY);
     medium.run_part(step, Part::AwayFromInterface)?;
     Ok(step)
 }
@@ -214,7 +202,7 @@ pub fn step_alone<M: CoupledSolver>(
 ) -> Result<(), RunError> {
     let base = rule.alone(medium).base;
     medium.begin_step(dt, base);
-    let step = medium.start_group(f64::INFINITY);
+    let step = medium.start(f64::INFINITY);
     before(medium, step);
     medium.run_part(step, Part::All)?;
     step_to_end(medium, rule, before, after)
@@ -229,7 +217,7 @@ fn step_to_end<M: CoupledSolver>(
     loop {
         while medium.clock().due().is_some() {
             let limit = rule.unless_collapsed(medium.due_limit(rule.cfl), medium)?;
-            let step = medium.start_group(limit);
+            let step = medium.start(limit);
             before(medium, step);
             medium.run_part(step, Part::All)?;
         }
@@ -280,7 +268,7 @@ pub fn short_steps<M: CoupledSolver>(
             let limit =
                 if group == 0 { medium.local_step_limit(rule.cfl, base) } else { medium.due_limit(rule.cfl) };
             let limit = rule.unless_collapsed(limit, medium)?;
-            let step = medium.start_group(limit);
+            let step = medium.start(limit);
             let (rows, faces) = meeting.own_trace();
             medium.write_group_trace(step, |row, face, value| rows[row as usize * faces + face] = value);
             let is_due = |face: usize| medium.group_of_face(face) == group;

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use coupler::{CommonRefinement, FrameHeader, FrameKind, Link, RegisterRow, StepLength, TraceRow};
 use fluid::FluidSolver;
-use mesh::{BLOCK, GroupStep, Misfit};
+use mesh::{BLOCK, CompiledSolver as _, GroupStep, Misfit};
 
 use crate::case::{Case, FluidCase, Medium};
 use crate::output::RunDirectory;

@@ -10,7 +10,7 @@ use coupler::{
     CouplerError, Frame, FrameHeader, FrameKind, Kappa, KappaFactor, Link, Meeting, RegisterRow, Scheme,
     StepLength, TraceRow,
 };
-use mesh::{BLOCK, GroupStep};
+use mesh::{BLOCK, CompiledSolver as _, GroupStep};
 use solid::{SolidSolver, WeakExchange};
 
 use crate::case::{Case, SolidCase};

@@ -3,7 +3,7 @@
 use std::sync::PoisonError;
 
 use coupler::{FaceTrace, FluidTrace, TraceRow};
-use mesh::{Padded, TileRows};
+use mesh::{BLOCK, Padded, TileRows};
 
 use crate::boundary::wall_trace::Trace;
 use crate::physics::FluidStep;
@@ -21,6 +21,18 @@ use crate::{FluidSolver, Mixture, TRACE_GAS};
 
 /// The traces on a block's faces, and how many of them were no states on the whole of the step.
 pub(crate) type BlockTraces<const N: usize> = ([FaceTrace; N], u64);
+
+impl FluidSolver<BLOCK> {
+    /// [`FluidSolver::write_trace`], compiled here as [`mesh::CompiledSolver`] is.
+    pub fn compiled_trace(
+        &self,
+        dt: f64,
+        due: &dyn Fn(usize) -> bool,
+        put: &mut dyn FnMut(TraceRow, usize, f64),
+    ) {
+        self.write_trace(dt, due, put);
+    }
+}
 
 impl<const N: usize> FluidSolver<N> {
     /// Writes the traces on the wall at the present time and their rates of change.

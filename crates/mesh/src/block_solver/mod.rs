@@ -4,6 +4,7 @@ pub(crate) mod stage_timer;
 
 mod adapt;
 mod advance;
+mod compiled;
 mod interface;
 mod limits;
 mod model;
@@ -15,6 +16,7 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+pub use compiled::CompiledSolver;
 pub use interface::{FaceState, Interface};
 pub use model::{BlockWork, Marks, Model, Place, Scratches, Step};
 pub use saved::SavedBlocks;

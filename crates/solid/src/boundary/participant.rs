@@ -3,7 +3,7 @@
 use std::sync::PoisonError;
 
 use coupler::{CommonRefinement, FaceTrace, InterfaceStar, RegisterRow, TraceRow};
-use mesh::{Geometry, GroupStep, Padded, Side};
+use mesh::{BLOCK, Geometry, GroupStep, Padded, Side};
 
 use crate::SolidSolver;
 use crate::boundary::Boundaries;
@@ -44,6 +44,18 @@ pub struct SurfaceTrace {
 
 /// The traces on a block's faces.
 pub(crate) type BlockTraces<const N: usize> = [FaceTrace; N];
+
+impl SolidSolver<BLOCK> {
+    /// [`SolidSolver::write_trace`], compiled here as [`mesh::CompiledSolver`] is.
+    pub fn compiled_trace(
+        &self,
+        dt: f64,
+        due: &dyn Fn(usize) -> bool,
+        put: &mut dyn FnMut(TraceRow, usize, f64),
+    ) {
+        self.write_trace(dt, due, put);
+    }
+}
 
 impl<const N: usize> SolidSolver<N> {
     /// Writes the traces on the surface at the present time and their rates of change.

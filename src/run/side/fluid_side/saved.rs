@@ -2,7 +2,7 @@
 
 use coupler::{FrameHeader, LinkCounters};
 use fluid::FluidState;
-use mesh::{BLOCK, Misfit};
+use mesh::{BLOCK, CompiledSolver as _, Misfit};
 use serde::{Deserialize, Serialize};
 
 use super::FluidSide;

@@ -1,6 +1,7 @@
 //! What a checkpoint holds of the solid's side.
 
 use coupler::{KappaFactor, LinkCounters};
+use mesh::CompiledSolver as _;
 use serde::{Deserialize, Serialize};
 use solid::SolidState;
 
