@@ -57,6 +57,7 @@ pub fn solid_with_a_pulse<const N: usize>(
         adaptation: None,
         stress_scale: 1e6,
         weight: None,
+        load: None,
     };
     // What flows dies away within a few steps: such a solid is strained all the while, at 100 1/s.
     let strain_rate = if yielding.is_some_and(|yielding| yielding.flows) { 100.0 } else { 0.0 };

@@ -72,6 +72,9 @@ impl Parabola {
 
     /// The mean between two shares of the interval.
     fn between(&self, low: f64, high: f64) -> f64 {
+        if low >= 1.0 {
+            return self.end;
+        }
         let curve = 6.0 * self.mean - 3.0 * (self.begin + self.end);
         let slope = self.end - self.begin + curve;
         self.begin + 0.5 * slope * (low + high) - curve / 3.0 * (low * low + low * high + high * high)
@@ -160,36 +163,59 @@ impl RecordedLoad {
         }
     }
 
+    /// What has been gained at a radius (m) since t = 0 by the mean from `begin` on for `length` > 0 (s), Pa: linear between the middles of
+    /// cells.
+    pub fn gained_at(&self, radius: f64, begin: f64, length: f64) -> f64 {
+        let Record { edges, parabolas, initial, .. } = &*self.record;
+        let cells = edges.len();
+        let width = if cells > 1 { edges[1] - edges[0] } else { edges[0] };
+        let place = ((radius - edges[0]) / width + 0.5).clamp(0.0, cells as f64);
+        let gained = |cell: usize| {
+            if cell >= cells {
+                return 0.0;
+            }
+            let parts = self.parts(begin, length);
+            let mean: f64 =
+                parts.map(|(k, [low, high], share)| share * parabolas[[k, cell]].between(low, high)).sum();
+            mean - initial[cell]
+        };
+        let (cell, share) = (place.floor() as usize, place.fract());
+        let first = gained(cell);
+        if share > 0.0 { first + share * (gained(cell + 1) - first) } else { first }
+    }
+
     /// The mean of the pressure in each cell from `begin` on for `length` > 0 (s), Pa.
     ///
     /// - `means`: takes them; cleared first.
     pub fn mean(&self, begin: f64, length: f64, means: &mut Vec<f64>) {
-        let Record { times, parabolas, initial, .. } = &*self.record;
-        let last = parabolas.nrows() - 1;
+        let Record { parabolas, initial, .. } = &*self.record;
         means.clear();
         means.resize(initial.len(), 0.0);
-        let first = times.partition_point(|time| *time <= begin).saturating_sub(1).min(last);
-        for k in first..=last {
-            let width = times[k + 1] - times[k];
-            let low = ((begin - times[k]) / width).clamp(0.0, 1.0);
-            let high = ((begin + length - times[k]) / width).clamp(0.0, 1.0);
-            if k > first && high <= 0.0 {
-                break;
-            }
-            let share = (high - low) * width / length;
+        for (k, [low, high], share) in self.parts(begin, length) {
             means
                 .iter_mut()
                 .zip(parabolas.row(k))
                 .for_each(|(mean, parabola)| *mean += share * parabola.between(low, high));
         }
-        // What is later than the last row.
+    }
+
+    /// What a stretch of time has of the intervals between rows: an interval, the part of it by its shares, and what that is of the
+    /// stretch. After the last row the end of the last interval stays.
+    fn parts(&self, begin: f64, length: f64) -> impl Iterator<Item = (usize, [f64; 2], f64)> {
+        let Record { times, parabolas, .. } = &*self.record;
+        let last = parabolas.nrows() - 1;
+        let first = times.partition_point(|time| *time <= begin).saturating_sub(1).min(last);
+        let part = move |k: usize| {
+            let width = times[k + 1] - times[k];
+            let low = ((begin - times[k]) / width).clamp(0.0, 1.0);
+            let high = ((begin + length - times[k]) / width).clamp(0.0, 1.0);
+            (k, [low, high], (high - low) * width / length)
+        };
         let beyond = ((begin + length - times[last + 1]) / length).clamp(0.0, 1.0);
-        if beyond > 0.0 {
-            means
-                .iter_mut()
-                .zip(parabolas.row(last))
-                .for_each(|(mean, parabola)| *mean += beyond * parabola.end);
-        }
+        (first..=last)
+            .map(part)
+            .take_while(move |(k, [_, high], _)| *k == first || *high > 0.0)
+            .chain((beyond > 0.0).then_some((last, [1.0, 1.0], beyond)))
     }
 }
 

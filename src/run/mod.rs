@@ -14,6 +14,7 @@
 
 mod carried;
 pub mod checkpoints;
+mod coming_load;
 pub mod error;
 pub mod memory;
 pub mod process;

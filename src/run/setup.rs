@@ -1,14 +1,17 @@
 //! A case made into solvers.
 
+use std::sync::Arc;
+
 use fluid::{
     Boundary, FarField, FluidError, FluidSetup, FluidSolver, Mixture, PressureHistory, SurfaceTension,
 };
-use mesh::{BLOCK, Domain};
+use mesh::{BLOCK, Domain, Entering};
 use solid::{ElasticState, InitialStress, PotentialPulse, SolidSetup, SolidSolver, WaveSpeeds};
 
 use crate::case::{Case, FluidCase, GridCase, SolidCase, TermsCase};
 use crate::run::RunError;
 use crate::run::carried::Carried;
+use crate::run::coming_load::ComingLoad;
 use crate::run::wall::Wall;
 
 fn domain(case: &Case, grid: &GridCase) -> Domain {
@@ -84,6 +87,7 @@ pub fn fluid_solver(case: &Case, fluid: &FluidCase) -> Result<FluidSolver<BLOCK>
 
 /// The setup of a case's solid.
 pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
+    let coming = case.coupling.load.as_ref().and_then(ComingLoad::of);
     SolidSetup {
         domain: domain(case, &solid.grid),
         coarsest: solid.grid.cells,
@@ -100,6 +104,7 @@ pub fn solid_setup(case: &Case, solid: &SolidCase) -> SolidSetup {
         adaptation: solid.grid.adaptation.clone(),
         stress_scale: solid.scale_stress,
         weight: solid.weight,
+        load: coming.map(|load| Arc::new(load) as Arc<dyn Entering>),
     }
 }
 

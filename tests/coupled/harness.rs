@@ -256,6 +256,7 @@ pub fn elastic(
         adaptation: None,
         stress_scale: 1e6,
         weight: None,
+        load: None,
     };
     Solid::new(setup, state).expect("a solid")
 }

@@ -29,8 +29,8 @@ mod two_phase;
 mod wall_heat;
 
 pub use analysis::Scales;
-pub use boundary::PressureHistory;
 pub use boundary::far_field::{FarField, FarFieldError};
+pub use boundary::inflow::PressureHistory;
 pub use bubble::content::{BubbleContent, GasState};
 pub use bubble::rule::{BubbleReset, FollowedBubble, ResetReport};
 pub use diagnostics::bubble_cuts::{BubbleCuts, TRACE_GAS};

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::Analysis;
 use crate::boundary::far_field::FarFieldMemory;
+use crate::boundary::inflow::raise;
 use crate::bubble::follow::Following;
 use crate::bubble::look::follow_bubble;
 use crate::capillarity::cell_at_wall;
@@ -316,14 +317,19 @@ impl<const N: usize> Model<N> for Fluid {
 
     fn demanded_levels(
         &self,
-        (mesh, field): (&Mesh<N>, &Field),
+        (mesh, field, time): (&Mesh<N>, &Field, f64),
         base: u8,
         travel: &(dyn Fn(usize) -> f64 + Sync),
     ) -> Vec<u8> {
+        let entering =
+            self.incoming.as_ref().map(|wave| wave.demanded_levels(mesh, &self.analysis, base, time));
         if self.near_wall.levels() == 0 || !self.has_wall() {
-            return Vec::new();
+            return entering.unwrap_or_default();
         }
-        near_wall::demanded_levels(&self.near_wall, (mesh, field, &self.mixture), base, travel)
+        let mut levels =
+            near_wall::demanded_levels(&self.near_wall, (mesh, field, &self.mixture), base, travel);
+        raise(&mut levels, &entering.unwrap_or_default());
+        levels
     }
 
     fn finest_for_details(&self, mesh: &Mesh<N>, base: u8) -> u8 {

@@ -7,6 +7,7 @@ use mesh::{Limiter, Step};
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::far_field::{FarFieldMemory, Moment};
+use crate::boundary::inflow::IncomingWave;
 use crate::bubble::follow::Follower;
 use crate::components::Component;
 use crate::phase_change::Exchange;
@@ -35,6 +36,8 @@ pub struct Fluid {
     pub(crate) far: FarFieldMemory,
     pub(crate) analysis: Analysis,
     pub(crate) near_wall: NearWall,
+    /// What adaptation must expect through the sides, if anything.
+    pub(crate) incoming: Option<IncomingWave>,
     /// Whether four blocks are stepped as one where they may; what comes of it is the same to the last bit.
     pub(crate) has_tiles: bool,
     /// The bubble that is followed, if one is.

@@ -7,6 +7,7 @@ use mesh::{BLOCK, BlockSolver, Domain, Mesh, SavedBlocks, Side, SideStates, Tile
 use crate::analysis::Analysis;
 use crate::boundary::Boundaries;
 use crate::boundary::far_field::FarFieldMemory;
+use crate::boundary::inflow::IncomingWave;
 use crate::boundary::participant::BlockTraces;
 use crate::bubble::follow::Follower;
 use crate::bubble::look::follow_bubble;
@@ -97,8 +98,14 @@ impl<const N: usize> FluidSolver<N> {
             setup.phase_change.zip(vapour).and_then(|(asked, vapour)| Exchange::of(asked, &mixture, vapour));
         let scales = setup.scales;
         let analysis = Analysis { mixture, boundaries: kinds, scales, has_phases, carried, direction: None };
-        let (mesh, mut state) =
-            crate::initial::mesh::initial_mesh(setup, periodic, &analysis, initial, asks_for_finer)?;
+        let incoming = IncomingWave::of(setup, initial);
+        let (mesh, mut state) = crate::initial::mesh::initial_mesh(
+            setup,
+            periodic,
+            (&analysis, incoming.as_ref()),
+            initial,
+            asks_for_finer,
+        )?;
         if let Some(tension) = setup.surface_tension {
             level_mixed_cells(&mesh, &mixture, kinds, (tension.coefficient, has_phases), &mut state);
         }
@@ -128,6 +135,7 @@ impl<const N: usize> FluidSolver<N> {
             carried: components::of(setup),
             analysis,
             near_wall: setup.near_wall,
+            incoming,
             has_tiles: Tile::holds_four::<N>(),
             follower: setup.followed.clone().map(Follower::new),
             tally: Tally::default(),

@@ -156,6 +156,15 @@ impl<const N: usize> Model<N> for Solid {
         self.untouched.take(finished.iter().enumerate().map(of_slot));
     }
 
+    fn demanded_levels(
+        &self,
+        (mesh, _, time): (&Mesh<N>, &Field, f64),
+        base: u8,
+        _: &(dyn Fn(usize) -> f64 + Sync),
+    ) -> Vec<u8> {
+        self.setup.demanded_levels(mesh, base, time)
+    }
+
     fn mesh_changed(&mut self, mesh: &Mesh<N>) {
         self.untouched.mesh_changed(mesh.blocks());
     }

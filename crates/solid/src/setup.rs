@@ -1,6 +1,8 @@
 //! What defines a solid.
 
-use mesh::{Adaptation, Domain, Limiter};
+use std::sync::Arc;
+
+use mesh::{Adaptation, Domain, Entering, Entry, Limiter, Mesh, Side};
 
 use crate::plasticity::Hardening;
 use crate::{Boundary, WaveSpeeds, Weight};
@@ -30,4 +32,22 @@ pub struct SolidSetup {
     pub stress_scale: f64,
     /// Its own weight, if it counts.
     pub weight: Option<Weight>,
+    /// The pressure that will press on its surface, Pa, if that is known before: adaptation has fine cells there when it comes.
+    pub load: Option<Arc<dyn Entering>>,
+}
+
+impl SolidSetup {
+    /// The level that each block should have for the load that is about to come, see [`Entry::demanded_levels`]; none where none is known.
+    pub(crate) fn demanded_levels<const N: usize>(&self, mesh: &Mesh<N>, base: u8, time: f64) -> Vec<u8> {
+        let (Some(entering), Some(adaptation)) = (self.load.as_deref(), &self.adaptation) else {
+            return Vec::new();
+        };
+        let Some(side) =
+            Side::ALL.into_iter().find(|side| self.boundaries[*side as usize] == Boundary::Interface)
+        else {
+            return Vec::new();
+        };
+        let (speed, scale, epsilon) = (self.speeds.c1, self.stress_scale, adaptation.epsilon);
+        Entry { entering, side, speed, scale, time, epsilon, base }.demanded_levels(mesh)
+    }
 }

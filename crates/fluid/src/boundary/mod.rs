@@ -1,6 +1,7 @@
 //! What bounds the fluid: ghost cells before the slopes, outer states and wall fluxes after them.
 
 pub(crate) mod far_field;
+pub(crate) mod inflow;
 pub(crate) mod outer_states;
 pub(crate) mod participant;
 pub(crate) mod wall_trace;
@@ -10,34 +11,11 @@ use crate::state::primitive::VELOCITY;
 use mesh::{BlockId, Domain, FaceState, Frame, Mesh, Side, SideStates, Tile, TileRows};
 
 use crate::boundary::far_field::{FarField, Inner, SideImpulses, SourceHistory};
+use crate::boundary::inflow::PressureHistory;
 use crate::reconstruction::Reconstruction;
 use crate::riemann::hllc::Face;
 use crate::step::face_rows::FaceRows;
 use crate::{Boundary, Mixture, Primitive, TRACE_GAS};
-
-/// A pressure history, linear between its points and constant beyond them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PressureHistory {
-    points: Vec<[f64; 2]>,
-}
-
-impl PressureHistory {
-    /// From (time s, pressure Pa) points in ascending order of time; `None` if there is none or they descend.
-    pub fn new(points: Vec<[f64; 2]>) -> Option<Self> {
-        let ascending = points.windows(2).all(|w| w[0][0] <= w[1][0]);
-        (!points.is_empty() && ascending).then_some(Self { points })
-    }
-
-    /// Pressure at a time, Pa.
-    pub fn at(&self, time: f64) -> f64 {
-        let after = self.points.partition_point(|p| p[0] <= time);
-        match (after.checked_sub(1).map(|k| self.points[k]), self.points.get(after).copied()) {
-            (Some([t0, p0]), Some([t1, p1])) => p0 + (p1 - p0) * ((time - t0) / (t1 - t0)),
-            (Some([_, p]), None) | (None, Some([_, p])) => p,
-            (None, None) => unreachable!("there is at least one point"),
-        }
-    }
-}
 
 /// The four sides of the domain.
 #[derive(Clone, Debug)]

@@ -3,6 +3,7 @@
 use mesh::{BlockId, Domain, Field, Mesh, Side};
 
 use crate::analysis::Analysis;
+use crate::boundary::inflow::{IncomingWave, raise};
 use crate::setup::{AsksForFiner, InitialState};
 use crate::{FluidError, FluidSetup, NearWall, near_wall};
 
@@ -10,7 +11,7 @@ use crate::{FluidError, FluidSetup, NearWall, near_wall};
 pub(crate) fn initial_mesh<const N: usize>(
     setup: &FluidSetup,
     periodic: [bool; 2],
-    analysis: &Analysis,
+    (analysis, incoming): (&Analysis, Option<&IncomingWave>),
     initial: &InitialState<'_>,
     asks_for_finer: &AsksForFiner<'_>,
 ) -> Result<(Mesh<N>, Field), FluidError> {
@@ -40,7 +41,10 @@ pub(crate) fn initial_mesh<const N: usize>(
         let mut levels: Vec<u8> = mesh.tree().leaves().iter().map(|id| asked(mesh, id).min(base)).collect();
         if near.levels() > 0 && has_wall {
             let films = near_wall::demanded_levels(&near, (mesh, state, &analysis.mixture), base, &|_| 0.0);
-            levels.iter_mut().zip(films).for_each(|(level, film)| *level = film.max(*level));
+            raise(&mut levels, &films);
+        }
+        if let Some(wave) = incoming {
+            raise(&mut levels, &wave.demanded_levels(mesh, analysis, base, 0.0));
         }
         levels
     };

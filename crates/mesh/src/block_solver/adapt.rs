@@ -37,7 +37,8 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let finest = self.mesh.tree().finest();
         let base = self.model.finest_for_details(&self.mesh, settings.base(finest));
         let settings = settings.ending_at(base, finest);
-        let demanded = self.model.demanded_levels((&self.mesh, &self.state), base, &travel);
+        let present = (&self.mesh, &self.state, self.progress.time);
+        let demanded = self.model.demanded_levels(present, base, &travel);
         let at_least = |slot: usize| demanded.get(slot).copied().unwrap_or(0);
         let adapted = self.mesh.adapted(&self.state, analysis, &settings, patches, travel, at_least);
         let Some(adapted) = adapted else { return false };

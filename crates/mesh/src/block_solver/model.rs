@@ -128,7 +128,7 @@ pub trait Model<const N: usize>: Sized + Sync {
     /// - `travel`: how many of its cells a wave in the block of a slot crosses before the next adaptation.
     fn demanded_levels(
         &self,
-        _state: (&Mesh<N>, &Field),
+        _state: (&Mesh<N>, &Field, f64),
         _base: u8,
         _travel: &(dyn Fn(usize) -> f64 + Sync),
     ) -> Vec<u8> {

@@ -6,6 +6,7 @@
 
 pub(crate) mod adaptation;
 pub(crate) mod details;
+pub(crate) mod entering;
 pub(crate) mod horizon;
 pub(crate) mod initial;
 pub(crate) mod marks;

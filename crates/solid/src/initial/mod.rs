@@ -23,7 +23,9 @@ pub(crate) fn initial_mesh<const N: usize>(
     let fill = |mesh: &Mesh<N>| fill(mesh, components, initial);
     let adaptation = setup.adaptation.as_ref();
     let SolidSetup { domain, coarsest, levels, .. } = *setup;
-    Ok(Mesh::initial(domain, coarsest, levels, periodic, adaptation, analysis, fill, |_, _| Vec::new())?)
+    let base = adaptation.map_or(levels, |adaptation| adaptation.base(levels));
+    let demanded = |mesh: &Mesh<N>, _: &Field| setup.demanded_levels(mesh, base, 0.0);
+    Ok(Mesh::initial(domain, coarsest, levels, periodic, adaptation, analysis, fill, demanded)?)
 }
 
 /// Which pairs of sides are one.

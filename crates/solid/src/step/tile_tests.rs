@@ -34,6 +34,7 @@ fn stepped(choice: &Choice, ways: Ways) -> (SolidSolver<N>, [usize; 2]) {
         adaptation: Some(Adaptation::by_details(1e-3, 4)),
         stress_scale: 1e8,
         weight: None,
+        load: None,
     };
     let pulse = |[z, r]: [f64; 2], [z_0, r_0]: [f64; 2], width: f64| {
         (-((z - z_0) * (z - z_0) + (r - r_0) * (r - r_0)) / (width * width)).exp()

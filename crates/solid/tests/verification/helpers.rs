@@ -28,6 +28,7 @@ pub fn setup(geometry: Geometry, cells: [usize; 2], boundaries: [Boundary; 4]) -
         adaptation: None,
         stress_scale: 1e6,
         weight: None,
+        load: None,
     }
 }
 

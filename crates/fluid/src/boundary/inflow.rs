@@ -1,0 +1,150 @@
+//! What enters through sides of kind [`Boundary::Inflow`], and what adaptation has to know of it before it is there.
+
+use mesh::{Entering, Entry, Mesh, Side};
+
+use crate::analysis::Analysis;
+use crate::setup::InitialState;
+use crate::{Boundary, FluidSetup};
+
+/// A pressure history, linear between its points and constant beyond them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PressureHistory {
+    points: Vec<[f64; 2]>,
+}
+
+impl PressureHistory {
+    /// From (time s, pressure Pa) points in ascending order of time; `None` if there is none or they descend.
+    pub fn new(points: Vec<[f64; 2]>) -> Option<Self> {
+        let ascending = points.windows(2).all(|w| w[0][0] <= w[1][0]);
+        (!points.is_empty() && ascending).then_some(Self { points })
+    }
+
+    /// Pressure at a time, Pa.
+    pub fn at(&self, time: f64) -> f64 {
+        let after = self.points.partition_point(|p| p[0] <= time);
+        match (after.checked_sub(1).map(|k| self.points[k]), self.points.get(after).copied()) {
+            (Some([t0, p0]), Some([t1, p1])) => p0 + (p1 - p0) * ((time - t0) / (t1 - t0)),
+            (Some([_, p]), None) | (None, Some([_, p])) => p,
+            (None, None) => unreachable!("there is at least one point"),
+        }
+    }
+    /// Its mean between two times, Pa.
+    pub fn mean(&self, from: f64, to: f64) -> f64 {
+        let first = self.points.partition_point(|p| p[0] <= from);
+        let within = self.points[first..].iter().copied().take_while(|p| p[0] < to);
+        let (mut sum, mut last) = (0.0, [from, self.at(from)]);
+        for next in within.chain([[to, self.at(to)]]) {
+            sum += 0.5 * (last[1] + next[1]) * (next[0] - last[0]);
+            last = next;
+        }
+        sum / (to - from)
+    }
+
+    /// Whether it changes between two times.
+    pub fn changes(&self, from: f64, to: f64) -> bool {
+        let first = self.points.partition_point(|p| p[0] <= from);
+        let within = self.points[first..].iter().take_while(|p| p[0] < to).map(|p| p[1]);
+        let before = self.at(from);
+        within.chain([self.at(to)]).any(|value| value != before)
+    }
+}
+
+/// The wave that the inflow makes, for adaptation.
+#[derive(Clone, Debug)]
+pub(crate) struct IncomingWave {
+    history: PressureHistory,
+    /// The pressure inside at t = 0, Pa.
+    initial: f64,
+    /// The speed of sound there, m/s.
+    speed: f64,
+    /// See [`mesh::Adaptation::epsilon`].
+    epsilon: f64,
+}
+
+impl IncomingWave {
+    /// Of a setup whose grid adapts and into which something flows.
+    pub fn of(setup: &FluidSetup, initial: &InitialState<'_>) -> Option<Self> {
+        let (history, adaptation) = (setup.inflow.clone()?, setup.adaptation.as_ref()?);
+        let side = Side::ALL.into_iter().find(|side| setup.boundaries[*side as usize] == Boundary::Inflow)?;
+        // What is in the middle of that side, as far within as a cell of a fine grid is.
+        let ranges = [setup.domain.z, setup.domain.r];
+        let widths = ranges.map(|[low, high]| (high - low) / 1024.0);
+        let mut place = ranges.map(|[low, high]| 0.5 * (low + high));
+        let axis = side.axis_across();
+        let is_lower = matches!(side, Side::ZMin | Side::RMin);
+        let half = 0.5 * widths[axis];
+        place[axis] = if is_lower { ranges[axis][0] + half } else { ranges[axis][1] - half };
+        let inside = initial(place, widths).state;
+        let law = if inside.phi > 0.5 { setup.gas } else { setup.liquid };
+        let speed = law.sound_speed(inside.density, inside.pressure);
+        Some(Self { history, initial: inside.pressure, speed, epsilon: adaptation.epsilon })
+    }
+
+    /// The level that each block should have for what is about to enter there; 0 elsewhere.
+    ///
+    /// - `base`: the finest level that details may ask for; `time`: the present, s.
+    pub fn demanded_levels<const N: usize>(
+        &self,
+        mesh: &Mesh<N>,
+        analysis: &Analysis,
+        base: u8,
+        time: f64,
+    ) -> Vec<u8> {
+        let mut demanded = vec![0; mesh.blocks()];
+        for side in Side::ALL {
+            if analysis.boundaries[side as usize] == Boundary::Inflow {
+                let (speed, scale, epsilon) = (self.speed, analysis.scales.pressure, self.epsilon);
+                let entry = Entry { entering: self, side, speed, scale, time, epsilon, base };
+                raise(&mut demanded, &entry.demanded_levels(mesh));
+            }
+        }
+        demanded
+    }
+}
+
+impl Entering for IncomingWave {
+    fn mean(&self, from: f64, to: f64, _: f64) -> f64 {
+        let begin = from.max(0.0);
+        if to <= begin {
+            return 0.0;
+        }
+        (self.history.mean(begin, to) - self.initial) * ((to - begin) / (to - from))
+    }
+
+    fn changes(&self, from: f64, to: f64) -> bool {
+        let begins = from < 0.0 && to > 0.0 && self.history.at(0.0) != self.initial;
+        begins || self.history.changes(from.max(0.0), to.max(0.0))
+    }
+
+    fn varies_along(&self) -> bool {
+        false
+    }
+}
+
+/// Raises levels to others; the latter may be none.
+pub(crate) fn raise(levels: &mut [u8], others: &[u8]) {
+    levels.iter_mut().zip(others).for_each(|(level, other)| *level = (*level).max(*other));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_are_those_of_lines_between_points() {
+        let history = PressureHistory::new(vec![[1.0, 0.0], [2.0, 4.0], [2.0, 6.0], [4.0, 2.0]]).unwrap();
+        let mean = |from: f64, to: f64| history.mean(from, to);
+        assert_eq!([mean(0.0, 1.0), mean(1.0, 2.0), mean(2.0, 4.0), mean(5.0, 7.0)], [0.0, 2.0, 4.0, 2.0]);
+        assert_eq!(mean(1.5, 2.5), 0.5 * 3.0 + 0.5 * 5.5);
+        assert!(!history.changes(0.0, 0.9) && !history.changes(4.0, 9.0));
+        assert!(history.changes(0.9, 1.1) && history.changes(1.2, 1.3) && history.changes(1.9, 2.1));
+    }
+
+    #[test]
+    fn what_begins_with_a_jump_changes_at_once_and_is_nothing_before() {
+        let history = PressureHistory::new(vec![[0.0, 3e5]]).unwrap();
+        let wave = IncomingWave { history, initial: 1e5, speed: 1500.0, epsilon: 1e-3 };
+        assert!(wave.changes(-1e-9, 1e-9) && !wave.changes(1e-9, 2e-9) && !wave.changes(-2e-9, -1e-9));
+        assert_eq!([wave.mean(-1.0, 0.0, 0.0), wave.mean(-1.0, 1.0, 0.0)], [0.0, 1e5]);
+    }
+}
