@@ -17,7 +17,7 @@ const FAR_FROM_EQUILIBRIUM: f64 = 10.0;
 /// What of the fluid's numbers is probably not meant.
 pub(super) fn fluid(fluid: &FluidCase, warnings: &mut Vec<String>) {
     let ambient = &fluid.initial.ambient;
-    let sound = fluid.eos(ambient).sound_speed(ambient.density, ambient.pressure);
+    let sound = fluid.ambient_sound();
     if ambient.phase == Phase::Liquid && !(SOUND[0]..=SOUND[1]).contains(&sound) {
         warnings.push(format!(
             "fluid.ambient: sound runs at {sound:.3e} m/s in a liquid of {:?} kg/m3 (1480 m/s in water): look at its density, and at gamma and \

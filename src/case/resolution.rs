@@ -36,7 +36,7 @@ impl Case {
             let ambient = &fluid.initial.ambient;
             let mut gas = fluid.initial.regions.iter().filter(|region| region.state.phase == Phase::Gas);
             let radius = equivalent_radius(self.geometry, gas.next()?.shape);
-            let sound = fluid.eos(ambient).sound_speed(ambient.density, ambient.pressure);
+            let sound = fluid.ambient_sound();
             (ambient.phase == Phase::Liquid).then_some(MEAN_SHARE * radius / sound)
         })
     }

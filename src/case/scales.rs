@@ -4,13 +4,21 @@ use fluid::{InitialCondition, NobleAbelStiffenedGas, PhaseState};
 use solid::{Material, PotentialPulse};
 
 use super::reader::{LARGEST, SMALLEST};
-use super::{Inflow, LoadCase};
+use super::{FluidCase, Inflow, LoadCase};
 
 /// Rayleigh's collapse time of an empty bubble over R √(ρ/Δp), Γ(5/6) Γ(1/2)/(√6 Γ(4/3)) (Rayleigh 1917, Phil. Mag. 34, 94).
 pub(super) const RAYLEIGH_FACTOR: f64 = 0.914_681_36;
 
 /// Stress scale of a solid on which nothing acts, Pa.
 const QUIET_STRESS: f64 = 1e6;
+
+impl FluidCase {
+    /// The speed of sound far away, m/s.
+    pub fn ambient_sound(&self) -> f64 {
+        let ambient = &self.initial.ambient;
+        self.eos(ambient).sound_speed(ambient.density, ambient.pressure)
+    }
+}
 
 /// The largest difference of pressure in a fluid, Pa: of regions, pulses and inflow to the ambient, and ρc times the
 /// differences of velocity; where there is none, the ambient pressure.

@@ -120,7 +120,7 @@ fn near_sides(fluid: &FluidCase, geometry: Geometry, warnings: &mut Vec<String>)
     if ambient.phase != Phase::Liquid {
         return;
     }
-    let sound = fluid.eos(ambient).sound_speed(ambient.density, ambient.pressure);
+    let sound = fluid.ambient_sound();
     for (number, region) in fluid.initial.regions.iter().enumerate() {
         let Shape::Sphere { centre: [z, r], radius } = region.shape else { continue };
         if region.state.phase != Phase::Gas {

@@ -7,7 +7,7 @@ use crate::error::CouplerError;
 use crate::kinds::{Fault, FrameKind, Participant};
 
 /// Layout and meaning of [`FrameHeader`]; a change of either counts it up.
-pub const FRAME_VERSION: u32 = 5;
+pub const FRAME_VERSION: u32 = 6;
 
 impl TryFrom<u32> for FrameKind {
     type Error = CouplerError;
@@ -58,8 +58,9 @@ pub struct FrameHeader {
     pub ready_ns: u64,
     /// Cells of the sender's grid, for what is shown while it runs.
     pub cells: u64,
-    /// Zero; room for later versions.
-    pub spare: [u64; 2],
+    /// Of waves of the sender that are about to come through the interface: how long they take over a cell that carries them, s, and up to which
+    /// radius there are any that need one so short, m. Zeros: no more of them, or the sender does not know.
+    pub coming: [[f64; 2]; 4],
 }
 
 impl FrameHeader {

@@ -321,14 +321,18 @@ impl<const N: usize> Model<N> for Fluid {
         base: u8,
         travel: &(dyn Fn(usize) -> f64 + Sync),
     ) -> Vec<u8> {
-        let entering =
-            self.incoming.as_ref().map(|wave| wave.demanded_levels(mesh, &self.analysis, base, time));
-        if self.near_wall.levels() == 0 || !self.has_wall() {
-            return entering.unwrap_or_default();
+        let is_near_wall = self.near_wall.levels() > 0 && self.has_wall();
+        let of_all = [
+            is_near_wall.then(|| {
+                near_wall::demanded_levels(&self.near_wall, (mesh, field, &self.mixture), base, travel)
+            }),
+            self.incoming.as_ref().map(|wave| wave.demanded_levels(mesh, &self.analysis, base, time)),
+            Some(self.expected.demanded_levels(mesh, base)),
+        ];
+        let mut levels = Vec::new();
+        for demanded in of_all.into_iter().flatten() {
+            raise(&mut levels, demanded);
         }
-        let mut levels =
-            near_wall::demanded_levels(&self.near_wall, (mesh, field, &self.mixture), base, travel);
-        raise(&mut levels, &entering.unwrap_or_default());
         levels
     }
 

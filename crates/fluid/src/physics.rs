@@ -10,6 +10,7 @@ use crate::boundary::far_field::{FarFieldMemory, Moment};
 use crate::boundary::inflow::IncomingWave;
 use crate::bubble::follow::Follower;
 use crate::components::Component;
+use crate::near_wall::expected::Expected;
 use crate::phase_change::Exchange;
 use crate::reconstruction::dispersion::Dispersion;
 use crate::step::clips::SharedCount;
@@ -36,8 +37,10 @@ pub struct Fluid {
     pub(crate) far: FarFieldMemory,
     pub(crate) analysis: Analysis,
     pub(crate) near_wall: NearWall,
-    /// What adaptation must expect through the sides, if anything.
+    /// What adaptation must expect through open sides, if anything.
     pub(crate) incoming: Option<IncomingWave>,
+    /// And through the wall: said before each adaptation.
+    pub(crate) expected: Expected,
     /// Whether four blocks are stepped as one where they may; what comes of it is the same to the last bit.
     pub(crate) has_tiles: bool,
     /// The bubble that is followed, if one is.

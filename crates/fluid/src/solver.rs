@@ -16,6 +16,7 @@ use crate::diagnostics::bubbles::follow_sources;
 use crate::initial::exact_share::with_exact_share;
 use crate::initial::fill;
 use crate::model::FluidMemory;
+use crate::near_wall::expected::Expected;
 use crate::phase_change::Exchange;
 use crate::physics::{Fluid, Scheme, Tally};
 use crate::setup::{AsksForFiner, InitialState};
@@ -136,6 +137,7 @@ impl<const N: usize> FluidSolver<N> {
             analysis,
             near_wall: setup.near_wall,
             incoming,
+            expected: Expected::default(),
             has_tiles: Tile::holds_four::<N>(),
             follower: setup.followed.clone().map(Follower::new),
             tally: Tally::default(),

@@ -23,6 +23,7 @@ mod state;
 mod step;
 mod terms;
 
+pub use boundary::coming::ComingWaves;
 pub use boundary::participant::{SurfaceTrace, WeakExchange};
 pub use diagnostics::ledger::{BoundaryLedger, PlasticLedger};
 pub use diagnostics::plastic::PlasticZone;

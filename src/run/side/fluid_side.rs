@@ -63,6 +63,8 @@ pub struct FluidSide {
     pending: Option<Pending>,
     /// The solid's last word: how long a step it allows, how many cells it has, what it was asked to do.
     answer: FrameHeader,
+    /// The speed of sound of the liquid far away, m/s.
+    sound: f64,
     /// The last word to the solid: what it answers has to be about that step.
     sent: FrameHeader,
     limited_by: &'static str,
@@ -93,6 +95,7 @@ impl FluidSide {
             pending: None,
             answer: FrameHeader::new(FrameKind::Register),
             sent: FrameHeader::new(FrameKind::Trace),
+            sound: case.fluid.as_ref().map_or(0.0, |fluid| fluid.ambient_sound()),
             limited_by: "fluid",
             tells_of_checkpoint: false,
             is_resumed: false,
@@ -178,9 +181,7 @@ impl FluidSide {
             link.send(header, |_| {})?;
             return Ok(Turn::Over(stopped));
         }
-        if self.own.solver.steps() > 0 {
-            self.adapt_if_due()?;
-        }
+        self.adapt_if_due()?;
         let (own, others) = (self.own.rule.long(&self.own.solver).limit, self.answer.dt_max);
         let is_long = own >= others || self.own.rule.ratio == 1 || self.answer.has(FrameHeader::FOLLOWS);
         // No longer than the side with the longer steps allows, and than the other one can follow.
@@ -275,11 +276,34 @@ impl FluidSide {
         Ok(header)
     }
 
+    /// Tells the solver of the waves that the solid has last said to be coming; whether its grid is too coarse for them.
+    fn expect_waves(&mut self) -> bool {
+        let waves = self.answer.coming.map(|[time, radius]| [time * self.sound, radius]);
+        self.own.solver.expect_waves(waves)
+    }
+
     /// Adapts the grid if it is time to, with all that is kept per face of the wall.
     fn adapt_if_due(&mut self) -> Result<(), RunError> {
         let start = Instant::now();
-        let steps = self.own.rule.steps_in(self.own.last_dt, &self.own.solver);
-        if self.own.solver.adapt_if_due(self.own.last_dt, steps) {
+        let mut changed = false;
+        if self.own.solver.steps() > 0 {
+            let steps = self.own.rule.steps_in(self.own.last_dt, &self.own.solver);
+            self.expect_waves();
+            changed = self.own.solver.adapt_if_due(self.own.last_dt, steps);
+        }
+        // What comes through the wall at once cannot wait for a level with every adaptation.
+        for _ in 0..self.own.solver.mesh().tree().finest() {
+            if !self.expect_waves() {
+                break;
+            }
+            let dt = self.own.rule.long(&self.own.solver).limit;
+            let steps = self.own.rule.steps_in(dt, &self.own.solver);
+            if !self.own.solver.adapt(dt, steps) {
+                break;
+            }
+            changed = true;
+        }
+        if changed {
             let edges = self.own.solver.interface_edges();
             if let Some(cells) = &mut self.cells {
                 let domain = self.own.solver.mesh().domain();

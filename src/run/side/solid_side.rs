@@ -26,8 +26,10 @@ use crate::run::setup::solid_and_displacement;
 use crate::run::side::InRun;
 use crate::run::side::coupled_solver;
 use crate::run::side::load::Load;
+use crate::run::side::solid_side::coming::WavesForFluid;
 use crate::run::wall::WallLeaver;
 
+mod coming;
 pub mod saved;
 
 /// The solid with its place in a run.
@@ -49,6 +51,8 @@ pub struct SolidSide {
     fluids_step: f64,
     /// How long a step this side has said last that it can follow, s.
     promised: f64,
+    /// What the fluid is told of waves that come.
+    coming: Option<WavesForFluid>,
     /// When the run ends: nothing adapts for what does not come.
     end: f64,
     /// Where something can stay in the wall.
@@ -82,6 +86,7 @@ impl SolidSide {
             trial: None,
             fluids_step: f64::INFINITY,
             promised: 0.0,
+            coming: WavesForFluid::of(case),
             end: case.time.end * (1.0 - 1e-12),
             wall: WallLeaver::of(case),
             own: InRun::new(case, solver, record, MemoryWatch::of(case.solid_memory())),
@@ -110,6 +115,9 @@ impl SolidSide {
             fields: fields as u64,
             cells: self.own.solver.mesh().cells() as u64,
             flags: stop.flags(),
+            coming: self
+                .coming
+                .map_or_else(Default::default, |coming| coming.told(&self.own.solver, &self.own.rule)),
             ..FrameHeader::new(kind)
         };
         self.promised = header.dt_max;

@@ -95,7 +95,7 @@ impl IncomingWave {
             if analysis.boundaries[side as usize] == Boundary::Inflow {
                 let (speed, scale, epsilon) = (self.speed, analysis.scales.pressure, self.epsilon);
                 let entry = Entry { entering: self, side, speed, scale, time, epsilon, base };
-                raise(&mut demanded, &entry.demanded_levels(mesh));
+                raise(&mut demanded, entry.demanded_levels(mesh));
             }
         }
         demanded
@@ -121,9 +121,13 @@ impl Entering for IncomingWave {
     }
 }
 
-/// Raises levels to others; the latter may be none.
-pub(crate) fn raise(levels: &mut [u8], others: &[u8]) {
-    levels.iter_mut().zip(others).for_each(|(level, other)| *level = (*level).max(*other));
+/// Raises levels to others of the same blocks; where there are none yet they become those.
+pub(crate) fn raise(levels: &mut Vec<u8>, others: Vec<u8>) {
+    if levels.is_empty() {
+        *levels = others;
+    } else {
+        levels.iter_mut().zip(others).for_each(|(level, other)| *level = (*level).max(other));
+    }
 }
 
 #[cfg(test)]

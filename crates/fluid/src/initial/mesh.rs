@@ -41,10 +41,10 @@ pub(crate) fn initial_mesh<const N: usize>(
         let mut levels: Vec<u8> = mesh.tree().leaves().iter().map(|id| asked(mesh, id).min(base)).collect();
         if near.levels() > 0 && has_wall {
             let films = near_wall::demanded_levels(&near, (mesh, state, &analysis.mixture), base, &|_| 0.0);
-            raise(&mut levels, &films);
+            raise(&mut levels, films);
         }
         if let Some(wave) = incoming {
-            raise(&mut levels, &wave.demanded_levels(mesh, analysis, base, 0.0));
+            raise(&mut levels, wave.demanded_levels(mesh, analysis, base, 0.0));
         }
         levels
     };

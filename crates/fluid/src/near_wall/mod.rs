@@ -5,6 +5,7 @@
 //! as much of its peak as the front is wide; where it enters finer cells it steepens at once. What fine cells on the last
 //! millimetres cost is small, as they are there only while the front is.
 
+pub(crate) mod expected;
 pub(crate) mod film;
 pub(crate) mod shock;
 

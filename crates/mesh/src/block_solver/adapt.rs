@@ -34,9 +34,8 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         let span = self.adapting.horizon.renew(settings.every, steps, self.progress.time, dt, longest);
         let travel = |slot: usize| 1.0 + span / crossing[slot];
         let (analysis, patches) = (self.model.analysis(), &self.adapting.patches);
-        let finest = self.mesh.tree().finest();
-        let base = self.model.finest_for_details(&self.mesh, settings.base(finest));
-        let settings = settings.ending_at(base, finest);
+        let Some(base) = self.finest_by_details() else { return false };
+        let settings = settings.ending_at(base, self.mesh.tree().finest());
         let present = (&self.mesh, &self.state, self.progress.time);
         let demanded = self.model.demanded_levels(present, base, &travel);
         let at_least = |slot: usize| demanded.get(slot).copied().unwrap_or(0);
@@ -60,6 +59,12 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
         }
         self.model.mesh_changed(&self.mesh);
         true
+    }
+
+    /// The finest level that details may ask for at present; `None` of a grid that does not adapt.
+    pub fn finest_by_details(&self) -> Option<u8> {
+        let settings = self.adapting.settings.as_ref()?;
+        Some(self.model.finest_for_details(&self.mesh, settings.base(self.mesh.tree().finest())))
     }
 
     /// Takes notice that the cells of some blocks have been changed between two steps of the whole, see [`BlockSolver::state_mut`].

@@ -104,7 +104,7 @@ impl Entry<'_> {
                 let from = begin + number as f64 * span;
                 self.entering.mean(from, from + span, along)
             };
-            largest_detail(2 * (BEHIND + pairs), cell) > least
+            largest_detail(&(0..2 * (BEHIND + pairs)).map(cell).collect::<Vec<_>>()) > least
         });
         let stretch = (end - begin) / STRETCHES as f64;
         let width = widths[1 - across];
@@ -118,22 +118,18 @@ impl Entry<'_> {
                         let along = low + (number as f64 - 1.5) * width;
                         self.entering.mean(from, from + stretch, along.clamp(whole[0], whole[1]))
                     };
-                    largest_detail(cells, cell) > least
+                    largest_detail(&(0..cells).map(cell).collect::<Vec<_>>()) > least
                 })
     }
 }
 
-/// The largest detail of a row of an even number of cells: of each pair but the first and the last, what it is off the parabola through the
-/// means of three pairs, see [`super::deviations`].
-fn largest_detail(cells: usize, cell: impl Fn(usize) -> f64) -> f64 {
-    let row: Vec<f64> = (0..cells).map(cell).collect();
-    let pairs: Vec<[f64; 2]> = row.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
-    let mean = |[a, b]: [f64; 2]| 0.5 * (a + b);
-    let of_three = |three: &[[f64; 2]]| {
-        let slope = 0.125 * (mean(three[2]) - mean(three[0]));
-        (three[1][0] - (mean(three[1]) - slope)).abs()
-    };
-    pairs.windows(3).map(of_three).fold(0.0, f64::max)
+/// The largest detail of a line of an even number of cells: of each pair but the first and the last, what it is off the parabola through the
+/// means of three pairs, as `deviations` has it.
+pub fn largest_detail(line: &[f64]) -> f64 {
+    let mean = |pair: usize| 0.5 * (line[2 * pair] + line[2 * pair + 1]);
+    let of_pair =
+        |pair: usize| (line[2 * pair] - mean(pair) + 0.125 * (mean(pair + 1) - mean(pair - 1))).abs();
+    (1..(line.len() / 2).saturating_sub(1)).map(of_pair).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -173,10 +169,11 @@ mod tests {
     #[test]
     fn details_of_a_parabola_are_none_and_of_a_jump_half_of_it() {
         let mean_of_square = |i: usize| (i * i + i) as f64 + 1.0 / 3.0;
-        assert!(largest_detail(16, mean_of_square) < 1e-12);
+        let of = |cell: &dyn Fn(usize) -> f64| largest_detail(&(0..16).map(cell).collect::<Vec<_>>());
+        assert!(of(&mean_of_square) < 1e-12);
         let jump = |i: usize| if i < 7 { 0.0 } else { 1.0 };
         // Within a pair, its own means are 0, ½, 1: predicted ½ ∓ ⅛.
-        assert!((largest_detail(16, jump) - 0.375).abs() < 1e-15);
+        assert!((of(&jump) - 0.375).abs() < 1e-15);
     }
 
     #[test]

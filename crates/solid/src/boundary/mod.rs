@@ -1,6 +1,7 @@
 //! What bounds the solid: ghost cells before the slopes, outer states and interface tractions after them.
 
 pub(crate) mod absorbing;
+pub(crate) mod coming;
 mod even;
 pub(crate) mod held;
 pub(crate) mod outer_states;

@@ -39,6 +39,7 @@ impl FluidSide {
             answer,
             // Made with each step.
             sent: _,
+            sound: _,
             limited_by: _,
             tells_of_checkpoint: _,
             is_resumed: _,

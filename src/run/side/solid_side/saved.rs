@@ -44,6 +44,7 @@ impl SolidSide {
             trial: _,
             fluids_step,
             promised,
+            coming: _,
             end: _,
             wall: _,
         } = self;
