@@ -73,7 +73,7 @@ pub fn study(
                 if let Some(stopped) = Stop::error(stop.flags()) {
                     return Err(stopped);
                 }
-                let end = End::Failed(error.to_string());
+                let end = End::Failed(cause(grid, &error));
                 let error = grid.blame(error);
                 // Into the log of its own run.
                 tracing::error!("{error}");
@@ -85,6 +85,13 @@ pub fn study(
     }
     study.tell()?;
     Ok(study)
+}
+
+/// Why a grid's run failed: as its summary says, as of two processes the error only names the one that ended.
+fn cause(grid: &Grid, error: &RunError) -> String {
+    let summary = summary::read(&grid.directory.join(SUMMARY)).ok();
+    let told = summary.as_ref().and_then(|summary| summary.get("error")?.as_str());
+    told.map_or_else(|| error.to_string(), str::to_owned)
 }
 
 /// Makes the run of a grid, or goes on with it; returns its summary.

@@ -64,7 +64,6 @@ impl Entering for ComingLoad {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
 
     #[test]
     fn a_load_is_nothing_before_it_begins_and_changes_until_it_stays() {

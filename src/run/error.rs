@@ -133,10 +133,10 @@ pub enum RunError {
         source: std::io::Error,
     },
     /// SIGINT.
-    #[error("interrupted: both sides stopped after the current step, what was computed is written")]
+    #[error("interrupted: the run stopped after the current step, what was computed is written")]
     Interrupted,
     /// SIGTERM.
-    #[error("terminated: both sides stopped after the current step, what was computed is written")]
+    #[error("terminated: the run stopped after the current step, what was computed is written")]
     Terminated,
 }
 

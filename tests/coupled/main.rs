@@ -15,6 +15,7 @@ mod ledgers;
 mod load;
 mod modes;
 mod near_wall;
+mod out_of_the_solid;
 #[allow(clippy::unwrap_used, reason = "without a thread there is no test")]
 #[path = "../fixture/own_thread.rs"]
 mod own_thread;

@@ -54,15 +54,22 @@ impl<'a> Frame<'a> {
         Err(self.bad_step("the step", found, expected)?)
     }
 
-    /// The sender's largest next step, s: not negative, maybe infinite.
+    /// The sender's largest next step, s: not negative, maybe infinite; and its [`FrameHeader::coming`] waves are some.
     ///
-    /// - errors: it is NaN or negative.
+    /// - errors: it is NaN or negative, or so is a wave's time or radius, or infinite.
     pub fn require_limit(&self) -> Result<f64, CouplerError> {
         let found = self.header.dt_max;
-        if found >= 0.0 {
-            return Ok(found);
+        if !(found >= 0.0) {
+            return Err(self.bad_step("the largest next step", found, "a time".to_owned())?);
         }
-        Err(self.bad_step("the largest next step", found, "a time".to_owned())?)
+        for [time, radius] in self.header.coming {
+            for (what, found) in [("a coming wave's time", time), ("a coming wave's radius", radius)] {
+                if !(0.0..f64::INFINITY).contains(&found) {
+                    return Err(self.bad_step(what, found, "finite, and not negative".to_owned())?);
+                }
+            }
+        }
+        Ok(found)
     }
 
     /// The rows of a trace, and how many faces it has.
@@ -293,6 +300,19 @@ mod tests {
         }
         for bad in [-1e-9, f64::NAN, f64::NEG_INFINITY] {
             assert!(limit(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn coming_waves_have_times_and_radii() {
+        let told = |wave: [f64; 2]| {
+            let (mut header, payload) = good();
+            header.coming[3] = wave;
+            seen(&(header, payload), |frame| frame.require_limit())
+        };
+        assert!(told([1e-9, 0.5]).is_ok() && told([0.0, 0.0]).is_ok());
+        for bad in [[-1e-9, 0.5], [1e-9, -0.5], [f64::NAN, 0.5], [1e-9, f64::INFINITY]] {
+            assert!(told(bad).is_err(), "{bad:?}");
         }
     }
 }

@@ -175,7 +175,7 @@ pub enum CouplerError {
     },
     /// The frame is about another step than the one that is due.
     #[error(
-        "the {peer}'s {kind} frame has {what} {found:e} s, which has to be {expected}; both sides must run the same case in \
+        "the {peer}'s {kind} frame has {what} {found:e}, which has to be {expected}; both sides must run the same case in \
          the same steps"
     )]
     BadStep {

@@ -7,7 +7,7 @@ use super::super::format::si;
 use super::checks::Checks;
 use super::gilmore::{Turn, turns};
 use super::grid::Blocks;
-use super::parts::{DENSITY, media, number, sound, times};
+use super::parts::{DENSITY, lengthened, media, number, sound, times};
 use super::quantity::Dimension;
 use super::wall::Wall;
 
@@ -18,8 +18,6 @@ const ACROSS: f64 = 5.0;
 /// How long the run follows the second cycle, of its length by Gilmore's equation: grids that do not resolve the smallest radius let the
 /// bubble rebound to more, and so for longer.
 const SECOND: f64 = 1.7;
-/// By how much of R/d a rigid wall lengthens growth and collapse.
-const WALL_LENGTHENS: f64 = 0.205;
 /// Over how much of R/c of the largest radius the wall's pressure is averaged.
 const MEAN: f64 = 1.0 / 12.0;
 /// How many levels the solid has less than the fluid.
@@ -74,9 +72,7 @@ impl LaserBubble {
     pub fn text(&self) -> Result<String, CaseErrors> {
         let turns = self.turns()?;
         let [largest, collapse, _, second] = turns;
-        // Half a bubble on a wall is half a free one.
-        let wall = self.stand_off.filter(|stand_off| *stand_off > 0.0);
-        let longer = wall.map_or(1.0, |stand_off| 1.0 + WALL_LENGTHENS / stand_off.max(0.5));
+        let longer = self.stand_off.map_or(1.0, lengthened);
         let end = longer * (collapse.time + SECOND * (second.time - collapse.time));
         let snapshots = (1..20).map(|share| f64::from(share) / 20.0 * end);
         let height = self.stand_off.unwrap_or(0.0) * largest.radius;

@@ -10,6 +10,18 @@ pub(super) const WATER: StiffenedGas = StiffenedGas { gamma: 7.15, pi: 3e8 };
 pub(super) const DENSITY: f64 = 1000.0;
 /// By how much of R/d a rigid wall at the distance d lengthens the collapse (the image bubble's first-order term).
 const WALL_LENGTHENS: f64 = 0.205;
+/// Nearer than the last of these d/R the collapse is so many times as long as a free one: see `docs/verification/validation-jets.md`, of
+/// bubbles that the wall cuts. One half on the wall is half a free one.
+const NEAR_WALL: [[f64; 2]; 8] = [
+    [0.0, 1.0],
+    [0.1, 1.045],
+    [0.3, 1.125],
+    [0.6, 1.212],
+    [0.85, 1.243],
+    [1.05, 1.2],
+    [1.2, 1.169],
+    [1.5, 1.135],
+];
 /// By how much of √(Δp/ρ)/c the liquid's compressibility does: from 0.6 to 0.8 in this program's runs.
 const SOUND_LENGTHENS: f64 = 0.7;
 /// Gas constant of air, J/(kg K), and room temperature, K.
@@ -52,9 +64,7 @@ impl Bubble {
     /// About when it collapses at so many radii from a wall (∞: none), s.
     pub fn collapse_time(&self, stand_off: f64) -> f64 {
         let mach = ((self.pressure - self.gas_pressure) / DENSITY).sqrt() / sound(self.pressure);
-        // At less than half a radius the bubble is half a free one with its image.
-        let wall = 1.0 + WALL_LENGTHENS / stand_off.max(0.5);
-        self.rayleigh_time() * wall * (1.0 + SOUND_LENGTHENS * mach)
+        self.rayleigh_time() * lengthened(stand_off) * (1.0 + SOUND_LENGTHENS * mach)
     }
 
     /// `[fluid.liquid]` to `[[fluid.region]]`, the bubble's centre at `height` over z = 0.
@@ -77,6 +87,16 @@ pressure = {gas}
             gas = number(self.gas_pressure),
         )
     }
+}
+
+/// How many times as long as a free one a bubble takes at so many radii from a rigid wall (∞: none), growing or collapsing.
+pub(super) fn lengthened(stand_off: f64) -> f64 {
+    let after = NEAR_WALL.partition_point(|[distance, _]| *distance <= stand_off);
+    if after == 0 || after == NEAR_WALL.len() {
+        return if after == 0 { NEAR_WALL[0][1] } else { 1.0 + WALL_LENGTHENS / stand_off };
+    }
+    let [[near, at_near], [far, at_far]] = [NEAR_WALL[after - 1], NEAR_WALL[after]];
+    at_near + (at_far - at_near) * (stand_off - near) / (far - near)
 }
 
 /// `[fluid.liquid]`, `[fluid.gas]` and `[fluid.ambient]`: water at a pressure, Pa, and a gas.

@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 
 use super::super::error::CaseErrors;
 use super::super::format::si;
+use super::super::scales::RAYLEIGH_FACTOR;
 use super::checks::Checks;
 use super::grid::Blocks;
-use super::parts::{Bubble, number, sound, times};
+use super::parts::{Bubble, DENSITY, number, sound, times};
 use super::quantity::Dimension;
 use super::wall::{Wall, twice_as_wide};
 
@@ -67,7 +68,7 @@ impl ShockedBubble {
         let c = sound(pressure);
         let driven = Bubble { radius, pressure: pressure + MEAN * amplitude, gas_pressure: pressure };
         let arrival = (top - (stand_off + 1.0) * radius) / c;
-        let collapse = arrival + driven.rayleigh_time();
+        let collapse = arrival + driven.rayleigh_time().max(self.while_rising());
         let end = collapse + (stand_off + 6.0) * radius / c;
         let shares = [0.5, 0.7, 0.85, 0.95, 1.0].map(|share| arrival + share * (collapse - arrival));
         let afterwards = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0].map(|after| collapse + after * radius / c);
@@ -117,6 +118,15 @@ impl ShockedBubble {
         } else {
             String::new()
         };
+        let turn = turns_to_tension();
+        let late = if collapse - arrival > turn {
+            format!(
+                "\n# It turns to tension after {}, before that: whether the bubble collapses a run tells.",
+                si(turn, "s")
+            )
+        } else {
+            String::new()
+        };
         let [arrival, collapse, rise] = [arrival, collapse, rise].map(|time| si(time, "s"));
         format!(
             "# A lithotripter's pulse of {amplitude} collapses an air bubble of {radius}, {stand_off} radii above a wall ({wall}).
@@ -125,7 +135,7 @@ impl ShockedBubble {
 #       --cells-per-radius {cells}
 #
 # The pulse is Church's (1989), p = 2 P exp(-alpha t) cos(omega t + pi/3), behind a front of {rise}. It reaches the bubble at
-# {arrival}; {MEAN} P that stays collapses it by {collapse}.{slow}
+# {arrival}; {MEAN} P that stays collapses it by {collapse}.{late}{slow}
 
 "
         )
@@ -134,6 +144,13 @@ impl ShockedBubble {
     /// How long the front of the pulse takes, s: some cells, so that it does not ring.
     fn rise(&self) -> f64 {
         RISE.max(RISE_CELLS * self.radius / self.cells_per_radius / sound(self.pressure))
+    }
+
+    /// How long a bubble takes that collapses while the pulse still rises, s: Rayleigh's time of the pressure's mean until then, T² = (0.915 R)²
+    /// ρ/p with p = P T/(2 rise).
+    fn while_rising(&self) -> f64 {
+        let length = RAYLEIGH_FACTOR * self.radius;
+        (length * length * DENSITY * 2.0 * self.rise() / (MEAN * self.amplitude)).cbrt()
     }
 
     /// `[fluid.inflow]`: Church's pulse as a table that is linear in between.
@@ -158,11 +175,16 @@ fn shape(t: f64) -> f64 {
 /// ∫ p dt over P of the pulse from its front until it turns to tension at ωt = π/6, s.
 fn positive_impulse() -> f64 {
     // Of 2 Re exp((iω − α) t + iπ/3) from 0 to π/(6ω).
-    let (real, turn) = (-DECAY, PI / 6.0 / FREQUENCY);
+    let (real, turn) = (-DECAY, turns_to_tension());
     let integral = |t: f64| {
         let phase = FREQUENCY * t + FRAC_PI_3;
         2.0 * (-DECAY * t).exp() * (real * phase.cos() + FREQUENCY * phase.sin())
             / (real * real + FREQUENCY * FREQUENCY)
     };
     integral(turn) - integral(0.0)
+}
+
+/// When the pulse turns to tension after its front, s.
+fn turns_to_tension() -> f64 {
+    PI / 6.0 / FREQUENCY
 }

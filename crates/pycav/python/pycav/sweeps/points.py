@@ -121,7 +121,11 @@ def at_point(case: Case, point: Mapping[str, Any], change: Change | None = None)
     changed = case.with_(changes) if changes else case
     if STAND_OFF not in point:
         return changed
-    return changed.with_(_placed(changed, float(point[STAND_OFF])))
+    placed = _placed(changed, float(point[STAND_OFF]))
+    twice = next((key for key in placed if key in changes), None)
+    if twice is not None:
+        raise ValueError(f"{STAND_OFF} and {twice!r} both say where the bubble is: leave one of them out")
+    return changed.with_(placed)
 
 
 def _placed(case: Case, stand_off: float) -> dict[str, Any]:
