@@ -103,7 +103,7 @@ fn ten_cells_to_the_loads_radius_make_the_pit_of_converged_finite_elements() {
     }
 }
 
-/// Details of the stress say nothing of a load before it has acted. On the cells that a solid at rest has, 14 % of the pit were lost, whatever
+/// Details of the stress say nothing of a load before it has acted. On the cells that a solid at rest has, 30 % of the pit were lost, whatever
 /// the threshold.
 #[test]
 fn a_load_finds_fine_cells() {

@@ -10,7 +10,7 @@ const OF_FLUID: Values = Values::Names(&[
         "the incoming characteristic is held at the initial state: right for waves, and it holds the flow to a bubble up",
     ),
     ("far-field", "waves leave, and liquid flows to the bubbles and back as in unbounded liquid"),
-    ("inflow", "the pressure of `[fluid.inflow]` enters as a plane wave"),
+    ("inflow", "the pressure of `[fluid.inflow]` enters as a plane wave, isentropic"),
     ("periodic", "the opposite side, which is periodic too"),
 ]);
 
