@@ -30,7 +30,7 @@ mod wall_heat;
 
 pub use analysis::Scales;
 pub use boundary::far_field::{FarField, FarFieldError};
-pub use boundary::inflow::PressureHistory;
+pub use boundary::history::PressureHistory;
 pub use bubble::content::{BubbleContent, GasState};
 pub use bubble::rule::{BubbleReset, FollowedBubble, ResetReport};
 pub use diagnostics::bubble_cuts::{BubbleCuts, TRACE_GAS};

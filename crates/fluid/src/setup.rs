@@ -3,7 +3,7 @@
 use mesh::{Adaptation, Domain, Limiter};
 
 use crate::analysis::Scales;
-use crate::boundary::inflow::PressureHistory;
+use crate::boundary::history::PressureHistory;
 use crate::state::Contents;
 use crate::{
     Boundary, Conduction, FarField, FollowedBubble, Gravity, Mixture, Model, NearWall, NobleAbelStiffenedGas,

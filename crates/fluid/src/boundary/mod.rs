@@ -1,6 +1,7 @@
 //! What bounds the fluid: ghost cells before the slopes, outer states and wall fluxes after them.
 
 pub(crate) mod far_field;
+pub(crate) mod history;
 pub(crate) mod inflow;
 pub(crate) mod outer_states;
 pub(crate) mod participant;
@@ -11,7 +12,7 @@ use crate::state::primitive::VELOCITY;
 use mesh::{BlockId, Domain, FaceState, Frame, Mesh, Side, SideStates, Tile, TileRows};
 
 use crate::boundary::far_field::{FarField, Inner, SideImpulses, SourceHistory};
-use crate::boundary::inflow::PressureHistory;
+use crate::boundary::history::PressureHistory;
 use crate::reconstruction::Reconstruction;
 use crate::riemann::hllc::Face;
 use crate::step::face_rows::FaceRows;
@@ -201,17 +202,6 @@ pub(crate) fn beside(side: Side, frame: Frame, along: isize) -> [usize; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_history_is_linear_between_points_and_constant_beyond() {
-        let history = PressureHistory::new(vec![[0.0, 1e5], [1e-6, 3e5], [2e-6, 3e5], [2e-6, 1e5]]).unwrap();
-        assert_eq!(history.at(-1.0), 1e5);
-        assert_eq!(history.at(0.5e-6), 2e5);
-        assert_eq!(history.at(1.5e-6), 3e5);
-        assert_eq!(history.at(5.0), 1e5);
-        assert!(PressureHistory::new(vec![]).is_none());
-        assert!(PressureHistory::new(vec![[1.0, 0.0], [0.0, 0.0]]).is_none());
-    }
 
     #[test]
     fn a_wall_at_rest_passes_pressure_only_and_a_moving_one_the_physical_flux() {

@@ -3,7 +3,7 @@
 use mesh::{Adaptation, Domain, Geometry, Limiter, Tile};
 
 use crate::Boundary::{Axis, Inflow, NonReflecting, Periodic, Wall};
-use crate::boundary::inflow::PressureHistory;
+use crate::boundary::history::PressureHistory;
 use crate::{
     Boundary, FluidSetup, FluidSolver, InitialCondition, InitialPressure, Model, Phase, PhaseState, Region,
     RiemannSolver, Scales, Shape,
