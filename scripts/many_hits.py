@@ -65,6 +65,7 @@ def picture(found: dict[tuple[float, str], xarray.Dataset], path: Path) -> None:
     for axes in (depth, work):
         axes.xaxis.get_major_locator().set_params(integer=True)
     depth.legend(fontsize=8)
+    path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=120)
 
 

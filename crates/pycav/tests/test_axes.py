@@ -11,7 +11,7 @@ import xarray
 
 import pycav
 from pycav.sweeps.dataset import parameters
-from pycav.sweeps.points import Axes, labels
+from pycav.sweeps.points import Axes, at_point, labels
 
 SOFT, HARD = ({"law": "perfect", "yield_strength": strength} for strength in (1e7, 3e7))
 
@@ -43,6 +43,14 @@ def test_no_two_points_share_a_directory(values, names):
 def test_values_label_their_axis():
     assert labels([True, False]) == [True, False] and labels([1e7, 2e7]) == [1e7, 2e7] and labels(["copper", SOFT]) == ["copper", "1"]
     assert labels(["auto", True, False]) == ["auto", "true", "false"] and labels([SOFT, HARD]) == [0, 1]
+
+
+def test_a_bubble_is_placed_once(small):
+    """The stand-off would win, and every place of the sweep be the same run."""
+    for change in ({"fluid.region.0.centre": [0.03, 0.0]}, {}):
+        moved = None if change else lambda point: {"fluid.region.0.centre": [0.03, 0.0]}
+        with pytest.raises(ValueError, match="stand_off and 'fluid.region.0.centre' both say where the bubble is"):
+            at_point(small, {"stand_off": 1.2} | change, moved)
 
 
 @pytest.mark.parametrize("name", ["standoff", "stand-off", "StandOff", "fluid.stand_off"])
