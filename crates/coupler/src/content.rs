@@ -54,7 +54,7 @@ impl<'a> Frame<'a> {
         Err(self.bad_step("the step", found, expected)?)
     }
 
-    /// The sender's largest next step, s: not negative, maybe infinite; and its [`FrameHeader::coming`] waves are some.
+    /// The sender's largest next step, s: not negative, maybe infinite; and its [`FrameHeader::coming`](crate::FrameHeader::coming) waves are some.
     ///
     /// - errors: it is NaN or negative, or so is a wave's time or radius, or infinite.
     pub fn require_limit(&self) -> Result<f64, CouplerError> {
