@@ -87,8 +87,11 @@ pub fn study(
     Ok(study)
 }
 
-/// Why a grid's run failed: as its summary says, as of two processes the error only names the one that ended.
+/// Why a grid's run failed. Of two processes the error only names the one that ended, and the summary says why.
 fn cause(grid: &Grid, error: &RunError) -> String {
+    if !matches!(error, RunError::Child { .. }) {
+        return error.to_string();
+    }
     let summary = summary::read(&grid.directory.join(SUMMARY)).ok();
     let told = summary.as_ref().and_then(|summary| summary.get("error")?.as_str());
     told.map_or_else(|| error.to_string(), str::to_owned)

@@ -48,7 +48,7 @@ fn a_wave_that_comes_out_of_the_solid_finds_fine_cells() {
         }
         let misfit = (off / whole).sqrt();
         eprintln!("probe {column}: misfit {misfit:.2e}; {fewest} of {all} cells at first");
-        assert!(misfit < 2e-3, "{misfit}");
+        assert!(misfit < 1e-6, "{misfit}");
     }
     assert!(fewest < all / 8, "as long as it is at rest its cells are coarse: {fewest} of {all}");
 }

@@ -56,17 +56,16 @@ impl<'a> Frame<'a> {
 
     /// The sender's largest next step, s: not negative, maybe infinite; and its [`FrameHeader::coming`](crate::FrameHeader::coming) waves are some.
     ///
-    /// - errors: it is NaN or negative, or so is a wave's time or radius, or infinite.
+    /// - errors: it is NaN or negative, or so is a wave's time or reach, or infinite.
     pub fn require_limit(&self) -> Result<f64, CouplerError> {
         let found = self.header.dt_max;
         if !(found >= 0.0) {
             return Err(self.bad_step("the largest next step", found, "a time".to_owned())?);
         }
-        for [time, radius] in self.header.coming {
-            for (what, found) in [("a coming wave's time", time), ("a coming wave's radius", radius)] {
-                if !(0.0..f64::INFINITY).contains(&found) {
-                    return Err(self.bad_step(what, found, "finite, and not negative".to_owned())?);
-                }
+        for [time, reach] in self.header.coming {
+            if ![time, reach].iter().all(|value| (0.0..f64::INFINITY).contains(value)) {
+                let (peer, kind) = (self.sender, FrameKind::try_from(self.header.kind)?);
+                return Err(CouplerError::BadWave { peer, kind, time, reach });
             }
         }
         Ok(found)
@@ -304,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn coming_waves_have_times_and_radii() {
+    fn coming_waves_have_times_and_reach() {
         let told = |wave: [f64; 2]| {
             let (mut header, payload) = good();
             header.coming[3] = wave;

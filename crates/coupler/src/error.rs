@@ -175,7 +175,7 @@ pub enum CouplerError {
     },
     /// The frame is about another step than the one that is due.
     #[error(
-        "the {peer}'s {kind} frame has {what} {found:e}, which has to be {expected}; both sides must run the same case in \
+        "the {peer}'s {kind} frame has {what} {found:e} s, which has to be {expected}; both sides must run the same case in \
          the same steps"
     )]
     BadStep {
@@ -189,6 +189,21 @@ pub enum CouplerError {
         found: f64,
         /// What it has to be.
         expected: String,
+    },
+    /// Waves that are said to come, and are none.
+    #[error(
+        "the {peer}'s {kind} frame says that waves come that take {time:e} s over a cell, up to {reach:e} m from where the interface begins: both \
+         have to be finite and not negative"
+    )]
+    BadWave {
+        /// Who sent it.
+        peer: Participant,
+        /// Which frame.
+        kind: FrameKind,
+        /// As in the frame, s.
+        time: f64,
+        /// As in the frame, m.
+        reach: f64,
     },
     /// Something that the scheme does not have, or not now.
     #[error("the {peer}'s {kind} frame {what}; both sides must use the same scheme")]
@@ -316,6 +331,7 @@ impl CouplerError {
                 | Self::NotFinite { .. }
                 | Self::BadFaces { .. }
                 | Self::BadStep { .. }
+                | Self::BadWave { .. }
                 | Self::OutOfTurn { .. }
                 | Self::NoState { .. }
         )

@@ -58,8 +58,8 @@ pub struct FrameHeader {
     pub ready_ns: u64,
     /// Cells of the sender's grid, for what is shown while it runs.
     pub cells: u64,
-    /// Of waves of the sender that are about to come through the interface: how long they take over a cell that carries them, s, and up to which
-    /// radius there are any that need one so short, m. Zeros: no more of them, or the sender does not know.
+    /// Of waves of the sender that are about to come through the interface: how long they take over a cell that carries them, s, and how far from
+    /// where the interface begins there are any that need one so short, m. Zeros: no more of them, or the sender does not know.
     pub coming: [[f64; 2]; 4],
 }
 

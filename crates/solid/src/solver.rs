@@ -27,6 +27,9 @@ use crate::{BoundaryLedger, ElasticState, PlasticLedger, SolidError, SolidSetup}
 /// `N` is the number of cells along a block's side. What is shown on the interface is made in memory that is kept.
 pub struct SolidSolver<const N: usize>(BlockSolver<Solid, N>, pub(crate) Mutex<Vec<BlockTraces<N>>>);
 
+/// Of the steps that are expected while a new solid's grid is made.
+const COURANT: f64 = 0.5;
+
 /// What of a solid changes in time.
 pub type SolidState<'a> = SavedBlocks<'a, BlockReport, SolidMemory>;
 
@@ -94,7 +97,22 @@ impl<const N: usize> SolidSolver<N> {
             ElasticState::from_array(std::array::from_fn(|c| state.component(slot, c)[j * N + i]))
         };
         let beyond = Held::along_sides(&mesh, &at, &with_weight(&setup, &change));
-        Self::with(setup, plasticity, (components, analysis), (mesh, state, displacement), beyond)
+        let mut solid =
+            Self::with(setup, plasticity, (components, analysis), (mesh, state, displacement), beyond)?;
+        solid.rise_for_the_load();
+        Ok(solid)
+    }
+
+    /// Makes the grid of an earlier solid as fine as a load that begins at once needs it: a new solid's is made so.
+    fn rise_for_the_load(&mut self) {
+        for _ in 0..self.setup().levels {
+            let Some(base) = self.finest_by_details() else { return };
+            let demanded = self.setup().demanded_levels(self.mesh(), base, self.time());
+            let dt = self.time_step_limit(COURANT);
+            if !self.lacks_levels(&demanded) || !self.adapt(dt, 1) {
+                return;
+            }
+        }
     }
 
     fn with(

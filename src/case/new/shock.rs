@@ -119,9 +119,9 @@ impl ShockedBubble {
             String::new()
         };
         let turn = turns_to_tension();
-        let late = if collapse - arrival > turn {
+        let late = if collapse - arrival > rise + turn {
             format!(
-                "\n# It turns to tension after {}, before that: whether the bubble collapses a run tells.",
+                "\n# It turns to tension {} after its front, before that: whether the bubble collapses a run tells.",
                 si(turn, "s")
             )
         } else {
@@ -146,8 +146,8 @@ impl ShockedBubble {
         RISE.max(RISE_CELLS * self.radius / self.cells_per_radius / sound(self.pressure))
     }
 
-    /// How long a bubble takes that collapses while the pulse still rises, s: Rayleigh's time of the pressure's mean until then, T² = (0.915 R)²
-    /// ρ/p with p = P T/(2 rise).
+    /// How long a bubble takes that collapses while the pulse still rises, s: Rayleigh's time of the same share of the mean pressure until then,
+    /// T² = (0.915 R)² ρ/p with p = 0.6 P T/(2 rise).
     fn while_rising(&self) -> f64 {
         let length = RAYLEIGH_FACTOR * self.radius;
         (length * length * DENSITY * 2.0 * self.rise() / (MEAN * self.amplitude)).cbrt()

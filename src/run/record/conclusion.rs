@@ -226,9 +226,9 @@ fn surface_warnings(whole: &Map<String, Value>) -> impl Iterator<Item = String> 
         )
     });
     // One that was stopped before has not come so far.
-    let has_moved =
+    let is_not_still =
         whole.get("settled") == Some(&json!(false)) && whole.get("completed") == Some(&json!(true));
-    let moves = has_moved.then(|| {
+    let moves = is_not_still.then(|| {
         format!(
             "the surface was not still at time.longest: surface_still = {:.2e} (see docs/reference/output-summary.md); make time.longest later, by cav run --resume DIR --end TIME",
             number("surface_still").unwrap_or(f64::NAN)

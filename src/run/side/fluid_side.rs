@@ -278,7 +278,7 @@ impl FluidSide {
 
     /// Tells the solver of the waves that the solid has last said to be coming; whether its grid is too coarse for them.
     fn expect_waves(&mut self) -> bool {
-        let waves = self.answer.coming.map(|[time, radius]| [time * self.sound, radius]);
+        let waves = self.answer.coming.map(|[time, reach]| [time * self.sound, reach]);
         self.own.solver.expect_waves(waves)
     }
 

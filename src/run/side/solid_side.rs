@@ -11,7 +11,7 @@ use coupler::{
     StepLength, TraceRow,
 };
 use mesh::{BLOCK, CompiledSolver as _, GroupStep};
-use solid::{SolidSolver, WeakExchange};
+use solid::{ComingWaves, SolidSolver, WeakExchange};
 
 use crate::case::{Case, SolidCase};
 use crate::output::RunDirectory;
@@ -115,13 +115,17 @@ impl SolidSide {
             fields: fields as u64,
             cells: self.own.solver.mesh().cells() as u64,
             flags: stop.flags(),
-            coming: self
-                .coming
-                .map_or_else(Default::default, |coming| coming.told(&self.own.solver, &self.own.rule)),
+            coming: self.coming_waves(),
             ..FrameHeader::new(kind)
         };
         self.promised = header.dt_max;
         header
+    }
+
+    /// What the fluid is told of waves that come.
+    fn coming_waves(&self) -> ComingWaves {
+        let told = |coming: WavesForFluid| coming.told(&self.own.solver, &self.own.rule);
+        self.coming.map(told).unwrap_or_default()
     }
 
     /// Ends the long step under way with what the fluid made of it; does nothing if there is none.
@@ -194,7 +198,8 @@ impl SolidSide {
             let dt_max = self.own.rule.counted(&self.own.solver);
             self.promised = dt_max;
             let cells = self.own.solver.mesh().cells() as u64;
-            send(&self.own.meeting, FrameHeader { dt_max, cells, ..header })?;
+            let coming = self.coming_waves();
+            send(&self.own.meeting, FrameHeader { dt_max, cells, coming, ..header })?;
         }
         Ok(())
     }

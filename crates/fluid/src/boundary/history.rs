@@ -22,6 +22,7 @@ impl PressureHistory {
             (None, None) => unreachable!("there is at least one point"),
         }
     }
+
     /// Its mean between two times, Pa.
     pub fn mean(&self, from: f64, to: f64) -> f64 {
         let first = self.points.partition_point(|p| p[0] <= from);

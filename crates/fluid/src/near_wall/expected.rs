@@ -4,7 +4,7 @@ use mesh::{Mesh, Side};
 
 use crate::FluidSolver;
 
-/// What the other side says of its waves: how wide cells along z may be, m, and up to which radius, m; nothing where that is 0.
+/// What the other side says of its waves: how wide cells along z may be, m, and how far from r_min on, m; nothing where that is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Expected([[f64; 2]; 4]);
 
@@ -12,17 +12,17 @@ impl Expected {
     /// The level that it demands of each block along the wall, `base` at the most; 0 elsewhere, and none at all where nothing is expected.
     pub fn demanded_levels<const N: usize>(&self, mesh: &Mesh<N>, base: u8) -> Vec<u8> {
         let Self(waves) = self;
-        let waves = waves.iter().filter(|[_, radius]| *radius > 0.0);
+        let waves = waves.iter().filter(|[_, reach]| *reach > 0.0);
         let steps: Vec<(u8, f64)> =
-            waves.map(|[width, radius]| (level_of(mesh, *width, base), *radius)).collect();
+            waves.map(|[width, reach]| (level_of(mesh, *width, base), *reach)).collect();
         if steps.iter().all(|(level, _)| *level == 0) {
             return Vec::new();
         }
         let leaves = mesh.tree().leaves();
         let mut demanded = vec![0; leaves.len()];
         for (slot, id) in leaves.iter().enumerate().filter(|(slot, _)| mesh.touches(*slot, Side::ZMin)) {
-            let begin = mesh.origin(*id)[1];
-            let reaching = steps.iter().filter(|(_, radius)| begin < *radius);
+            let begin = mesh.origin(*id)[1] - mesh.domain().r[0];
+            let reaching = steps.iter().filter(|(_, reach)| begin < *reach);
             demanded[slot] = reaching.map(|(level, _)| *level).max().unwrap_or(0);
         }
         demanded
@@ -36,14 +36,13 @@ fn level_of<const N: usize>(mesh: &Mesh<N>, width: f64, base: u8) -> u8 {
 
 impl<const N: usize> FluidSolver<N> {
     /// Takes notice, before the grid adapts, of waves that are about to come out of the wall: how wide cells that carry them may be along
-    /// z, m, and up to which radius there are any that need them so narrow, m; zeros where there are no more.
+    /// z, m, and how far from r_min on there are any that need them so narrow, m; zeros where there are no more.
     ///
-    /// - returns: whether blocks there are coarser than that: [`mesh::BlockSolver::adapt`] makes them a level finer at a time.
+    /// - returns: whether blocks there are coarser than that, and may be finer: [`mesh::BlockSolver::adapt`] makes them so, a level at a
+    ///   time.
     pub fn expect_waves(&mut self, waves: [[f64; 2]; 4]) -> bool {
         self.model_mut().expected = Expected(waves);
         let Some(base) = self.finest_by_details() else { return false };
-        let leaves = self.mesh().tree().leaves();
-        let demanded = Expected(waves).demanded_levels(self.mesh(), base);
-        demanded.iter().zip(leaves).any(|(level, id)| *level > id.level)
+        self.lacks_levels(&Expected(waves).demanded_levels(self.mesh(), base))
     }
 }

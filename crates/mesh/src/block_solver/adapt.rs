@@ -2,8 +2,9 @@
 
 use super::limits::limits_of;
 use super::{BlockSolver, Model};
-use crate::Remap;
 use crate::kernels::parallel::map_in_order;
+use crate::multiresolution::marks::bounds;
+use crate::{BlockId, Remap};
 
 impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     /// Adapts the grid if it is time to; to be called after a step. Returns whether the mesh changed: slots, faces of the interface
@@ -65,6 +66,18 @@ impl<M: Model<N>, const N: usize> BlockSolver<M, N> {
     pub fn finest_by_details(&self) -> Option<u8> {
         let settings = self.adapting.settings.as_ref()?;
         Some(self.model.finest_for_details(&self.mesh, settings.base(self.mesh.tree().finest())))
+    }
+
+    /// Whether a block is coarser than a demanded level, as far as the bounds of the adaptation admit that.
+    ///
+    /// - `demanded`: by slot, as [`Model::demanded_levels`].
+    pub fn lacks_levels(&self, demanded: &[u8]) -> bool {
+        let Some(settings) = &self.adapting.settings else { return false };
+        let leaves = self.mesh.tree().leaves();
+        let is_coarser = |(level, id): (&u8, &BlockId)| {
+            *level > id.level && bounds(&self.mesh, *id, &settings.bounds).1 > id.level
+        };
+        demanded.iter().zip(leaves).any(is_coarser)
     }
 
     /// Takes notice that the cells of some blocks have been changed between two steps of the whole, see [`BlockSolver::state_mut`].

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 
 use crate::{Mesh, Side};
 
-/// How far ahead a block looks, in its own cells that a wave crosses: adaptations, which come before it has crossed a block, must find
-/// time to bring its successors to the finest level.
+/// How far ahead is looked for a level, in blocks of the next coarser one that a wave crosses: adaptations come before one has crossed a
+/// block, and must find time to rise from there to the finest level.
 const AHEAD: usize = 2;
 /// Pairs of cells before the present: a jump at this moment is none of the future alone.
 const BEHIND: usize = 2;
@@ -76,7 +76,8 @@ impl Entry<'_> {
             .unwrap_or(0)
     }
 
-    /// Whether details on a level count in a block, which is wanted there from when its parent would see them.
+    /// Whether the details that cells of a level would have count in a block, in the time that a wave takes over [`AHEAD`] blocks of the level
+    /// below: from then on a block is wanted on the level, and, once there, stays on it.
     ///
     /// - `widths`: of the cells there, m; `block`, `whole`: the parts of the side that are the block's, and the domain's, m.
     fn has_details<const N: usize>(
@@ -108,7 +109,7 @@ impl Entry<'_> {
         });
         let stretch = (end - begin) / STRETCHES as f64;
         let width = widths[1 - across];
-        // And a pair of cells on both sides.
+        // And a pair of cells on both sides; beyond the domain they mirror it.
         let cells = ((high - low) / width).round() as usize + 4;
         in_time
             || varies
@@ -116,7 +117,9 @@ impl Entry<'_> {
                     let from = begin + number as f64 * stretch;
                     let cell = |number: usize| {
                         let along = low + (number as f64 - 1.5) * width;
-                        self.entering.mean(from, from + stretch, along.clamp(whole[0], whole[1]))
+                        let along = if along < whole[0] { 2.0 * whole[0] - along } else { along };
+                        let along = if along > whole[1] { 2.0 * whole[1] - along } else { along };
+                        self.entering.mean(from, from + stretch, along)
                     };
                     largest_detail(&(0..cells).map(cell).collect::<Vec<_>>()) > least
                 })
@@ -167,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn details_of_a_parabola_are_none_and_of_a_jump_half_of_it() {
+    fn details_of_a_parabola_are_none_and_of_a_jump_three_eighths_of_it() {
         let mean_of_square = |i: usize| (i * i + i) as f64 + 1.0 / 3.0;
         let of = |cell: &dyn Fn(usize) -> f64| largest_detail(&(0..16).map(cell).collect::<Vec<_>>());
         assert!(of(&mean_of_square) < 1e-12);
@@ -199,6 +202,32 @@ mod tests {
         // As third-order details fall, by eight a level for a threshold that doubles.
         assert_eq!((0..=3).map(|level| top(0.1, level)).collect::<Vec<_>>(), [1, 2, 2, 0]);
         assert_eq!((0..=3).map(|level| top(0.4, level)).collect::<Vec<_>>(), [0; 4]);
+    }
+
+    /// 1 − x², and so slow that time does not matter.
+    #[derive(Debug)]
+    struct Dish;
+
+    impl Entering for Dish {
+        fn mean(&self, from: f64, to: f64, along: f64) -> f64 {
+            (1.0 - along * along) * (1.0 + 1e-9 * (from + to))
+        }
+
+        fn changes(&self, _: f64, _: f64) -> bool {
+            true
+        }
+    }
+
+    #[test]
+    fn a_parabola_about_the_axis_has_no_details_there() {
+        let (mesh, epsilon) = (mesh(0), 1e-5);
+        let entry = Entry {
+            entering: &Dish,
+            epsilon,
+            time: 1.0,
+            ..entry(&Rise { at: 0.0, over: 1.0, radius: 1.0 }, 0.0)
+        };
+        assert_eq!(entry.demanded_levels(&mesh)[mesh.blocks_along(Side::ZMax)[0]], 0);
     }
 
     #[test]

@@ -301,7 +301,7 @@ fn siblings_agree(tree: &Quadtree, wanted: &[u8], slot: usize) -> bool {
 
 /// The level bounds of a block. A block is bounded from above where one of the admitted level around it is: else that
 /// one could not be refined, but its children need not be coarsened.
-fn bounds<const N: usize>(mesh: &Mesh<N>, id: BlockId, bounds: &[LevelBound]) -> (u8, u8) {
+pub(crate) fn bounds<const N: usize>(mesh: &Mesh<N>, id: BlockId, bounds: &[LevelBound]) -> (u8, u8) {
     let mut range = (0, u8::MAX);
     for bound in bounds {
         let meets_it = meets(mesh, id, &bound.zone);

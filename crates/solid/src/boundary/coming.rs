@@ -14,8 +14,8 @@ const ROWS: usize = 2;
 /// How fast third-order details of smooth waves grow from level to coarser level.
 const GROWTH: f64 = 8.0;
 
-/// Waves that come: how long they take over a cell that carries them, s, and up to which radius there are any that need one so short, m; the
-/// shortest first, each twice as long as the one before. Zeros where there are no more.
+/// Waves that come: how long they take over a cell that carries them, s, and how far from r_min on there are any that need one so short, m;
+/// the shortest first, each twice as long as the one before. Zeros where there are no more.
 pub type ComingWaves = [[f64; 2]; 4];
 
 impl SolidSolver<BLOCK> {
@@ -35,14 +35,15 @@ impl SolidSolver<BLOCK> {
         let (mesh, surface) = (blocks.mesh(), blocks.mesh().domain().z[1]);
         for (slot, id) in mesh.tree().leaves().iter().enumerate() {
             let (origin, widths) = (mesh.origin(*id), mesh.widths(id.level));
-            let [top, radius] = [0, 1].map(|axis| origin[axis] + BLOCK as f64 * widths[axis]);
+            let [top, end] = [0, 1].map(|axis| origin[axis] + BLOCK as f64 * widths[axis]);
+            let reach = end - mesh.domain().r[0];
             if surface - top > within * speeds.c1 {
                 continue;
             }
             let time = widths[0] / speeds.c1;
             let [own, pairs] = largest_details(blocks, slot, speeds.z1());
             if own > least(time) {
-                found.push([time, radius]);
+                found.push([time, reach]);
                 continue;
             }
             let (mut time, mut detail) = (2.0 * time, pairs);
@@ -50,14 +51,14 @@ impl SolidSolver<BLOCK> {
                 (time, detail) = (2.0 * time, GROWTH * detail);
             }
             if time < longest {
-                found.push([time, radius]);
+                found.push([time, reach]);
             }
         }
         staircase(&found)
     }
 }
 
-/// Up to which radius cells of which times are needed: four of them at the most, each twice the one before.
+/// How far cells of which times are needed: four of them at the most, each twice the one before.
 fn staircase(found: &[[f64; 2]]) -> ComingWaves {
     let shortest = found.iter().fold(f64::INFINITY, |shortest, [time, _]| shortest.min(*time));
     let mut coming = ComingWaves::default();
@@ -65,11 +66,11 @@ fn staircase(found: &[[f64; 2]]) -> ComingWaves {
         return coming;
     }
     let last = coming.len() - 1;
-    for (step, [time, radius]) in coming.iter_mut().enumerate() {
+    for (step, [time, reach]) in coming.iter_mut().enumerate() {
         *time = shortest * f64::from(1_u32 << step);
         // What would need a fifth gets the fourth.
         let is_served = |needed: f64| needed < 1.5 * *time || step == last;
-        *radius = found
+        *reach = found
             .iter()
             .filter(|[needed, _]| is_served(*needed))
             .fold(0.0, |most: f64, row| most.max(row[1]));
@@ -77,20 +78,22 @@ fn staircase(found: &[[f64; 2]]) -> ComingWaves {
     coming
 }
 
-/// The largest third-order details of the pressure of what runs upwards in a block: of its cells, and of pairs of them.
+/// The largest third-order details of the pressure of what runs upwards in a block: of its cells, and of pairs of them. What stands has
+/// stresses, too; what runs has velocities as large.
 fn largest_details(blocks: &BlockSolver<Solid, BLOCK>, slot: usize, impedance: f64) -> [f64; 2] {
     let (velocity, stress) = (blocks.component(slot, V_Z), blocks.component(slot, S_NORMAL[0]));
-    let pressure = |i: usize, j: usize| {
-        let cell = j * BLOCK + i;
-        0.5 * (impedance * velocity[cell] - stress[cell])
-    };
-    let columns = (0..BLOCK).step_by(COLUMNS_APART).map(|j| std::array::from_fn(|i| pressure(i, j)));
-    let rows = (0..ROWS).map(|row| std::array::from_fn(|j| pressure(BLOCK - 1 - row * BLOCK / ROWS, j)));
+    let columns = (0..BLOCK).step_by(COLUMNS_APART).map(|j| std::array::from_fn(|i| j * BLOCK + i));
+    let rows = (0..ROWS).map(|row| std::array::from_fn(|j| j * BLOCK + BLOCK - 1 - row * BLOCK / ROWS));
     let mut largest = [0.0_f64; 2];
-    for line in columns.chain(rows) {
-        let line: [f64; BLOCK] = line;
-        let pairs: [f64; BLOCK / 2] = std::array::from_fn(|k| 0.5 * (line[2 * k] + line[2 * k + 1]));
-        largest = [largest[0].max(largest_detail(&line)), largest[1].max(largest_detail(&pairs))];
+    for cells in columns.chain(rows) {
+        let cells: [usize; BLOCK] = cells;
+        let moving = cells.map(|cell| impedance * velocity[cell]);
+        let upwards: [f64; BLOCK] = std::array::from_fn(|k| 0.5 * (moving[k] - stress[cells[k]]));
+        let [of_moving, of_upwards] = [moving, upwards].map(|line| {
+            let pairs: [f64; BLOCK / 2] = std::array::from_fn(|k| 0.5 * (line[2 * k] + line[2 * k + 1]));
+            [largest_detail(&line), largest_detail(&pairs)]
+        });
+        largest = std::array::from_fn(|level| of_moving[level].min(of_upwards[level]).max(largest[level]));
     }
     largest
 }

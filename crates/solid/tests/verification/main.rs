@@ -5,6 +5,7 @@
 mod adaptation;
 mod adaptive_error;
 mod boundaries;
+mod coming;
 mod first_yield;
 mod helpers;
 mod ledgers;

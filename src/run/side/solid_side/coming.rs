@@ -12,7 +12,8 @@ const EXCHANGES: f64 = 3.0;
 /// Which waves count for the fluid's grid.
 #[derive(Clone, Copy, Debug)]
 pub struct WavesForFluid {
-    /// The smallest detail of a wave's pressure in the solid that counts in the fluid on its finest level, Pa.
+    /// The smallest detail of a wave's pressure in the solid that counts in the fluid on its finest level, Pa. (Where the grid follows a bubble
+    /// details of the fluid count from larger ones on: more is demanded than it would keep.)
     least: f64,
     /// How long waves take from cell to cell there, s.
     finest: f64,
