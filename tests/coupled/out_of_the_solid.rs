@@ -3,7 +3,7 @@
 use crate::fixture::{grid, steel, water};
 use crate::harness::{Sides, case};
 
-/// Below water and steel on 16 · 2³ cells of 6.4 mm a spherical wave, 12 cells per width, that meets the interface from below.
+/// Water above steel, each on 16 · 2³ cells of 6.4 mm: a spherical wave meets the interface from below, 24 cells per width in the steel, 6 in the water.
 fn wave(adapt: &str) -> String {
     let lines = |z| grid(z, 6.4e-3, [16, 16]) + "levels = 3\n" + adapt;
     let text = [
@@ -11,7 +11,7 @@ fn wave(adapt: &str) -> String {
         &water(&lines([0.0, 6.4e-3]), 1e5),
         &steel(&lines([-6.4e-3, 0.0])),
         "initial_stress = \"hydrostatic\"\n",
-        "[[solid.pulse]]\ncentre = [-3e-3, 0.0]\nwidth = 0.6e-3\namplitude = 1e-12\n",
+        "[[solid.pulse]]\ncentre = [-4e-3, 0.0]\nwidth = 1.2e-3\namplitude = 1e-12\n",
     ];
     text.concat()
 }
@@ -35,7 +35,7 @@ fn at(rows: &[[f64; 3]], time: f64, column: usize) -> f64 {
     before[column] + (next[column] - before[column]) * (time - before[0]) / (next[0] - before[0])
 }
 
-/// On the cells that a liquid at rest has, and in the steps that these make, 99.6 % of such a wave were lost.
+/// On the cells that a liquid at rest has, and in the steps that these make, the misfit was 0.23; of a wave half as wide 0.98.
 #[test]
 fn a_wave_that_comes_out_of_the_solid_finds_fine_cells() {
     let (uniform, all) = heard("adapt = false\n");

@@ -79,7 +79,7 @@ fn staircase(found: &[[f64; 2]]) -> ComingWaves {
 }
 
 /// The largest third-order details of the pressure of what runs upwards in a block: of its cells, and of pairs of them. What stands has
-/// stresses, too; what runs has velocities as large.
+/// stresses, too; what runs has velocities as large, but at t = 0, when nothing has moved yet.
 fn largest_details(blocks: &BlockSolver<Solid, BLOCK>, slot: usize, impedance: f64) -> [f64; 2] {
     let (velocity, stress) = (blocks.component(slot, V_Z), blocks.component(slot, S_NORMAL[0]));
     let columns = (0..BLOCK).step_by(COLUMNS_APART).map(|j| std::array::from_fn(|i| j * BLOCK + i));
@@ -93,7 +93,8 @@ fn largest_details(blocks: &BlockSolver<Solid, BLOCK>, slot: usize, impedance: f
             let pairs: [f64; BLOCK / 2] = std::array::from_fn(|k| 0.5 * (line[2 * k] + line[2 * k + 1]));
             [largest_detail(&line), largest_detail(&pairs)]
         });
-        largest = std::array::from_fn(|level| of_moving[level].min(of_upwards[level]).max(largest[level]));
+        let bound = |level: usize| if blocks.time() > 0.0 { of_moving[level] } else { f64::INFINITY };
+        largest = std::array::from_fn(|level| bound(level).min(of_upwards[level]).max(largest[level]));
     }
     largest
 }

@@ -14,7 +14,9 @@ fn told(end: f64, state: impl Fn(f64) -> [f64; 2] + Sync) -> ComingWaves {
         let [stress_zz, v_z] = state(z);
         ElasticState { stress_zz, v_z, ..ElasticState::default() }
     };
-    let solid = SolidSolver::<16>::new(setup, initial).unwrap();
+    let mut solid = SolidSolver::<16>::new(setup, initial).unwrap();
+    // After a step, as nothing that begins has moved before.
+    solid.step_at(1e-6).unwrap();
     let cell = 1.0 / 32.0 / solid.setup().speeds.c1;
     solid.coming_waves(20.0 * cell, 8.0 * cell, |_| 1.0)
 }
@@ -37,5 +39,5 @@ fn what_runs_down_or_stands_is_not() {
     let narrow = |z: f64| 1e3 * (-((z + 0.3) / 0.05).powi(2)).exp();
     assert_eq!(told(1.0, |z| [-narrow(z), -narrow(z) / impedance()]), ComingWaves::default());
     assert_eq!(told(1.0, |z| [-narrow(z), 0.0]), ComingWaves::default());
-    assert_eq!(told(1.0, |z| [-1e3 * z, 0.1 * z]), ComingWaves::default());
+    assert_eq!(told(1.0, |z| [-1e3 * z, 0.0]), ComingWaves::default());
 }
