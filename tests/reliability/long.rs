@@ -46,8 +46,9 @@ fn killed_over_and_over() {
     let begin = Instant::now();
     workshop.done("whole", &["-q", "--checkpoint-every", "off"]);
     println!("undisturbed: {:.1} s", begin.elapsed().as_secs_f64());
-    // As many kills as asked for before the run is over: on average no more than its share comes between two.
-    let longest = 9 * u64::try_from(begin.elapsed().as_millis()).unwrap() / (5 * kills.max(1)) + 100;
+    // As many kills as asked for before the run is over: each within its share of nine tenths of it, ms.
+    let share = 9 * u64::try_from(begin.elapsed().as_millis()).unwrap() / (10 * kills.max(1)) + 1;
+    let mut at = 0;
     let out = workshop.file("killed");
     let every = ["-q", "--checkpoint-every", "100ms"];
     let (mut done, mut in_vain, mut waited) = (0, 0, Duration::ZERO);
@@ -55,7 +56,9 @@ fn killed_over_and_over() {
     let mut run = workshop.cav("killed", &every).spawn().unwrap();
     let mut victims = [0_u32; 3];
     while done < kills {
-        std::thread::sleep(Duration::from_millis(50 + dice.below(longest)));
+        let next = done * share + dice.below(share);
+        std::thread::sleep(Duration::from_millis(50 + next - at));
+        at = next;
         let which = dice.below(3) as usize;
         let Some(pid) = victim_of(&mut run, &out, ["fluid", "solid", "run"][which]) else { break };
         signal(pid, "-KILL");
