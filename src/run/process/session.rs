@@ -7,6 +7,7 @@ use fluid::FluidSolver;
 use mesh::BLOCK;
 use serde_json::{Map, Value};
 use solid::SolidSolver;
+use tracing::dispatcher;
 
 use crate::case::Case;
 use crate::output::{HistoryFile, ProgressLine, RunDirectory, summary};
@@ -77,6 +78,10 @@ fn both<A: Send, B: Send>(
     first: impl FnOnce() -> Result<A, RunError> + Send,
     second: impl FnOnce() -> Result<B, RunError> + Send,
 ) -> Result<(A, B), RunError> {
+    // On whatever threads: their messages go where those of this one go.
+    let log = dispatcher::get_default(Clone::clone);
+    let first = || dispatcher::with_default(&log, first);
+    let second = || dispatcher::with_default(&log, second);
     let (first, second) = rayon::join(first, second);
     Ok((first?, second?))
 }
