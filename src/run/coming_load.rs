@@ -1,7 +1,7 @@
 //! A given pressure on a solid, as adaptation looks ahead at it.
 
 use fluid::PressureHistory;
-use mesh::Entering;
+use mesh::{Entering, mean_since_start};
 
 use crate::case::{LoadCase, RecordedLoad};
 
@@ -37,25 +37,17 @@ impl ComingLoad {
 
 impl Entering for ComingLoad {
     fn mean(&self, from: f64, to: f64, along: f64) -> f64 {
-        let begin = from.max(0.0);
-        if to <= begin {
-            return 0.0;
-        }
-        let since = match self {
+        mean_since_start(from, to, |from, to| match self {
             Self::Gaussian { amplitude, radius, factor } => {
-                amplitude * (-(along / radius).powi(2)).exp() * factor.mean(begin, to)
+                amplitude * (-(along / radius).powi(2)).exp() * factor.mean(from, to)
             }
-            Self::Recorded(load) => load.gained_at(along, begin, to - begin),
-        };
-        since * ((to - begin) / (to - from))
+            Self::Recorded(load) => load.gained_at(along, from, to - from),
+        })
     }
 
     fn changes(&self, from: f64, to: f64) -> bool {
         match self {
-            Self::Gaussian { factor, .. } => {
-                let begins = from < 0.0 && to > 0.0 && factor.at(0.0) != 0.0;
-                begins || factor.changes(from.max(0.0), to.max(0.0))
-            }
+            Self::Gaussian { factor, .. } => factor.changes_from(0.0, from, to),
             Self::Recorded(load) => from < load.end() && to > 0.0,
         }
     }

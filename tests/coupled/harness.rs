@@ -291,3 +291,10 @@ pub fn fluid_cells(fluid: &Fluid) -> Vec<([f64; 2], Primitive)> {
 pub fn solid_cells(solid: &Solid) -> Vec<([f64; 2], ElasticState)> {
     cells(solid.mesh(), |slot, i, j| solid.cell(slot, i, j))
 }
+
+/// The value of a column of a series at a time, which is the first.
+pub fn at<const COLUMNS: usize>(rows: &[[f64; COLUMNS]], time: f64, column: usize) -> f64 {
+    let after = rows.partition_point(|row| row[0] < time).clamp(1, rows.len() - 1);
+    let [before, next] = [rows[after - 1], rows[after]];
+    before[column] + (next[column] - before[column]) * (time - before[0]) / (next[0] - before[0])
+}

@@ -7,7 +7,7 @@ use cav::run::side::fluid_side::Turn;
 use solid::ElasticState;
 
 use crate::fixture::{grid, solid};
-use crate::harness::{STEEL, case};
+use crate::harness::{STEEL, at, case};
 
 /// Steel from −`depth` to 0 and to `width`, in square cells; `rest` are further tables.
 fn steel(end: f64, depth: f64, width: f64, cells: [usize; 2], rest: &str) -> String {
@@ -23,13 +23,6 @@ fn run(text: &str, mut look: impl FnMut(f64, &dyn Fn([f64; 2]) -> ElasticState))
         let solver = session.solid().expect("the solid").solver();
         look(solver.time(), &|point| solver.sample(point).expect("within the solid"));
     }
-}
-
-/// Value at a time between those of a series.
-fn at(series: &[[f64; 2]], time: f64) -> f64 {
-    let after = series.partition_point(|row| row[0] < time);
-    let ([t0, a], [t1, b]) = (series[after - 1], series[after]);
-    a + (b - a) * (time - t0) / (t1 - t0)
 }
 
 #[test]
@@ -77,10 +70,9 @@ fn a_load_makes_the_waves_of_lambs_problem() {
     ];
     for (series, exact) in exact {
         let largest = exact.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        let worst = exact
-            .iter()
-            .enumerate()
-            .fold(0.0_f64, |worst, (k, exact)| worst.max((at(series, 2e-6 + 2e-7 * k as f64) - exact).abs()));
+        let worst = exact.iter().enumerate().fold(0.0_f64, |worst, (k, exact)| {
+            worst.max((at(series, 2e-6 + 2e-7 * k as f64, 1) - exact).abs())
+        });
         eprintln!("Lamb's problem, 10 cells per radius: off by {:.4} of the largest value", worst / largest);
         assert!(worst < 0.05 * largest, "{worst:e} of {largest:e}");
     }

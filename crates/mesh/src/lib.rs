@@ -50,7 +50,7 @@ pub use kernels::limiter::{Limiter, limited_differences};
 pub use kernels::parallel::{SUMS_AT_ONCE, ScratchPool, for_each_tile, for_some_blocks, map_in_order};
 pub use kernels::reduce::{maximum, sum};
 pub use multiresolution::adaptation::{Adaptation, LevelBound, RegionOfInterest, Zone};
-pub use multiresolution::entering::{Entering, Entry, largest_detail};
+pub use multiresolution::entering::{Entering, Entry, largest_detail, mean_since_start};
 pub use multiresolution::horizon::Horizon;
 pub use multiresolution::patch::Patch;
 pub use multiresolution::remap::{Adapted, Origin, Remap};

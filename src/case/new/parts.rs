@@ -91,11 +91,9 @@ pressure = {gas}
 
 /// How many times as long as a free one a bubble takes at so many radii from a rigid wall (∞: none), growing or collapsing.
 pub(super) fn lengthened(stand_off: f64) -> f64 {
-    let after = NEAR_WALL.partition_point(|[distance, _]| *distance <= stand_off);
-    if after == 0 || after == NEAR_WALL.len() {
-        return if after == 0 { NEAR_WALL[0][1] } else { 1.0 + WALL_LENGTHENS / stand_off };
-    }
-    let [[near, at_near], [far, at_far]] = [NEAR_WALL[after - 1], NEAR_WALL[after]];
+    let after = NEAR_WALL.partition_point(|[distance, _]| *distance <= stand_off).max(1);
+    let [near, at_near] = NEAR_WALL[after - 1];
+    let Some([far, at_far]) = NEAR_WALL.get(after) else { return 1.0 + WALL_LENGTHENS / stand_off };
     at_near + (at_far - at_near) * (stand_off - near) / (far - near)
 }
 

@@ -276,24 +276,18 @@ impl FluidSide {
         Ok(header)
     }
 
-    /// Tells the solver of the waves that the solid has last said to be coming; whether its grid is too coarse for them.
-    fn expect_waves(&mut self) -> bool {
-        let waves = self.answer.coming.map(|[time, reach]| [time * self.sound, reach]);
-        self.own.solver.expect_waves(waves)
-    }
-
     /// Adapts the grid if it is time to, with all that is kept per face of the wall.
     fn adapt_if_due(&mut self) -> Result<(), RunError> {
         let start = Instant::now();
         let mut changed = false;
+        self.own.solver.expect_waves(self.answer.coming.map(|[time, reach]| [time * self.sound, reach]));
         if self.own.solver.steps() > 0 {
             let steps = self.own.rule.steps_in(self.own.last_dt, &self.own.solver);
-            self.expect_waves();
             changed = self.own.solver.adapt_if_due(self.own.last_dt, steps);
         }
         // What comes through the wall at once cannot wait for a level with every adaptation.
         for _ in 0..self.own.solver.mesh().tree().finest() {
-            if !self.expect_waves() {
+            if !self.own.solver.is_too_coarse_for_waves() {
                 break;
             }
             let dt = self.own.rule.long(&self.own.solver).limit;

@@ -42,6 +42,12 @@ impl PressureHistory {
         let before = self.at(from);
         within.chain([self.at(to)]).any(|value| value != before)
     }
+
+    /// The same where it is `initial` before t = 0.
+    pub fn changes_from(&self, initial: f64, from: f64, to: f64) -> bool {
+        let begins = from < 0.0 && to > 0.0 && self.at(0.0) != initial;
+        begins || self.changes(from.max(0.0), to.max(0.0))
+    }
 }
 
 #[cfg(test)]

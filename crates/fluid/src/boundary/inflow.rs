@@ -1,6 +1,6 @@
 //! What enters through sides of kind [`Boundary::Inflow`], as adaptation has to know of it before it is there.
 
-use mesh::{Entering, Entry, Mesh, Side};
+use mesh::{Entering, Entry, Mesh, Side, mean_since_start};
 
 use crate::analysis::Analysis;
 use crate::boundary::history::PressureHistory;
@@ -62,16 +62,11 @@ impl IncomingWave {
 
 impl Entering for IncomingWave {
     fn mean(&self, from: f64, to: f64, _: f64) -> f64 {
-        let begin = from.max(0.0);
-        if to <= begin {
-            return 0.0;
-        }
-        (self.history.mean(begin, to) - self.initial) * ((to - begin) / (to - from))
+        mean_since_start(from, to, |from, to| self.history.mean(from, to) - self.initial)
     }
 
     fn changes(&self, from: f64, to: f64) -> bool {
-        let begins = from < 0.0 && to > 0.0 && self.history.at(0.0) != self.initial;
-        begins || self.history.changes(from.max(0.0), to.max(0.0))
+        self.history.changes_from(self.initial, from, to)
     }
 
     fn varies_along(&self) -> bool {

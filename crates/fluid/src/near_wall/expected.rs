@@ -37,12 +37,14 @@ fn level_of<const N: usize>(mesh: &Mesh<N>, width: f64, base: u8) -> u8 {
 impl<const N: usize> FluidSolver<N> {
     /// Takes notice, before the grid adapts, of waves that are about to come out of the wall: how wide cells that carry them may be along
     /// z, m, and how far from r_min on there are any that need them so narrow, m; zeros where there are no more.
-    ///
-    /// - returns: whether blocks there are coarser than that, and may be finer: [`mesh::BlockSolver::adapt`] makes them so, a level at a
-    ///   time.
-    pub fn expect_waves(&mut self, waves: [[f64; 2]; 4]) -> bool {
+    pub fn expect_waves(&mut self, waves: [[f64; 2]; 4]) {
         self.model_mut().expected = Expected(waves);
+    }
+
+    /// Whether blocks along the wall are coarser than [expected waves](FluidSolver::expect_waves) need, and may be finer:
+    /// [`mesh::BlockSolver::adapt`] makes them so, a level at a time.
+    pub fn is_too_coarse_for_waves(&self) -> bool {
         let Some(base) = self.finest_by_details() else { return false };
-        self.lacks_levels(&Expected(waves).demanded_levels(self.mesh(), base))
+        self.lacks_levels(&self.model().expected.demanded_levels(self.mesh(), base))
     }
 }

@@ -7,6 +7,7 @@ use std::fmt::Debug;
 
 use rayon::prelude::*;
 
+use crate::multiresolution::marks::{corners, threshold_on};
 use crate::{Mesh, Side};
 
 /// How far ahead is looked for a level, in blocks of the next coarser one that a wave crosses: adaptations come before one has crossed a
@@ -64,8 +65,7 @@ impl Entry<'_> {
     fn demanded_of<const N: usize>(&self, mesh: &Mesh<N>, slot: usize) -> u8 {
         let id = mesh.tree().leaves()[slot];
         let across = self.side.axis_across();
-        let (origin, width) = (mesh.origin(id)[1 - across], mesh.widths(id.level)[1 - across]);
-        let block = [origin, origin + N as f64 * width];
+        let block = corners(mesh, id).map(|corner| corner[1 - across]);
         let domain = mesh.domain();
         let whole = if across == 0 { domain.r } else { domain.z };
         let finest = (id.level + 1).min(self.base);
@@ -87,7 +87,7 @@ impl Entry<'_> {
         block: [f64; 2],
         whole: [f64; 2],
     ) -> bool {
-        let least = self.scale * self.epsilon * f64::powi(2.0, i32::from(level) - i32::from(self.base));
+        let least = self.scale * threshold_on(level, self.base, self.epsilon);
         let across = self.side.axis_across();
         let span = widths[across] / self.speed;
         let pairs = AHEAD * N;
@@ -124,6 +124,12 @@ impl Entry<'_> {
                     largest_detail(&(0..cells).map(cell).collect::<Vec<_>>()) > least
                 })
     }
+}
+
+/// The mean from one time to another of what is 0 before t = 0; `mean`: of the part of that time since then.
+pub fn mean_since_start(from: f64, to: f64, mean: impl FnOnce(f64, f64) -> f64) -> f64 {
+    let begin = from.max(0.0);
+    if to <= begin { 0.0 } else { mean(begin, to) * ((to - begin) / (to - from)) }
 }
 
 /// The largest detail of a line of an even number of cells: of each pair but the first and the last, what it is off the parabola through the

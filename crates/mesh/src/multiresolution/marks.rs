@@ -198,7 +198,12 @@ fn counting_cells<const N: usize>(
 
 /// The threshold of the details on a level: it does not depend on how far above L blocks may rise.
 fn threshold(tree: &Quadtree, adaptation: &Adaptation, level: u8) -> f64 {
-    adaptation.epsilon * f64::powi(2.0, i32::from(level) - i32::from(adaptation.base(tree.finest())))
+    threshold_on(level, adaptation.base(tree.finest()), adaptation.epsilon)
+}
+
+/// The same for `epsilon` on the level `base`.
+pub(super) fn threshold_on(level: u8, base: u8, epsilon: f64) -> f64 {
+    epsilon * f64::powi(2.0, i32::from(level) - i32::from(base))
 }
 
 /// The groups of siblings without significant details of their own whose parent would be refined at once: the slot
@@ -324,7 +329,7 @@ fn meets<const N: usize>(mesh: &Mesh<N>, id: BlockId, zone: &Zone) -> bool {
 }
 
 /// The corners (z, r) of a block, m.
-fn corners<const N: usize>(mesh: &Mesh<N>, id: BlockId) -> [[f64; 2]; 2] {
+pub(super) fn corners<const N: usize>(mesh: &Mesh<N>, id: BlockId) -> [[f64; 2]; 2] {
     let (low, widths) = (mesh.origin(id), mesh.widths(id.level));
     [low, [low[0] + N as f64 * widths[0], low[1] + N as f64 * widths[1]]]
 }
